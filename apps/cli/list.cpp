@@ -1,0 +1,147 @@
+// corpuscle list: the catalogues, printed.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "io/formats.hpp"
+#include "measure/measures.hpp"
+#include "model/catalog.hpp"
+#include "signal/quantity.hpp"
+#include "signal/stimuli.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Entry {
+    std::string name, made_of, sentence, source;
+    std::vector<Parameter> parameters;
+    std::vector<std::string> other_names;
+};
+
+struct Section {
+    std::string_view name;
+    std::vector<Entry> entries;
+};
+
+Entry entry_of(const Card& card) {
+    Entry e{std::string(card.name), "", std::string(card.sentence), std::string(card.source), {}, {}};
+    for (const auto& row : card.rows) e.parameters.push_back({row, card.name, row.initial, false});
+    return e;
+}
+
+std::vector<Entry> entries_of(const std::vector<Card>& cards) {
+    std::vector<Entry> entries;
+    for (const auto& c : cards) entries.push_back(entry_of(c));
+    return entries;
+}
+
+std::vector<Entry> afferent_entries() {
+    std::vector<Entry> entries;
+    for (const auto& a : named_afferents()) {
+        const auto plan = plan_afferent(a.name, {});
+        entries.push_back({std::string(a.name),
+                           fmt::format("{}+{}", a.receptor, a.neuron),
+                           std::string(a.sentence),
+                           std::string(a.source),
+                           plan->parameters,
+                           {a.other_names.begin(), a.other_names.end()}});
+    }
+    return entries;
+}
+
+std::vector<Section> catalogue() {
+    std::vector<Entry> measured, readable;
+    for (const auto& m : measures) measured.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}});
+    for (const auto& f : formats) readable.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}});
+    return {{"afferents", afferent_entries()},
+            {"transductions", entries_of(receptor_cards())},
+            {"neurons", entries_of(neuron_cards())},
+            {"stimuli", entries_of(stimulus_cards())},
+            {"measures", measured},
+            {"formats", readable}};
+}
+
+/// The sections and entries asked for; all of them if nothing is.
+Result<std::vector<Section>> chosen(const std::vector<std::string>& what) {
+    auto all = catalogue();
+    if (what.empty()) return all;
+    std::vector<Section> out;
+    std::vector<std::string_view> known;
+    for (const auto& s : all) {
+        known.push_back(s.name);
+        for (const auto& e : s.entries) known.push_back(e.name);
+    }
+    for (const auto& w : what) {
+        if (std::find(known.begin(), known.end(), w) == known.end())
+            return bad_usage(fmt::format("list: nothing is called '{}'{}", w, did_you_mean(w, known)));
+        for (const auto& s : all) {
+            if (s.name == w) {
+                out.push_back(s);
+                continue;
+            }
+            Section part{s.name, {}};
+            std::copy_if(s.entries.begin(), s.entries.end(), std::back_inserter(part.entries), [&](const Entry& e) { return e.name == w; });
+            if (!part.entries.empty()) out.push_back(part);
+        }
+    }
+    return out;
+}
+
+std::string range(const Row& r) { return fmt::format("[{}, {}]", format_quantity(r.low, r.unit), format_quantity(r.high, r.unit)); }
+
+std::string text_of(const Entry& e) {
+    std::string text = fmt::format("  {}{}: {}\n", e.name, e.made_of.empty() ? "" : fmt::format(" ({})", e.made_of), e.sentence);
+    if (!e.source.empty()) text += fmt::format("    source: {}\n", e.source);
+    if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
+    std::vector<std::vector<std::string>> rows = {{}};
+    for (const auto& p : e.parameters)
+        rows.push_back(
+            {"    " + std::string(p.row.name), format_quantity(p.row.initial, p.row.unit), range(p.row),
+             std::string(p.row.sentence) + (p.row.source.empty() || p.row.source == e.source ? "" : fmt::format(" ({})", p.row.source))});
+    return text + (rows.size() > 1 ? table({rows.begin() + 1, rows.end()}) : "");
+}
+
+Json document_of(const Entry& e) {
+    Json out = {{"name", e.name}, {"sentence", e.sentence}};
+    if (!e.made_of.empty()) out["of"] = e.made_of;
+    if (!e.source.empty()) out["source"] = e.source;
+    if (!e.other_names.empty()) out["also_called"] = e.other_names;
+    for (const auto& p : e.parameters)
+        out["parameters"].push_back({{"name", p.row.name},
+                                     {"default", p.row.initial},
+                                     {"unit", p.row.unit},
+                                     {"low", p.row.low},
+                                     {"high", p.row.high},
+                                     {"sentence", p.row.sentence},
+                                     {"source", p.row.source},
+                                     {"of", p.of}});
+    return out;
+}
+
+}  // namespace
+
+int list(const ListWords& words, const Common& common) {
+    const auto sections = chosen(words.what);
+    if (!sections) return fail(sections.error());
+    if (common.json) {
+        Json out = Json::object();
+        for (const auto& s : *sections)
+            for (const auto& e : s.entries) out[std::string(s.name)].push_back(document_of(e));
+        fmt::print("{}\n", out.dump(1));
+        return 0;
+    }
+    std::string text;
+    for (const auto& s : *sections) {
+        text += fmt::format("{}{}\n", text.empty() ? "" : "\n", s.name);
+        for (const auto& e : s.entries) text += text_of(e);
+    }
+    fmt::print("{}", text);
+    return 0;
+}
+
+}  // namespace corpuscle

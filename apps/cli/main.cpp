@@ -1,0 +1,119 @@
+// The command line: words in, verbs called. The only file that includes CLI11.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "signal/version.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace {
+
+using namespace corpuscle;
+
+constexpr const char* about = "Corpuscle: artificial touch. Force goes in, nerve-like spikes come out.";
+
+constexpr const char* first_steps = R"(First steps:
+  corpuscle respond press                                the thesis's experiment through SA-I and FA-I
+  corpuscle respond press --report press.html            ... and a page to look at
+  corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
+  corpuscle list                                         every afferent, stimulus and parameter
+
+Exit status: 0 done, 1 bad input, 2 bad usage, 3 did not converge, 130 interrupted.)";
+
+constexpr const char* respond_examples =
+    R"(FORCE is a file of numbers in columns, or a stimulus by name: press, ramp-hold, step, sine, chirp, noise, grating,
+or a sum of them: press+noise. AFFERENT is a name (sa1 fa1 sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a
+transduction and a neuron: sa1b+izhikevich. 'corpuscle list' shows them all, with every parameter.
+
+Examples:
+  corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
+  corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
+  corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out answer --report
+  corpuscle respond eskin.csv --rate 100Hz --scale 40      a clock that comes in bursts: rows taken as even
+
+A recording's unit stands in its header (fz_N, "fz [mN]"); say --unit if it does not, or --scale S if what is read
+times S is newtons. Its clock is its time column (name it with --time), or --rate.)";
+
+void add_common(CLI::App& verb, Common& common) {
+    verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
+    verb.add_flag("--quiet,-q", common.quiet, "print no table and no progress");
+}
+
+void add_respond(CLI::App& app, RespondWords& w, Common& common) {
+    auto& verb = *app.add_subcommand("respond", "force recordings or named stimuli -> spikes, rates, report");
+    verb.footer(respond_examples);
+    verb.add_option("FORCE", w.forces, "recordings and stimuli")->required();
+    verb.add_option("--afferent,-a", w.afferents, "which afferents answer (more than one: repeat, or separate by commas)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("NAME")
+        ->default_str("sa1,fa1");
+    verb.add_option("--set,-s", w.settings, "a parameter, of an afferent or a stimulus, with its unit")
+        ->allow_extra_args(false)
+        ->type_name("NAME.PARAMETER=VALUE");
+    verb.add_option("--method", w.method, "how time is stepped: exact, or the thesis's own backward-euler")
+        ->check(CLI::IsMember({"exact", "backward-euler"}))
+        ->capture_default_str()
+        ->type_name("METHOD");
+    verb.add_flag("--sampled", w.sampled, "spikes on the samples, as in the thesis; else interpolated inside the step");
+    verb.add_option("--seed", w.seed, "of everything random")->capture_default_str()->type_name("N");
+    verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz); of a recording: its rows are this evenly spaced")
+        ->type_name("FREQUENCY");
+    verb.add_option("--channel,-c", w.channels, "which channels of a recording: names, numbers, ranges (2-5)")
+        ->allow_extra_args(false)
+        ->type_name("CHANNEL")
+        ->group("Recordings");
+    verb.add_option("--time", w.time, "a recording's time column by name or number, or 'none'")->type_name("COLUMN")->group("Recordings");
+    verb.add_option("--unit", w.unit, "what a recording holds: N, mN, gf, kgf, or raw (then say --scale)")
+        ->type_name("UNIT")
+        ->group("Recordings");
+    verb.add_option("--scale", w.scale, "what is read, times S, is newtons")->type_name("S")->group("Recordings");
+    verb.add_flag("--abs", w.absolute, "take the absolute value of what is read")->group("Recordings");
+    verb.add_option("--resample", w.resample, "interpolate a recording to this rate")->type_name("FREQUENCY")->group("Recordings");
+    verb.add_option("--out,-o", w.out, "write spikes.csv and summary.json into this directory")->type_name("DIR")->group("Output");
+    verb.add_flag("--traces", w.traces, "write traces.csv there, too: force, currents, membranes")->group("Output");
+    auto* report = verb.add_option("--report", w.report_file, "write a page to look at (report.html, in --out's directory if there is one)")
+                       ->expected(0, 1)
+                       ->type_name("[FILE.html]")
+                       ->group("Output");
+    add_common(verb, common);
+    verb.callback([&w, report] {
+        w.report = report->count() > 0;
+        // "--report press": the word is no page, so it is one of the forces.
+        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) w.forces.push_back(std::exchange(w.report_file, ""));
+    });
+    verb.get_option("FORCE")->required(false);
+}
+
+void add_list(CLI::App& app, ListWords& w, Common& common) {
+    auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
+    verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
+    verb.add_option("WHAT", w.what, "afferents, transductions, neurons, stimuli, measures, formats, or names of any of these");
+    add_common(verb, common);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Common common;
+    common.command = quoted(argc, argv);
+    RespondWords respond_words;
+    ListWords list_words;
+
+    CLI::App app(about, "corpuscle");
+    app.set_version_flag("--version", fmt::format("corpuscle {}", version));
+    app.footer(first_steps);
+    app.require_subcommand(1);
+    add_respond(app, respond_words, common);
+    add_list(app, list_words, common);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) return app.exit(e);
+        fmt::print(stderr, "corpuscle: {}\n", e.what());
+        fmt::print(stderr, "Run 'corpuscle --help' or 'corpuscle VERB --help' for what can be said.\n");
+        return 2;
+    }
+    return app.got_subcommand("list") ? list(list_words, common) : respond(respond_words, common);
+}

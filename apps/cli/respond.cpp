@@ -1,0 +1,228 @@
+// corpuscle respond: words to sources, afferents and listeners; the run; what is printed of it.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/recording.hpp"
+#include "report/report.hpp"
+#include "signal/quantity.hpp"
+#include "signal/stimuli.hpp"
+#include "study/files.hpp"
+#include "study/summary.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double default_rate = 10e3;  // Hz, of stimuli
+constexpr std::size_t most_rows = 60;  // of the table on a terminal
+
+struct Job {
+    std::vector<Wish> wishes;
+    std::vector<AfferentPlan> afferents;
+    std::vector<std::unique_ptr<Source>> sources;
+    RespondOptions options;
+    std::vector<std::string> warnings;
+};
+
+Result<std::optional<double>> quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option) {
+    if (!text) return std::optional<double>();
+    const auto value = parse_quantity(*text, unit);
+    if (!value) return bad_usage(fmt::format("{} {}", option, value.error().sentence));
+    return std::optional<double>(*value);
+}
+
+Result<RecordingOptions> recording_options(const RespondWords& w) {
+    RecordingOptions options{w.channels, w.time, {}, {}, w.unit, {}, w.absolute};
+    for (const auto& [text, unit, option, to] : {std::tuple{&w.rate, "Hz", "--rate", &options.rate},
+                                                 {&w.resample, "Hz", "--resample", &options.resample},
+                                                 {&w.scale, "", "--scale", &options.scale}}) {
+        const auto value = quantity(*text, unit, option);
+        if (!value) return value.error();
+        *to = *value;
+    }
+    return options;
+}
+
+Result<std::unique_ptr<Source>> open_source(const std::string& force, const RecordingOptions& options, const Job& job, std::uint64_t seed) {
+    const bool file = std::filesystem::exists(force);
+    if (!file && is_stimulus(force)) return make_stimulus(force, job.wishes, options.rate.value_or(default_rate), seed);
+    if (!file && force.find_first_of("./") == std::string::npos) {
+        auto error = make_stimulus(force, job.wishes, default_rate, seed).error();
+        error.sentence += fmt::format(" (and there is no file '{}')", force);
+        return error;
+    }
+    return open_recording(force, options);
+}
+
+/// Every wish must have found whom it is for.
+Result<void> check_wishes(const Job& job) {
+    std::vector<std::string_view> names;
+    for (const auto& a : job.afferents) names.push_back(a.name);
+    for (const auto& s : job.sources) names.push_back(s->name());
+    for (const auto& w : job.wishes)
+        if (!w.used)
+            return bad_usage(fmt::format("--set {}: no afferent or stimulus '{}' takes part{}", w.text(), w.of, did_you_mean(w.of, names)));
+    return {};
+}
+
+Result<Job> prepare(const RespondWords& w) {
+    Job job;
+    if (w.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
+    for (const auto& text : w.settings) {
+        auto wish = parse_wish(text);
+        if (!wish) return wish.error();
+        job.wishes.push_back(std::move(*wish));
+    }
+    for (const auto& name : w.afferents) {
+        auto plan = plan_afferent(name, job.wishes);
+        if (!plan) return plan.error();
+        if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == plan->name; }))
+            return bad_usage(fmt::format("--afferent {}: given twice", name));
+        job.afferents.push_back(std::move(*plan));
+    }
+    const auto options = recording_options(w);
+    if (!options) return options.error();
+    for (const auto& force : w.forces) {
+        auto source = open_source(force, *options, job, w.seed);
+        if (!source) return source.error();
+        job.sources.push_back(std::move(*source));
+    }
+    if (auto ok = check_wishes(job); !ok) return ok.error();
+    job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
+    job.options.sampled = w.sampled;
+    job.warnings = rate_warnings(job.sources, job.afferents);
+    return job;
+}
+
+std::string cell(const Measure& m, double x) {
+    return std::isnan(x) ? "-" : m.of == spike_count ? fmt::format("{:.0f}", x) : fmt::format("{:.1f}", x);
+}
+
+std::string rate_table(const Summary& summary) {
+    std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
+    for (const auto& m : measures) rows[0].push_back(m.unit.empty() ? std::string(m.title) : fmt::format("{} ({})", m.title, m.unit));
+    for (const auto& r : summary.rows()) {
+        if (rows.size() > most_rows) break;
+        rows.push_back({r.afferent, r.channel, r.phase});
+        for (std::size_t m = 0; m < r.values.size(); ++m) rows.back().push_back(cell(measures[m], r.values[m]));
+    }
+    auto text = table(rows);
+    if (summary.rows().size() >= rows.size())
+        text += fmt::format("... and {} rows more; --out writes them all to summary.json\n", summary.rows().size() + 1 - rows.size());
+    return text;
+}
+
+/// The files of one run: made before it, put in their places after it.
+class Outputs {
+    std::optional<SpikesFile> spikes_;
+    std::optional<TracesFile> traces_;
+    std::optional<Report> report_;
+    std::optional<OutputFile> summary_file_, report_file_;
+    std::vector<std::string> paths_;
+
+    Result<OutputFile> create(const std::string& path) {
+        paths_.push_back(path);
+        return OutputFile::create(path);
+    }
+
+    static Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
+        file->write(text);
+        return file->commit();
+    }
+
+public:
+    Result<void> open(const RespondWords& w) {
+        if (w.traces && w.out.empty()) return bad_usage("--traces needs --out DIR to write into");
+        if (!w.out.empty()) {
+            auto spikes = create(w.out + "/spikes.csv");
+            if (!spikes) return spikes.error();
+            spikes_.emplace(std::move(*spikes));
+            auto summary = create(w.out + "/summary.json");
+            if (!summary) return summary.error();
+            summary_file_ = std::move(*summary);
+            if (w.traces) traces_.emplace(w.out), paths_.push_back(w.out + "/traces.csv");
+        }
+        if (!w.report) return {};
+        auto page = create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
+        if (!page) return page.error();
+        report_file_ = std::move(*page);
+        report_.emplace();
+        return {};
+    }
+
+    void listen(std::vector<Listener*>& listeners) {
+        if (spikes_) listeners.push_back(&*spikes_);
+        if (traces_) listeners.push_back(&*traces_);
+        if (report_) listeners.push_back(&*report_);
+    }
+
+    Result<void> commit(const Summary& summary, const Job& job, const std::string& document, const std::string& command) {
+        if (report_)
+            if (auto ok = put(report_file_, report_->page(summary, job.afferents, command, job.warnings)); !ok) return ok;
+        if (traces_)
+            if (auto ok = traces_->commit(); !ok) return ok;
+        if (spikes_) {
+            if (auto ok = spikes_->commit(); !ok) return ok;
+            if (auto ok = put(summary_file_, document); !ok) return ok;
+        }
+        return {};
+    }
+
+    std::string told() const {
+        return paths_.empty() ? "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n"
+                              : fmt::format("Written: {}\n", fmt::join(paths_, ", "));
+    }
+};
+
+void print_remarks(const Job& job) {
+    for (const auto& s : job.sources)
+        for (const auto& r : s->remarks()) fmt::print(stderr, "corpuscle: {}: {}\n", s->name(), r);
+    for (const auto& w : job.warnings) fmt::print(stderr, "corpuscle: warning: {}\n", w);
+}
+
+Result<void> run(const RespondWords& w, const Common& common) {
+    auto job = prepare(w);
+    if (!job) return job.error();
+    Outputs outputs;
+    if (auto ok = outputs.open(w); !ok) return ok;
+    if (!common.quiet) print_remarks(*job);
+
+    Summary summary;
+    std::vector<Listener*> listeners = {&summary};
+    outputs.listen(listeners);
+    Result<Work> work = [&] {
+        Progress progress(common.quiet);
+        job->options.keep_on = [&](double share) { return progress.at(share), !interrupted(); };
+        return respond(job->sources, job->afferents, listeners, job->options);
+    }();
+    if (!work) return work.error();
+    if (work->capped_steps > 0) {
+        job->warnings.push_back(
+            fmt::format("{} steps would have held more than {} spikes and were cut short; raise the rate, or the threshold",
+                        work->capped_steps, spikes_a_step));
+        fmt::print(stderr, "corpuscle: warning: {}\n", job->warnings.back());
+    }
+    const auto document = summary.document(job->afferents, *work, job->options, w.seed, job->warnings).dump(1) + "\n";
+    if (auto ok = outputs.commit(summary, *job, document, common.command); !ok) return ok;
+    if (common.json)
+        fmt::print("{}", document);
+    else if (!common.quiet)
+        fmt::print("{}{}", rate_table(summary), outputs.told());
+    return {};
+}
+
+}  // namespace
+
+int respond(const RespondWords& words, const Common& common) {
+    catch_interrupt();
+    const auto done = run(words, common);
+    return done ? 0 : fail(done.error());
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,102 @@
+#include "terminal.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+namespace corpuscle {
+namespace {
+
+volatile std::sig_atomic_t stop = 0;
+
+bool is_number(const std::string& cell) { return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos; }
+
+std::string time_text(double seconds) {
+    const auto s = static_cast<long>(seconds + 0.5);
+    return s < 60     ? fmt::format("{} s", s)
+           : s < 3600 ? fmt::format("{}:{:02} min", s / 60, s % 60)
+                      : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
+}
+
+/// How many columns a UTF-8 text takes, one a character.
+std::size_t width(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+}  // namespace
+
+int fail(const Error& error) {
+    fmt::print(stderr, "corpuscle: {}\n", error.text());
+    return static_cast<int>(error.code);
+}
+
+void catch_interrupt() {
+    std::signal(SIGINT, [](int) {
+        if (stop) std::_Exit(130);
+        stop = 1;
+    });
+}
+
+bool interrupted() { return stop != 0; }
+
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths;
+    std::vector<bool> numeric;
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        for (std::size_t c = 0; c < rows[r].size(); ++c) {
+            if (widths.size() <= c) widths.push_back(0), numeric.push_back(true);
+            widths[c] = std::max(widths[c], width(rows[r][c]));
+            if (r > 0 && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
+        }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            const std::string pad(widths[c] - width(row[c]), ' ');
+            line += (c ? "  " : "") + (numeric[c] ? pad + row[c] : row[c] + pad);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    return text;
+}
+
+Progress::Progress(bool quiet) : shown_(!quiet && ::isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+    if (drawn_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::at(double share) {
+    if (!shown_) return;
+    const auto now = Clock::now();
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    if (elapsed < 1 || (drawn_ && now - last_ < std::chrono::milliseconds(100))) return;
+    last_ = now;
+    drawn_ = true;
+    const auto full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * 32);
+    const auto left = share > 0 ? time_text(elapsed / share - elapsed) + " left" : std::string("...");
+    fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '='), std::string(32 - full, ' '), 100 * share, left);
+    std::fflush(stderr);
+}
+
+std::string quoted(int argc, const char* const* argv) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
+    std::string text = "corpuscle";
+    for (int k = 1; k < argc; ++k) {
+        const std::string_view word = argv[k];
+        if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+            text += " " + std::string(word);
+            continue;
+        }
+        text += " '";
+        for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+        text += "'";
+    }
+    return text;
+}
+
+}  // namespace corpuscle

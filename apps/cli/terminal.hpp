@@ -1,0 +1,38 @@
+#pragma once
+// What people see of a run: tables, progress, errors; and their Ctrl-C.
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+/// Prints the error on standard error; gives the exit status it stands for.
+int fail(const Error&);
+
+/// From now on the first Ctrl-C only sets a flag, the second ends the program.
+void catch_interrupt();
+bool interrupted();
+
+/// Columns padded to their widest cell; numbers to the right, words to the left.
+std::string table(const std::vector<std::vector<std::string>>& rows);
+
+/// A bar with the time left, on standard error, only to a terminal and only for what takes longer than a second.
+class Progress {
+    using Clock = std::chrono::steady_clock;
+    bool shown_;
+    Clock::time_point start_ = Clock::now(), last_ = start_;
+    bool drawn_ = false;
+
+public:
+    explicit Progress(bool quiet);
+    ~Progress();
+    void at(double share);
+};
+
+/// The words of a command line as a shell would need them.
+std::string quoted(int argc, const char* const* argv);
+
+}  // namespace corpuscle

@@ -1,0 +1,56 @@
+#include "report/envelope.hpp"
+
+#include <algorithm>
+
+namespace corpuscle {
+
+void Envelope::add(double value) {
+    const auto x = static_cast<float>(value);
+    if (bucket_ == 1) {
+        if (values_.size() < most_) return values_.push_back(x);
+        double_bucket();
+    }
+    if (in_last_ == bucket_) {
+        if (values_.size() / 2 >= most_) double_bucket();
+        if (in_last_ == bucket_) in_last_ = 0;
+    }
+    if (in_last_ == 0) {
+        values_.insert(values_.end(), {x, x});
+    } else {
+        auto* last = &values_[values_.size() - 2];
+        last[0] = std::min(last[0], x), last[1] = std::max(last[1], x);
+    }
+    ++in_last_;
+}
+
+void Envelope::double_bucket() {
+    std::vector<float> merged;
+    const std::size_t width = bucket_ == 1 ? 1 : 2, step = 2 * width;  // floats a bucket holds now; two buckets become one
+    for (std::size_t k = 0; k < values_.size(); k += step) {
+        const auto end = std::min(k + step, values_.size());
+        const auto [least, greatest] =
+            std::minmax_element(values_.begin() + static_cast<std::ptrdiff_t>(k), values_.begin() + static_cast<std::ptrdiff_t>(end));
+        merged.insert(merged.end(), {*least, *greatest});
+    }
+    const auto buckets = static_cast<std::int64_t>(values_.size() / width);
+    in_last_ = (buckets % 2 == 1 ? 0 : bucket_) + (bucket_ == 1 ? 1 : in_last_);
+    values_ = std::move(merged);
+    bucket_ *= 2;
+}
+
+std::string base64(const void* data, std::size_t bytes) {
+    static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const auto* in = static_cast<const unsigned char*>(data);
+    std::string out;
+    out.reserve((bytes + 2) / 3 * 4);
+    for (std::size_t k = 0; k < bytes; k += 3) {
+        const auto at = [&](std::size_t n) { return k + n < bytes ? static_cast<unsigned>(in[k + n]) : 0U; };
+        const unsigned word = at(0) << 16 | at(1) << 8 | at(2);
+        for (std::size_t n = 0; n < 4; ++n) out.push_back(letters[word >> (18 - 6 * n) & 63]);
+    }
+    const std::size_t padding = (3 - bytes % 3) % 3;
+    out.replace(out.size() - padding, padding, padding, '=');
+    return out;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,172 @@
+#include "report/report.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "assets.hpp"
+#include "signal/quantity.hpp"
+#include "signal/version.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json trace_document(std::uint32_t channel, const Json& afferent, std::string_view part, std::string_view unit, const Envelope& e) {
+    return {{"channel", channel},
+            {"afferent", afferent},
+            {"part", part},
+            {"unit", unit},
+            {"bucket", e.bucket()},
+            {"count", e.count()},
+            {"data", base64(e.values().data(), e.values().size() * sizeof(float))}};
+}
+
+Json parameter_document(const Parameter& p) {
+    return {{"name", p.row.name}, {"value", p.value},           {"text", format_quantity(p.value, p.row.unit)},
+            {"unit", p.row.unit}, {"default", p.row.initial},   {"default_text", format_quantity(p.row.initial, p.row.unit)},
+            {"set", p.set},       {"sentence", p.row.sentence}, {"source", p.row.source},
+            {"of", p.of}};
+}
+
+Json level(const AfferentPlan& plan, std::string_view name) {
+    for (const auto& p : plan.parameters)
+        if (p.row.name == name) return p.value;
+    return nullptr;
+}
+
+Json table_document(const Summary& summary) {
+    Json columns = {"afferent", "channel", "phase"}, rows = Json::array();
+    for (const auto& m : measures) columns.push_back(m.unit.empty() ? std::string(m.title) : fmt::format("{} ({})", m.title, m.unit));
+    for (const auto& r : summary.rows()) {
+        Json row = {r.afferent, r.channel, r.phase};
+        for (const double x : r.values) row.push_back(std::isfinite(x) ? Json(x) : Json(nullptr));
+        rows.push_back(std::move(row));
+    }
+    return {{"columns", columns}, {"rows", rows}};
+}
+
+std::string_view asset(std::string_view name) {
+    for (const auto& a : assets)
+        if (a.name == name) return {a.begin, static_cast<std::size_t>(a.end - a.begin)};
+    return {};
+}
+
+/// JSON that can stand inside a script element: no '<' can end it.
+std::string safe_json(const Json& document) {
+    const auto text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string out;
+    out.reserve(text.size());
+    for (const char c : text) c == '<' ? out += "\\u003c" : out += c;
+    return out;
+}
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) c == '<' ? out += "&lt;" : c == '&' ? out += "&amp;" : out += c;
+    return out;
+}
+
+/// The template with each {{name}} replaced once, by a value or by the asset of that name.
+std::string filled(std::string_view text, std::string_view title, std::string_view data) {
+    std::string out;
+    for (;;) {
+        const auto open = text.find("{{"), close = text.find("}}", open);
+        out += text.substr(0, open);
+        if (open == std::string_view::npos || close == std::string_view::npos) return out;
+        const auto name = text.substr(open + 2, close - open - 2);
+        out += name == "title" ? title : name == "data" ? data : asset(name);
+        text.remove_prefix(close + 2);
+    }
+}
+
+}  // namespace
+
+Result<void> Report::begin(const Input& input) {
+    const std::size_t traces = input.source.channels().size() * (1 + [&] {
+                                   std::size_t n = 0;
+                                   for (const auto& p : input.probes) n += p.size();
+                                   return n;
+                               }());
+    const std::size_t most = std::clamp<std::size_t>(most_points_ / traces, 1024, std::size_t{1} << 20);
+    forces_.assign(input.source.channels().size(), Envelope(most));
+    probes_.clear();
+    for (std::size_t u = 0; u < input.units(); ++u) probes_.emplace_back(input.probes[u % input.afferents.size()].size(), Envelope(most));
+    trains_.assign(input.units(), {});
+    if (parts_.empty())
+        for (const auto& probes : input.probes) {
+            Json parts = Json::array();
+            for (const auto& p : probes) parts.push_back({{"name", p.name}, {"unit", p.unit}});
+            parts_.push_back(std::move(parts));
+        }
+    return {};
+}
+
+Result<void> Report::block(const Input& input, const Answered& answered) {
+    for (std::size_t c = 0; c < forces_.size(); ++c)
+        for (std::size_t k = 0; k < answered.force.count; ++k) forces_[c].add(answered.force.force[c][k]);
+    for (std::size_t u = 0; u < probes_.size(); ++u)
+        for (std::size_t p = 0; p < probes_[u].size(); ++p)
+            for (std::size_t k = 0; k < answered.force.count; ++k) probes_[u][p].add(answered.probes[u][p][k]);
+    for (const auto& s : answered.spikes) trains_[s.unit - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
+    return {};
+}
+
+Result<void> Report::end(const Input& input, std::int64_t samples) {
+    Json channels = Json::array(), phases = Json::array();
+    for (std::size_t c = 0; c < forces_.size(); ++c) {
+        channels.push_back({{"id", first_channel_ + c}, {"name", input.channel_name(c)}, {"unit", "N"}});
+        traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), nullptr, "force", "N", forces_[c]));
+    }
+    for (const auto& p : input.source.phases()) phases.push_back({{"name", p.name}, {"from", p.from}, {"to", p.to}});
+    for (std::size_t u = 0; u < input.units(); ++u) {
+        const auto channel = first_channel_ + static_cast<std::uint32_t>(input.channel_of(u));
+        const auto& name = input.afferent_of(u).name;
+        const auto& probes = input.probes[u % input.afferents.size()];
+        for (std::size_t p = 0; p < probes.size(); ++p)
+            traces_.push_back(trace_document(channel, name, probes[p].name, probes[p].unit, probes_[u][p]));
+        spikes_.push_back({{"afferent", name},
+                           {"channel", channel},
+                           {"count", trains_[u].size()},
+                           {"times", base64(trains_[u].data(), trains_[u].size() * sizeof(double))}});
+    }
+    inputs_.push_back({{"name", input.source.name()},
+                       {"t0", input.source.clock().t0},
+                       {"T", input.source.clock().T()},
+                       {"samples", samples},
+                       {"phases", phases},
+                       {"channels", channels}});
+    first_channel_ += static_cast<std::uint32_t>(forces_.size());
+    return {};
+}
+
+std::string Report::page(const Summary& summary, std::span<const AfferentPlan> plans, const std::string& command,
+                         const std::vector<std::string>& warnings) const {
+    std::string title;
+    for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
+    Json afferents = Json::array(), remarks = Json::array();
+    for (std::size_t a = 0; a < plans.size(); ++a) {
+        const auto& plan = plans[a];
+        Json parameters = Json::array();
+        for (const auto& p : plan.parameters) parameters.push_back(parameter_document(p));
+        afferents.push_back({{"name", plan.name},
+                             {"made_of", fmt::format("{}+{}", plan.receptor, plan.neuron)},
+                             {"sentence", plan.sentence},
+                             {"V_th", level(plan, "V_th")},
+                             {"V_reset", level(plan, "V_reset")},
+                             {"parameters", parameters},
+                             {"parts", parts_[a]}});
+    }
+    for (const auto& w : warnings) remarks.push_back(w);
+    for (const auto& i : summary.inputs())
+        for (const auto& r : i.remarks) remarks.push_back(i.name + ": " + r);
+    const Json document = {{"title", title},         {"program", fmt::format("corpuscle {}", version)},
+                           {"command", command},     {"inputs", inputs_},
+                           {"afferents", afferents}, {"traces", traces_},
+                           {"spikes", spikes_},      {"table", table_document(summary)},
+                           {"remarks", remarks},     {"versions", {{"corpuscle", version}}}};
+    return filled(asset("page.html"), escaped(title), safe_json(document));
+}
+
+}  // namespace corpuscle

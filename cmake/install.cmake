@@ -1,0 +1,12 @@
+# `cmake --install` gives the program, the library with its headers, and a package: find_package(corpuscle).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS corpuscle-cli)
+install(TARGETS corpuscle EXPORT corpuscle-targets)
+install(DIRECTORY src/ DESTINATION include/corpuscle FILES_MATCHING PATTERN "*.hpp")
+install(FILES ${PROJECT_BINARY_DIR}/generated/signal/version.hpp DESTINATION include/corpuscle/signal)
+install(EXPORT corpuscle-targets NAMESPACE corpuscle:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)
+configure_package_config_file(cmake/corpuscle-config.cmake.in corpuscle-config.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)
+write_basic_package_version_file(corpuscle-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/corpuscle-config.cmake ${PROJECT_BINARY_DIR}/corpuscle-config-version.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)

@@ -1,0 +1,23 @@
+#pragma once
+// The formats a recording may have, chosen by extension. A new one: its file here in io/, and its row in the list.
+
+#include <span>
+
+#include "io/table.hpp"
+#include "io/text_table.hpp"
+
+namespace corpuscle {
+
+struct Format {
+    std::string_view name;
+    std::string_view extensions;  ///< separated by blanks
+    std::string_view sentence;
+    Result<std::unique_ptr<Table>> (*open)(const std::string& path);
+};
+
+inline constexpr Format formats[] = {
+    {"text", ".csv .tsv .txt .dat", "numbers in columns: commas, tabs, semicolons or blanks; header or none; decimal point or comma",
+     open_text_table},
+};
+
+}  // namespace corpuscle

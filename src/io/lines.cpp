@@ -1,0 +1,68 @@
+#include "io/lines.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace corpuscle {
+
+Result<Lines> Lines::open(const std::string& path) {
+    std::error_code status;
+    if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
+    Lines lines;
+    lines.path_ = path;
+    lines.file_.reset(std::fopen(path.c_str(), "rb"));
+    if (!lines.file_) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
+    if (const auto size = std::filesystem::file_size(path, status); !status) lines.size_ = static_cast<double>(size);
+    return lines;
+}
+
+Result<bool> Lines::fill() {
+    constexpr std::size_t block = std::size_t{1} << 20;
+    if (ended_) return false;
+    buffer_.erase(0, at_);
+    at_ = 0;
+    if (buffer_.size() > longest) return bad_input(fmt::format("a line of more than {} MB", longest >> 20), {path_, number_ + 1});
+    const std::size_t had = buffer_.size();
+    buffer_.resize(had + block);
+    const std::size_t got = std::fread(buffer_.data() + had, 1, block, file_.get());
+    buffer_.resize(had + got);
+    read_ += static_cast<double>(got);
+    if (got < block) {
+        ended_ = true;
+        if (std::ferror(file_.get())) return bad_input(fmt::format("cannot be read: {}", std::strerror(errno)), {path_, number_ + 1});
+    }
+    return got > 0;
+}
+
+Result<bool> Lines::next(std::string_view& line) {
+    std::size_t searched = at_, end;
+    while ((end = buffer_.find('\n', searched)) == std::string::npos) {
+        const std::size_t pending = buffer_.size() - at_;
+        const auto more = fill();
+        if (!more) return more.error();
+        if (*more) {
+            searched = at_ + pending;
+            continue;
+        }
+        if (buffer_.size() == at_) return false;
+        end = buffer_.size();
+        break;
+    }
+    line = std::string_view(buffer_).substr(at_, end - at_);
+    at_ = std::min(end + 1, buffer_.size());
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (++number_ == 1 && line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);
+    return true;
+}
+
+Result<void> Lines::rewind() {
+    if (std::fseek(file_.get(), 0, SEEK_SET) != 0) return bad_input("this input cannot be read twice; save it to a file", {path_});
+    buffer_.clear();
+    at_ = 0, number_ = 0, read_ = 0, ended_ = false;
+    return {};
+}
+
+}  // namespace corpuscle

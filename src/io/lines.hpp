@@ -1,0 +1,39 @@
+#pragma once
+// A text file line by line, read in blocks; memory is bounded by the longest line allowed.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+class Lines {
+    struct Close {
+        void operator()(std::FILE* f) const { std::fclose(f); }
+    };
+    std::string path_;
+    std::unique_ptr<std::FILE, Close> file_;
+    std::string buffer_;
+    std::size_t at_ = 0;          // of the next line, in the buffer
+    long number_ = 0;             // of the last line given
+    double size_ = 0, read_ = 0;  // bytes
+    bool ended_ = false;
+
+    Result<bool> fill();
+
+public:
+    static constexpr std::size_t longest = std::size_t{64} << 20;
+
+    static Result<Lines> open(const std::string& path);
+    /// The next line without its end (LF, CRLF); false at the end of the file. The view lives until the next call.
+    Result<bool> next(std::string_view& line);
+    Result<void> rewind();
+    long number() const { return number_; }
+    const std::string& path() const { return path_; }
+    double done() const { return size_ > 0 ? std::min(1.0, (read_ - static_cast<double>(buffer_.size() - at_)) / size_) : 1; }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,52 @@
+#include "io/output.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+namespace corpuscle {
+
+OutputFile::OutputFile(OutputFile&& o) noexcept
+    : path_(std::move(o.path_)), part_(std::move(o.part_)), file_(std::exchange(o.file_, nullptr)) {
+    o.part_.clear();
+}
+
+OutputFile& OutputFile::operator=(OutputFile&& o) noexcept {
+    std::swap(path_, o.path_), std::swap(part_, o.part_), std::swap(file_, o.file_);
+    return *this;
+}
+
+OutputFile::~OutputFile() {
+    if (file_) std::fclose(file_);
+    if (!part_.empty()) std::remove(part_.c_str());
+}
+
+Result<OutputFile> OutputFile::create(const std::string& path) {
+    std::error_code status;
+    const auto above = std::filesystem::path(path).parent_path();
+    if (!above.empty()) std::filesystem::create_directories(above, status);
+    if (status) return bad_input(fmt::format("the directory cannot be made: {}", status.message()), {above.string()});
+    if (std::filesystem::is_directory(path)) return bad_input("this is a directory, not a file to write", {path});
+    OutputFile out;
+    out.path_ = path;
+    const auto part = fmt::format("{}.part-{}", path, ::getpid());
+    out.file_ = std::fopen(part.c_str(), "wb");
+    if (!out.file_) return bad_input(fmt::format("cannot be written: {}", std::strerror(errno)), {path});
+    out.part_ = part;
+    return out;
+}
+
+Result<void> OutputFile::commit() {
+    const bool whole = std::ferror(file_) == 0;
+    const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+    if (!whole || !closed) return bad_input(fmt::format("cannot be written to the end: {}", std::strerror(errno)), {path_});
+    if (std::rename(part_.c_str(), path_.c_str()) != 0)
+        return bad_input(fmt::format("cannot be put in its place: {}", std::strerror(errno)), {path_});
+    part_.clear();
+    return {};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,31 @@
+#pragma once
+// Files are written beside their place and put there when they are whole: nothing half-written is left behind.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+class OutputFile {
+    std::string path_, part_;
+    std::FILE* file_ = nullptr;
+
+public:
+    OutputFile() = default;
+    OutputFile(OutputFile&& other) noexcept;
+    OutputFile& operator=(OutputFile&& other) noexcept;
+    ~OutputFile();  ///< removes what was not committed
+
+    /// Makes the directories above it, too.
+    static Result<OutputFile> create(const std::string& path);
+    void write(std::string_view text) { std::fwrite(text.data(), 1, text.size(), file_); }
+    /// Puts the file in its place; refuses if a byte could not be written.
+    Result<void> commit();
+    const std::string& path() const { return path_; }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,222 @@
+#include "io/text_table.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "signal/quantity.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Fields = std::vector<std::string_view>;
+
+std::string_view trimmed(std::string_view s) {
+    while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
+    while (!s.empty() && (s.back() == ' ' || s.back() == '\t')) s.remove_suffix(1);
+    if (s.size() >= 2 && s.front() == '"' && s.back() == '"') s = s.substr(1, s.size() - 2);
+    return s;
+}
+
+bool is_comment(std::string_view line) {
+    const auto s = trimmed(line);
+    return s.empty() || s.front() == '#' || s.front() == '%';
+}
+
+/// How the file separates its fields and writes its numbers.
+struct Dialect {
+    char separator = ',';  // ' ' stands for any run of blanks
+    bool decimal_comma = false;
+
+    void split(std::string_view line, Fields& out) const {
+        out.clear();
+        if (separator == ' ') {
+            for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
+                const auto end = line.find_first_of(" \t", at);
+                out.push_back(line.substr(at, end - at));
+                at = line.find_first_not_of(" \t", end);
+            }
+            return;
+        }
+        for (std::size_t at = 0;;) {
+            auto end = line.find(separator, at);
+            if (const auto quote = line.find_first_not_of(" \t", at); quote != std::string_view::npos && line[quote] == '"')
+                if (const auto close = line.find('"', quote + 1); close != std::string_view::npos) end = line.find(separator, close);
+            out.push_back(trimmed(line.substr(at, end - at)));
+            if (end == std::string_view::npos) return;
+            at = end + 1;
+        }
+    }
+
+    bool number(std::string_view field, double& value) const {
+        if (field.starts_with('+')) field.remove_prefix(1);
+        char plain[64];
+        if (decimal_comma && field.size() < sizeof plain && field.find(',') != std::string_view::npos) {
+            std::replace_copy(field.begin(), field.end(), plain, ',', '.');
+            field = std::string_view(plain, field.size());
+        }
+        const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
+        return status == std::errc{} && end == field.data() + field.size() && std::isfinite(value);
+    }
+};
+
+Dialect guess(std::string_view line) {
+    const auto has = [&](char c) { return line.find(c) != std::string_view::npos; };
+    if (has('\t')) return {'\t', true};
+    if (has(';')) return {';', true};
+    if (has(',')) return {',', false};
+    return {' ', false};
+}
+
+bool known_unit(std::string_view s) {
+    constexpr std::string_view words[] = {"counts", "count", "raw", "adc",  "lsb", "deg", "degC", "kg",
+                                          "g",      "Pa",    "kPa", "mmHg", "bar", "psi", "lbf"};
+    return !s.empty() && s != "1" && s != "%" && (std::find(std::begin(words), std::end(words), s) != std::end(words) || parse_unit(s));
+}
+
+bool names_time(std::string_view name) {
+    std::string lower(name);
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    return lower == "time" || lower == "timestamp" || lower == "t" || lower == "times" || lower == "time stamp";
+}
+
+class TextTable final : public Table {
+    Lines lines_;
+    Dialect dialect_;
+    std::vector<Column> columns_;
+    std::optional<std::size_t> time_;
+    bool header_ = false, skip_header_ = false;
+    Fields fields_;
+    std::vector<long> numbers_;  // line numbers of the last block's rows
+
+    Error at(std::string sentence, long column = 0) const {
+        return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
+    }
+
+    std::string called(std::size_t c) const { return header_ ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
+
+    /// The next line that holds data.
+    Result<bool> next_row(std::string_view& line) {
+        for (;;) {
+            const auto more = lines_.next(line);
+            if (!more || !*more) return more;
+            if (is_comment(line)) continue;
+            if (!std::exchange(skip_header_, false)) return true;
+        }
+    }
+
+    Result<double> number_in(std::string_view line, std::size_t c) const {
+        double value = 0;
+        if (dialect_.number(fields_[c], value)) return value;
+        const auto column = fields_[c].data() - line.data() + 1;
+        const auto what = fields_[c].empty() ? std::string("nothing") : fmt::format("'{}'", fields_[c].substr(0, 40));
+        return at(fmt::format("column {}: {} where a number should be", called(c), what), column);
+    }
+
+    Result<void> read_header(std::string_view line) {
+        dialect_ = guess(line);
+        dialect_.split(line, fields_);
+        double value;
+        header_ = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !dialect_.number(f, value); });
+        for (std::size_t c = 0; c < fields_.size(); ++c) columns_.push_back(header_ ? parse_heading(fields_[c]) : Column{});
+        if (header_)
+            for (std::size_t c = columns_.size(); c-- > 0;)
+                if (names_time(columns_[c].name)) time_ = c;
+        return {};
+    }
+
+    /// Without a header: does the first column rise by like steps over the first rows?
+    Result<void> look_for_time() {
+        std::vector<std::vector<double>> first(1);
+        const auto rows = read({0}, 64, first);
+        if (!rows) return rows.error();
+        const auto& t = first[0];
+        if (*rows >= 3 && columns_.size() > 1) {
+            const double mean = (t[*rows - 1] - t[0]) / static_cast<double>(*rows - 1);
+            bool even = mean > 0;
+            for (std::size_t k = 1; k < *rows; ++k) even = even && t[k] > t[k - 1] && std::abs(t[k] - t[k - 1] - mean) < 0.5 * mean;
+            if (even) time_ = 0;
+        }
+        return rewind();
+    }
+
+    void name_columns() {
+        std::size_t number = 0;
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            if (time_ == c) {
+                if (columns_[c].name.empty()) columns_[c].name = "time";
+                continue;
+            }
+            ++number;
+            if (columns_[c].name.empty()) columns_[c].name = fmt::format("ch{}", number);
+        }
+    }
+
+public:
+    explicit TextTable(Lines lines) : lines_(std::move(lines)) {}
+
+    Result<void> open() {
+        std::string_view line;
+        const auto first = next_row(line);
+        if (!first) return first.error();
+        if (!*first) return bad_input("no data in this file", {lines_.path()});
+        if (auto ok = read_header(line); !ok) return ok;
+        if (auto ok = rewind(); !ok) return ok;
+        if (!header_)
+            if (auto ok = look_for_time(); !ok) return ok;
+        name_columns();
+        return {};
+    }
+
+    const std::vector<Column>& columns() const override { return columns_; }
+    std::optional<std::size_t> time_column() const override { return time_; }
+    double done() const override { return lines_.done(); }
+    Place place(std::size_t row) const override { return {lines_.path(), row < numbers_.size() ? numbers_[row] : 0}; }
+
+    Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
+        for (auto& column : out) column.resize(rows);
+        numbers_.clear();
+        std::size_t row = 0;
+        for (std::string_view line; row < rows; ++row) {
+            const auto more = next_row(line);
+            if (!more) return more.error();
+            if (!*more) break;
+            dialect_.split(line, fields_);
+            if (fields_.size() != columns_.size()) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_.size()));
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                const auto value = number_in(line, wanted[i]);
+                if (!value) return value.error();
+                out[i][row] = *value;
+            }
+            numbers_.push_back(lines_.number());
+        }
+        return row;
+    }
+
+    Result<void> rewind() override {
+        skip_header_ = header_;
+        return lines_.rewind();
+    }
+};
+
+}  // namespace
+
+Column parse_heading(std::string_view field) {
+    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})
+        if (const auto at = field.rfind(open); at != std::string_view::npos && field.ends_with(close) && at > 0)
+            return {std::string(trimmed(field.substr(0, at))), std::string(trimmed(field.substr(at + 1, field.size() - at - 2)))};
+    if (const auto at = field.rfind('_'); at != std::string_view::npos && at > 0 && known_unit(field.substr(at + 1)))
+        return {std::string(field.substr(0, at)), std::string(field.substr(at + 1))};
+    return {std::string(field), ""};
+}
+
+Result<std::unique_ptr<Table>> open_text_table(const std::string& path) {
+    auto lines = Lines::open(path);
+    if (!lines) return lines.error();
+    auto table = std::make_unique<TextTable>(std::move(*lines));
+    if (auto ok = table->open(); !ok) return ok.error();
+    return std::unique_ptr<Table>(std::move(table));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,55 @@
+// The afferents that have a name: what each is made of and where it differs from its parts' defaults.
+
+#include "model/catalog.hpp"
+
+namespace corpuscle {
+
+const std::vector<NamedAfferent>& named_afferents() {
+    static const std::vector<NamedAfferent> all = {
+        {"sa1",
+         "sa1b",
+         "lif-b",
+         {},
+         {"sa1", "sa-i", "sai"},
+         "slowly adapting type I: fires in protraction and, slowing, through the hold",
+         "thesis 3.3, fig. 17"},
+        {"fa1",
+         "fa1b",
+         "lif-b",
+         {{"I_leak0", 1e-6}},
+         {"fa1", "fa-i", "fai", "ra", "ra1"},
+         "fast adapting type I: fires while the force rises and while it falls",
+         "thesis 3.4, fig. 18"},
+        {"sa2",
+         "sa1a",
+         "lif-b",
+         {{"k_s", 2e-6}, {"k_d", 30e-9}},
+         {"sa2", "sa-ii"},
+         "slowly adapting type II: holds without adapting, feels release as it feels touch",
+         "SA-IA taken for SA-II as thesis 3.1 suggests; values are a choice"},
+        {"fa2",
+         "vibration",
+         "lif-b",
+         {{"C_m", 100e-9}, {"I_leak0", 1e-6}},
+         {"fa2", "fa-ii", "pc"},
+         "fast adapting type II: vibration, best at 200 to 300 Hz; deaf to slow force",
+         "choice, to the tuning of PC afferents in PMC2657072, table 1"},
+        {"sa1-kim",
+         "sa1a",
+         "lif-a",
+         {},
+         {},
+         "the earlier digital SA-I: SA-IA with LIF-A",
+         "Kim et al. 2012 as told in thesis 3.1; values are a choice"},
+        {"fa1-lee",
+         "fa1a",
+         "adaptive",
+         {},
+         {},
+         "the earlier digital FA-I: rising and falling force to a neuron each, adaptive threshold",
+         "Lee et al. 2016 as told in thesis 3.1; values are a choice"},
+    };
+    return all;
+}
+
+}  // namespace corpuscle

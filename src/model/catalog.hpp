@@ -1,0 +1,65 @@
+#pragma once
+// Every transduction, every neuron, and the afferents that have a name. To add one: its include and its name here.
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "model/chain.hpp"
+#include "model/neuron/adaptive.hpp"
+#include "model/neuron/adex.hpp"
+#include "model/neuron/izhikevich.hpp"
+#include "model/neuron/lif_a.hpp"
+#include "model/neuron/lif_b.hpp"
+#include "model/receptor/fa1a.hpp"
+#include "model/receptor/fa1b.hpp"
+#include "model/receptor/sa1a.hpp"
+#include "model/receptor/sa1b.hpp"
+#include "model/receptor/vibration.hpp"
+#include "signal/settings.hpp"
+
+namespace corpuscle {
+
+template <template <class> class... M>
+struct ModelList {};
+
+using Receptors = ModelList<Sa1a, Sa1b, Fa1a, Fa1b, Vibration>;
+using Neurons = ModelList<LifA, LifB, Adaptive, Izhikevich, Adex>;
+
+/// An afferent with a name: a transduction, a neuron, and the parameters that differ from theirs.
+struct NamedAfferent {
+    std::string_view name, receptor, neuron;
+    std::vector<Setting> settings;
+    std::vector<std::string_view> other_names;  ///< accepted in any case
+    std::string_view sentence, source;
+};
+const std::vector<NamedAfferent>& named_afferents();
+
+std::vector<Card> receptor_cards();
+std::vector<Card> neuron_cards();
+
+/// One parameter of an afferent, with the value it has.
+struct Parameter {
+    Row row;
+    std::string_view of;  ///< the transduction or the neuron it belongs to
+    double value = 0;
+    bool set = false;  ///< by the user
+};
+
+/// What an afferent is, before it is given a clock.
+struct AfferentPlan {
+    std::string name;  ///< as asked for: "sa1", "sa1b+izhikevich"
+    std::string_view receptor, neuron, sentence, source;
+    std::vector<Parameter> parameters;
+    double least_rate = 0;  ///< Hz; below it the answer is not to be trusted
+    double value(std::string_view parameter) const;
+};
+
+/// Reads "sa1", "SA1", "sa1b+izhikevich"; wishes name it as it was asked for or by its own name.
+Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> wishes);
+
+/// The afferent of a plan, for samples T = run.dt apart.
+std::unique_ptr<Afferent> make_afferent(const AfferentPlan&, const Run&);
+
+}  // namespace corpuscle

@@ -1,0 +1,46 @@
+#pragma once
+// What passes from a transduction to a neuron, and how time is stepped.
+
+#include "signal/elementary.hpp"
+
+namespace corpuscle {
+
+/// exact: between samples the force is a straight line (first-order hold), filters are integrated exactly under it.
+/// backward_euler: the thesis's own algorithms, for its figures.
+enum class Method { exact, backward_euler };
+
+/// The current over one step, a straight line between its ends; A.
+template <class T>
+struct Current {
+    T from, to;
+};
+
+/// High-pass of unit gain, x' + 2 pi f x = F', under a force that is a straight line in each step.
+/// Backward Euler has the same form with other constants: x[n] = k (F[n] - F[n-1] + x[n-1]), k = 1 / (1 + 2 pi f T).
+template <class T>
+struct HighPass {
+    T keep, gain;
+    HighPass(T f, double dt, Method method) {
+        const T theta = f * T(6.283185307179586 * dt);
+        keep = method == Method::exact ? num::exp(-theta) : T(1.0) / (T(1.0) + theta);
+        gain = method == Method::exact ? num::exprel(-theta) : keep;
+    }
+    T next(T x, T dF) const { return keep * x + gain * dF; }
+};
+
+/// Hands a model the values of its parameters as T. This one: the same double for every lane.
+template <class P>
+struct Same {
+    const P& p;
+    double operator()(double P::* at) const { return p.*at; }
+};
+
+/// A dual in one chosen parameter: everything derived from it carries the slope.
+template <class P>
+struct Seeded {
+    const P& p;
+    double P::* by;
+    num::Dual operator()(double P::* at) const { return {p.*at, at == by ? 1.0 : 0.0}; }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "model/current.hpp"
+#include "model/neuron/step.hpp"
+#include "signal/afferent.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// No leak, and a threshold that jumps with each spike and falls back:
+///     C_m du/dt = I, not below E_L;   theta = V_th + a,  tau_th da/dt = -a
+///     u > theta while I > 0  =>  spike, then u = V_reset for t_ref and a = a + dV_th
+/// (A threshold that sinks onto a resting membrane does not fire: without leak that would answer a touch long gone.)
+/// Lee et al. 2016 as the thesis tells it (3.1: no leak, "an adaptive threshold potential"); no equation and no value is
+/// printed, so the equations above and all defaults are our choice. Both methods integrate it exactly under the current they give.
+template <class T>
+struct Adaptive {
+    struct Params {
+        double C_m = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, dV_th = 0.1, tau_th = 50e-3, t_ref = 0;
+    };
+    static constexpr std::string_view name = "adaptive", sentence = "no leak, and a threshold that rises with each spike and decays";
+    static constexpr std::string_view source = "choice, after Lee et al. 2016 as told in thesis 3.1";
+    static constexpr Field<Params> fields[] = {
+        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
+        {"E_L", &Params::E_L, "V", -10, 10, "resting potential, the lowest"},
+        {"V_th", &Params::V_th, "V", -10, 10, "threshold at rest"},
+        {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike"},
+        {"dV_th", &Params::dV_th, "V", 0, 10, "rise of the threshold at a spike"},
+        {"tau_th", &Params::tau_th, "s", 1e-6, 1e3, "time constant of the threshold's return"},
+        {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time"},
+    };
+    static constexpr Below<Params> orders[] = {
+        {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
+        {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
+    };
+    static constexpr Probe parts[] = {{"u", "V"}, {"theta", "V"}};
+    struct State {
+        T u, a, wait;  // membrane; threshold above V_th; what is left of t_ref, in steps
+    };
+
+    template <class Values>
+    Adaptive(const Values& value, double dt, Method)
+        : k(T(dt) / value(&Params::C_m)), E_L(value(&Params::E_L)), V_th(value(&Params::V_th)), V_reset(value(&Params::V_reset)),
+          dV_th(value(&Params::dV_th)), ref(value(&Params::t_ref) / dt), fall(T(dt) / value(&Params::tau_th)) {}
+
+    State start() const { return {E_L, T(0.0), T(0.0)}; }
+    void show(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = V_th + s.a; }
+
+    /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.
+    template <class Fired>
+    num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
+        T x = num::min(s.wait, T(1.0)), a = s.a * num::exp(-fall * x);  // a: the threshold's excess at x
+        s.wait = s.wait - x;
+        const Parabola<T> rise{i.from * k, (i.to - i.from) * k};
+        T base = s.u - rise.at(x);  // u(x) = base + rise.at(x)
+        base = base + num::positive(E_L - (base + rise.least_after(x)));
+        s.u = base + rise.at(T(1.0));
+        s.a = a * num::exp(-fall * (T(1.0) - x));
+        auto over = (s.u > V_th + s.a) & (i.to > T(0.0));
+        for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
+            const auto gap = [&](T y) {
+                const T above = a * num::exp(-fall * (y - x));
+                struct {
+                    T v, slope;
+                } here{base + rise.at(y) - V_th - above, rise.a + rise.b * y + fall * above};
+                return here;
+            };
+            const T at = offset_from(rising_root(gap, x, T(1.0)), x);
+            fired(over, at);
+            const T free = at + ref, from = num::min(free, T(1.0));
+            s.wait = num::select(over, free - from, s.wait);
+            base = num::select(over, V_reset - rise.at(from), base);
+            a = num::select(over, (a * num::exp(-fall * (at - x)) + dV_th) * num::exp(-fall * (from - at)), a);
+            x = num::select(over, from, x);
+            s.u = num::select(over, num::max(base + rise.at(T(1.0)), E_L), s.u);
+            s.a = num::select(over, a * num::exp(-fall * (T(1.0) - x)), s.a);
+            over = over & (s.u > V_th + s.a);
+        }
+        return over;
+    }
+
+private:
+    T k, E_L, V_th, V_reset, dV_th, ref, fall;
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "model/current.hpp"
+#include "model/neuron/substeps.hpp"
+#include "signal/afferent.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// Adaptive exponential integrate-and-fire, Brette and Gerstner 2005:
+///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
+///     v > V_peak  =>  spike, then v = V_reset and w = w + b
+/// The exponential is not followed above V_peak. Both methods use the same substeps. No refractory time: adaptation is w's part.
+template <class T>
+struct Adex {
+    struct Params {
+        double C_m = 281e-12, g_L = 30e-9, E_L = -70.6e-3, V_T = -50.4e-3, Delta_T = 2e-3, a = 4e-9, b = 80.5e-12, tau_w = 144e-3;
+        double V_peak = -40.4e-3, V_reset = -70.6e-3, gain = 3e-4, substep = 20e-6;
+    };
+    static constexpr std::string_view name = "adex", sentence = "adaptive exponential integrate-and-fire";
+    static constexpr std::string_view source = "Brette and Gerstner 2005, J Neurophysiol 94:3637; thesis 3.2";
+    static constexpr Field<Params> fields[] = {
+        {"C_m", &Params::C_m, "F", 1e-15, 1, "membrane capacitance"},
+        {"g_L", &Params::g_L, "S", 1e-15, 1, "leak conductance"},
+        {"E_L", &Params::E_L, "V", -0.2, 0.1, "resting potential"},
+        {"V_T", &Params::V_T, "V", -0.2, 0.1, "where the exponential takes over"},
+        {"Delta_T", &Params::Delta_T, "V", 1e-4, 0.1, "width of the exponential"},
+        {"a", &Params::a, "S", -1e-3, 1e-3, "adaptation per membrane potential"},
+        {"b", &Params::b, "A", 0, 1, "jump of adaptation at a spike"},
+        {"tau_w", &Params::tau_w, "s", 1e-4, 1e3, "time constant of adaptation"},
+        {"V_peak", &Params::V_peak, "V", -0.2, 0.1, "top of a spike",
+         "choice: V_T + 5 Delta_T; from there to the paper's 20 mV takes under 0.1 ms"},
+        {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "membrane after a spike"},
+        {"gain", &Params::gain, "", 0, 1e6, "from the transduction's current to the membrane's", "choice: tens of hertz at microamperes"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep", "choice"},
+    };
+    static constexpr Below<Params> orders[] = {
+        {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
+        {"E_L", &Params::E_L, "V_T", &Params::V_T},
+    };
+    static constexpr Probe parts[] = {{"v", "V"}, {"w", "A"}};
+    struct State {
+        T v, w;
+    };
+
+    template <class Values>
+    Adex(const Values& value, double dt, Method)
+        : C_m(value(&Params::C_m)), g_L(value(&Params::g_L)), E_L(value(&Params::E_L)), V_T(value(&Params::V_T)),
+          Delta_T(value(&Params::Delta_T)), a(value(&Params::a)), b(value(&Params::b)), tau_w(value(&Params::tau_w)),
+          V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)), gain(value(&Params::gain)), dt(dt),
+          count(substeps_of(dt, num::value(value(&Params::substep)))) {}
+
+    State start() const {  // the exponential lifts the rest a little above E_L: Newton from there
+        T v = E_L;
+        for (int pass = 0; pass < 8; ++pass) {
+            const T e = num::exp((v - V_T) / Delta_T);
+            v = v + (-(g_L + a) * (v - E_L) + g_L * Delta_T * e) / (g_L + a - g_L * e);
+        }
+        return {v, a * (v - E_L)};
+    }
+    void show(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
+
+    /// One sample under current i. Calls fired(mask, offset) for each spike in it.
+    template <class Fired>
+    num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
+        Pair<T> y{s.v, s.w};
+        const auto slopes = [this](Pair<T> at, T current) {
+            const T upstroke = g_L * Delta_T * num::exp((num::min(at.v, V_peak) - V_T) / Delta_T);
+            return Pair<T>{(g_L * (E_L - at.v) + upstroke - at.w + gain * current) / C_m, (a * (at.v - E_L) - at.w) / tau_w};
+        };
+        advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{V_reset, at.w + b}; }, fired);
+        s = {y.v, y.w};
+        return T(0.0) > T(0.0);
+    }
+
+private:
+    T C_m, g_L, E_L, V_T, Delta_T, a, b, tau_w, V_peak, V_reset, gain;
+    double dt;
+    int count;
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "model/current.hpp"
+#include "signal/afferent.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// FA-IB, the thesis's proposal:   I = k_A max{I_0, 0} + k_B max{-I_0, 0},   I_0' + 2 pi f I_0 = F'
+/// (thesis 3.4, Alg. 6; errata: falling force excites too, the printed sign would silence it. I_0 is in newtons.)
+template <class T>
+struct Fa1b {
+    struct Params {
+        double k_A = 3.5e-6, k_B = 2.75e-6, f = 2;
+    };
+    static constexpr std::string_view name = "fa1b", sentence = "FA-IB: a slow high-pass, rectified with a gain for each direction";
+    static constexpr std::string_view source = "thesis 3.4, Alg. 6";
+    static constexpr Field<Params> fields[] = {
+        {"k_A", &Params::k_A, "A/N", 0, 1, "gain for rising force (protraction)"},
+        {"k_B", &Params::k_B, "A/N", 0, 1, "gain for falling force (retraction)"},
+        {"f", &Params::f, "Hz", 1e-6, 1e6, "corner of the high-pass"},
+    };
+    static constexpr int outputs = 1;
+    static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}};
+    struct State {
+        T F, x, I;  // x: high-passed force I_0, N
+    };
+
+    template <class Values>
+    Fa1b(const Values& value, double dt, Method method)
+        : k_A(value(&Params::k_A)), k_B(value(&Params::k_B)), filter(value(&Params::f), dt, method), hold(method == Method::exact) {}
+
+    State start(T F) const { return {F, T(0.0), T(0.0)}; }
+    void step(State& s, T F, Current<T> (&i)[outputs]) const {
+        const T before = s.I;
+        s.x = filter.next(s.x, F - s.F);
+        s.F = F;
+        s.I = k_A * num::positive(s.x) + k_B * num::positive(-s.x);
+        i[0] = {hold ? before : s.I, s.I};
+    }
+    void show(const State& s, T (&out)[2]) const { out[0] = k_A * num::positive(s.x), out[1] = k_B * num::positive(-s.x); }
+
+private:
+    T k_A, k_B;
+    HighPass<T> filter;
+    bool hold;
+};
+
+}  // namespace corpuscle

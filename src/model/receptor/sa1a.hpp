@@ -1,0 +1,47 @@
+#pragma once
+
+#include "model/current.hpp"
+#include "signal/afferent.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// SA-IA, Kim et al. 2012:   I = beta + k_s F + k_d |F'|      (thesis eq. 1, Alg. 1; errata: differences divided by T)
+/// A slope is known only over a step, so the dynamic part is constant in it.
+template <class T>
+struct Sa1a {
+    struct Params {
+        double beta = 0, k_s = 1e-6, k_d = 100e-9;
+    };
+    static constexpr std::string_view name = "sa1a", sentence = "SA-IA: static part plus the size of the force's slope";
+    static constexpr std::string_view source = "Kim et al. 2012, doi 10.1186/1743-0003-9-45; thesis eq. 1, Alg. 1; values are a choice";
+    static constexpr Field<Params> fields[] = {
+        {"beta", &Params::beta, "A", -1e-3, 1e-3, "current without force"},
+        {"k_s", &Params::k_s, "A/N", 0, 1, "static gain"},
+        {"k_d", &Params::k_d, "A s/N", 0, 1, "dynamic gain, for rising and falling force alike"},
+    };
+    static constexpr int outputs = 1;
+    static constexpr Probe parts[] = {{"I_s", "A"}, {"I_d", "A"}};
+    struct State {
+        T F, I_d;
+    };
+
+    template <class Values>
+    Sa1a(const Values& value, double dt, Method method)
+        : beta(value(&Params::beta)), k_s(value(&Params::k_s)), k_dT(value(&Params::k_d) / dt), hold(method == Method::exact) {}
+
+    State start(T F) const { return {F, T(0.0)}; }
+    void step(State& s, T F, Current<T> (&i)[outputs]) const {
+        s.I_d = k_dT * num::abs(F - s.F);
+        const T to = beta + k_s * F + s.I_d;
+        i[0] = {hold ? beta + k_s * s.F + s.I_d : to, to};
+        s.F = F;
+    }
+    void show(const State& s, T (&out)[2]) const { out[0] = k_s * s.F, out[1] = s.I_d; }
+
+private:
+    T beta, k_s, k_dT;
+    bool hold;
+};
+
+}  // namespace corpuscle

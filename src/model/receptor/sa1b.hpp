@@ -1,0 +1,54 @@
+#pragma once
+
+#include "model/current.hpp"
+#include "signal/afferent.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// SA-IB, the thesis's proposal:   I = k_A F + max{I_B, 0} + max{I_C, 0},   I_x' + 2 pi f_x I_x = K_x F'
+/// (thesis eq. 8 to 12, Alg. 5; the signs and names of Alg. 5 as its errata give them: I_x[n] = k_x2 (K_x dF + I_x[n-1]).)
+/// Between samples the current is taken as a straight line: the error of a spike time falls with T^2.
+template <class T>
+struct Sa1b {
+    struct Params {
+        double k_A = 1e-6, K_B = 8e-6, f_B = 20, K_C = 2e-6, f_C = 2;
+    };
+    static constexpr std::string_view name = "sa1b", sentence = "SA-IB: static part plus two rectified high-passes, one quick, one slow";
+    static constexpr std::string_view source = "thesis 3.3, eq. 8 to 12, Alg. 5";
+    static constexpr Field<Params> fields[] = {
+        {"k_A", &Params::k_A, "A/N", 0, 1, "gain of the static part I_A"},
+        {"K_B", &Params::K_B, "A/N", 0, 1, "gain of the quick part I_B, felt in protraction",
+         "thesis 3.3, printed 8 A/A; applied to the force"},
+        {"f_B", &Params::f_B, "Hz", 1e-6, 1e6, "corner of the quick part"},
+        {"K_C", &Params::K_C, "A/N", 0, 1, "gain of the slow part I_C, whose decay is the plateau's",
+         "thesis 3.3, printed 2 A/A; applied to the force"},
+        {"f_C", &Params::f_C, "Hz", 1e-6, 1e6, "corner of the slow part"},
+    };
+    static constexpr int outputs = 1;
+    static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
+    struct State {
+        T F, x_B, x_C, I;  // x: high-passed force, N
+    };
+
+    template <class Values>
+    Sa1b(const Values& value, double dt, Method method)
+        : k_A(value(&Params::k_A)), K_B(value(&Params::K_B)), K_C(value(&Params::K_C)), B(value(&Params::f_B), dt, method),
+          C(value(&Params::f_C), dt, method), hold(method == Method::exact) {}
+
+    State start(T F) const { return {F, T(0.0), T(0.0), k_A * F}; }
+    void step(State& s, T F, Current<T> (&i)[outputs]) const {
+        const T dF = F - s.F, before = s.I;
+        s = {F, B.next(s.x_B, dF), C.next(s.x_C, dF), T(0.0)};
+        s.I = k_A * F + num::positive(K_B * s.x_B) + num::positive(K_C * s.x_C);
+        i[0] = {hold ? before : s.I, s.I};
+    }
+    void show(const State& s, T (&out)[3]) const { out[0] = k_A * s.F, out[1] = K_B * s.x_B, out[2] = K_C * s.x_C; }
+
+private:
+    T k_A, K_B, K_C;
+    HighPass<T> B, C;
+    bool hold;
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "model/current.hpp"
+#include "signal/afferent.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// A band of vibration, for FA-II:   I = k max{x, 0},   x = F through two high-passes at f_hp and a low-pass at f_lp
+///     |x / F| = f^2 / (f^2 + f_hp^2) * f_lp / sqrt(f^2 + f_lp^2), greatest at sqrt(2) f_hp for f_lp = f_hp
+/// Our choice, for a class the thesis names but does not model; it gives the tuning of Pacinian corpuscles (best at 200 to
+/// 300 Hz, deaf to slow force), not their mechanics. Each section sees the one before as straight lines between samples.
+template <class T>
+struct Vibration {
+    struct Params {
+        double k = 400e-6, f_hp = 180, f_lp = 180;
+    };
+    static constexpr std::string_view name = "vibration", sentence = "a band of vibration: two high-passes and a low-pass, rectified";
+    static constexpr std::string_view source = "choice, to the tuning of PC afferents in PMC2657072, table 1";
+    static constexpr double least_rate = 1000;  ///< Hz; below it the band is not in the samples
+    static constexpr Field<Params> fields[] = {
+        {"k", &Params::k, "A/N", 0, 1, "gain"},
+        {"f_hp", &Params::f_hp, "Hz", 1e-6, 1e6, "corner of the two high-passes"},
+        {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "corner of the low-pass"},
+    };
+    static constexpr int outputs = 1;
+    struct State {
+        T F, x_1, x_2, x_3, I;
+    };
+
+    template <class Values>
+    Vibration(const Values& value, double dt, Method method)
+        : k(value(&Params::k)), high(value(&Params::f_hp), dt, method), low(value(&Params::f_lp), dt, method),
+          hold(method == Method::exact) {}
+
+    State start(T F) const { return {F, T(0.0), T(0.0), T(0.0), T(0.0)}; }
+    void step(State& s, T F, Current<T> (&i)[outputs]) const {
+        const T before = s.I, x_1 = high.next(s.x_1, F - s.F), x_2 = high.next(s.x_2, x_1 - s.x_1), x_3 = low.next(s.x_3, x_2 - s.x_2);
+        s = {F, x_1, x_2, x_3, k * num::positive(x_2 - x_3)};  // a low-pass is what a high-pass leaves
+        i[0] = {hold ? before : s.I, s.I};
+    }
+
+private:
+    T k;
+    HighPass<T> high, low;
+    bool hold;
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,50 @@
+#pragma once
+// The boundary everything stands on: an afferent answers a block of force with spikes. Virtual once a block.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signal/error.hpp"
+#include "signal/spike.hpp"
+
+namespace corpuscle {
+
+/// An inner quantity that an afferent can show: a component of its current, its membrane.
+struct Probe {
+    std::string_view name, unit;
+};
+
+/// All that an afferent carries from block to block. Copy it to try twice; pack it to resume elsewhere.
+struct State {
+    std::string format;          ///< what the values mean, with its version: "sa1b+lif-b/1"
+    std::int64_t step = 0;       ///< samples answered so far
+    std::vector<double> values;  ///< SI
+};
+
+std::vector<std::byte> pack(const State&);
+Result<State> unpack(std::span<const std::byte>);
+
+/// Where an afferent puts its answer.
+struct Answer {
+    std::vector<Spike>& spikes;  ///< appended in time order; the unit is the caller's
+    std::uint32_t unit = 0;
+    /// If not empty: one array a probe, each as long as the block of force, to be filled.
+    std::span<double* const> probes = {};
+    std::int64_t capped = 0;  ///< steps whose spikes were more than the cap allows
+};
+
+class Afferent {
+public:
+    virtual ~Afferent() = default;
+    virtual std::span<const Probe> probes() const = 0;
+    /// The state before the first sample. The first sample also sets the force that went before it.
+    virtual State start() const = 0;
+    /// Answers the next block (force in newtons, one sample a T). Blocks of any size give the same spikes.
+    virtual Result<void> respond(std::span<const double> force, State&, Answer&) const = 0;
+};
+
+}  // namespace corpuscle

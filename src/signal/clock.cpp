@@ -1,0 +1,21 @@
+#include "signal/clock.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace corpuscle {
+
+Result<Clock> clock_of(double rate, double t0, double tolerance) {
+    if (!(rate >= 1e-6 && rate <= 1e12)) return bad_input(fmt::format("a rate of {:g} Hz is outside [1e-06, 1e+12]", rate));
+    // Continued fraction: p1/q1 are the convergents of the rate.
+    double x = rate, p0 = 1, q0 = 0, p1 = std::floor(x), q1 = 1;
+    while (std::abs(p1 / q1 - rate) > tolerance * rate) {
+        x = 1 / (x - std::floor(x));
+        const double p2 = std::floor(x) * p1 + p0, q2 = std::floor(x) * q1 + q0;
+        if (p2 > 1e15 || q2 > 1e15) break;
+        p0 = p1, q0 = q1, p1 = p2, q1 = q2;
+    }
+    return Clock{static_cast<std::int64_t>(p1), static_cast<std::int64_t>(q1), t0};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,48 @@
+#include "signal/field.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <numeric>
+
+namespace corpuscle {
+namespace {
+
+std::size_t edits_between(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; };
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t swapped = diagonal + (lower(a[i]) != lower(b[j]));
+            diagonal = std::exchange(row[j + 1], std::min({swapped, row[j] + 1, row[j + 1] + 1}));
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::optional<Error> outside(std::string_view of, const Row& row, double value) {
+    if (value >= row.low && value <= row.high) return {};
+    return bad_input(fmt::format("{}: {} = {:g}{}{} is outside [{:g}, {:g}]", of, row.name, value, row.unit.empty() ? "" : " ", row.unit,
+                                 row.low, row.high));
+}
+
+std::optional<Error> out_of_order(std::string_view of, std::string_view lesser, double less, std::string_view greater, double more,
+                                  bool or_equal) {
+    if (or_equal ? less <= more : less < more) return {};
+    return bad_input(
+        fmt::format("{}: {} = {:g} must {} {} = {:g}", of, lesser, less, or_equal ? "not be above" : "be below", greater, more));
+}
+
+std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names) {
+    if (typed.empty() || typed.size() > 64) return "";
+    std::string_view best;
+    std::size_t least = std::max<std::size_t>(1, typed.size() / 2) + 1;
+    for (const auto name : names)
+        if (const auto n = edits_between(typed, name); n < least) least = n, best = name;
+    return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
+}
+
+}  // namespace corpuscle

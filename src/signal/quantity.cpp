@@ -1,0 +1,147 @@
+#include "signal/quantity.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace corpuscle {
+namespace {
+
+struct Named {
+    std::string_view name;
+    Unit unit;
+};
+constexpr Named units[] = {
+    {"s", {1, 1, 0, 0, 0, 0}},    {"min", {60, 1, 0, 0, 0, 0}},        {"Hz", {1, -1, 0, 0, 0, 0}},     {"m", {1, 0, 1, 0, 0, 0}},
+    {"N", {1, 0, 0, 1, 0, 0}},    {"gf", {9.80665e-3, 0, 0, 1, 0, 0}}, {"V", {1, 0, 0, 0, 1, 0}},       {"A", {1, 0, 0, 0, 0, 1}},
+    {"ohm", {1, 0, 0, 0, 1, -1}}, {"Ohm", {1, 0, 0, 0, 1, -1}},        {"\u03a9", {1, 0, 0, 0, 1, -1}}, {"S", {1, 0, 0, 0, -1, 1}},
+    {"F", {1, 1, 0, 0, -1, 1}},   {"%", {0.01, 0, 0, 0, 0, 0}},        {"1", {1, 0, 0, 0, 0, 0}},
+};
+
+struct Prefix {
+    std::string_view text;
+    double factor;
+};
+constexpr Prefix prefixes[] = {{"f", 1e-15}, {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"\u00b5", 1e-6}, {"\u03bc", 1e-6},
+                               {"m", 1e-3},  {"k", 1e3},   {"M", 1e6},  {"G", 1e9},  {"T", 1e12}};
+
+std::string_view trimmed(std::string_view s) {
+    while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
+    while (!s.empty() && (s.back() == ' ' || s.back() == '\t')) s.remove_suffix(1);
+    return s;
+}
+
+std::optional<double> prefix_factor(std::string_view s) {
+    for (const auto& p : prefixes)
+        if (p.text == s) return p.factor;
+    return {};
+}
+
+std::optional<Unit> one_symbol(std::string_view s) {
+    for (const auto& u : units)
+        if (u.name == s) return u.unit;
+    for (const auto& p : prefixes)
+        if (s.starts_with(p.text))
+            for (const auto& u : units)
+                if (u.name == s.substr(p.text.size()) && u.name != "%" && u.name != "1" && u.name != "min") {
+                    Unit scaled = u.unit;
+                    scaled.factor *= p.factor;
+                    return scaled;
+                }
+    return {};
+}
+
+/// What a kind of quantity is called, for messages.
+std::string_view kind_of(const Unit& u) {
+    struct Kind {
+        std::string_view unit, name;
+    };
+    constexpr Kind kinds[] = {{"s", "a time"},        {"Hz", "a frequency"},  {"m", "a length"},       {"N", "a force"},
+                              {"V", "a voltage"},     {"A", "a current"},     {"ohm", "a resistance"}, {"S", "a conductance"},
+                              {"F", "a capacitance"}, {"", "a plain number"}, {"m/s", "a speed"}};
+    for (const auto& k : kinds)
+        if (parse_unit(k.unit)->same_kind(u)) return k.name;
+    return {};
+}
+
+Error wrong_unit(std::string_view text, std::string_view wanted, const std::optional<Unit>& found) {
+    const auto name = found ? kind_of(*found) : std::string_view{};
+    const auto said = name.empty() ? fmt::format("'{}' has another unit", text) : fmt::format("'{}' is {}", text, name);
+    return bad_input(wanted.empty() ? fmt::format("{}; a plain number is wanted", said)
+                                    : fmt::format("{}; {} is wanted, such as '2 {}'", said, wanted, wanted));
+}
+
+}  // namespace
+
+Result<Unit> parse_unit(std::string_view text) {
+    if (text.size() > 64) return bad_input("a unit of more than 64 letters");
+    Unit total;
+    double power = 1;
+    for (std::string_view rest = trimmed(text); !rest.empty();) {
+        const auto end = rest.find_first_of("/* \t");
+        const auto symbol = rest.substr(0, end);
+        const auto u = one_symbol(symbol);
+        if (!u) return bad_input(fmt::format("unknown unit '{}'", text));
+        const auto add = [&](signed char& to, signed char by) { to = static_cast<signed char>(to + (power > 0 ? by : -by)); };
+        total.factor *= power > 0 ? u->factor : 1 / u->factor;
+        add(total.second, u->second), add(total.metre, u->metre), add(total.newton, u->newton), add(total.volt, u->volt),
+            add(total.ampere, u->ampere);
+        if (end == std::string_view::npos) return total;
+        const auto next = rest.find_first_not_of(" \t", end);
+        if (next == std::string_view::npos) return bad_input(fmt::format("unit '{}' ends in nothing", text));
+        if (rest[next] == '/' || rest[next] == '*') {
+            power = rest[next] == '/' ? -1 : power;  // after a slash all that follows divides: V/s/A
+            if (rest[next] == '*') power = 1;
+            rest = trimmed(rest.substr(next + 1));
+            if (rest.empty()) return bad_input(fmt::format("unit '{}' ends in nothing", text));
+        } else {
+            rest = rest.substr(next);  // a blank multiplies: A s/N
+        }
+    }
+    return total;
+}
+
+Result<double> parse_quantity(std::string_view text, std::string_view unit) {
+    const auto t = trimmed(text);
+    const auto example = unit.empty() ? std::string("0.5") : fmt::format("2 {}", unit);
+    const auto* begin = t.data() + (t.starts_with('+') ? 1 : 0);
+    double value = 0;
+    const auto [end, status] = std::from_chars(begin, t.data() + t.size(), value);
+    if (status != std::errc{} || end == begin)
+        return bad_input(fmt::format("'{}' is no quantity; write a number and a unit, such as '{}'", text, example));
+    const auto written = trimmed(t.substr(static_cast<std::size_t>(end - t.data())));
+    const Unit wanted = *parse_unit(unit);
+    double factor = 1;
+    if (!written.empty()) {
+        const auto found = parse_unit(written);
+        if (found && found->same_kind(wanted)) {
+            factor = found->factor / wanted.factor;
+        } else if (const auto bare = prefix_factor(written)) {
+            factor = *bare;
+        } else if (!found) {
+            return bad_input(fmt::format("'{}': {}; {} is wanted, such as '{}'", text, found.error().sentence,
+                                         unit.empty() ? "a plain number" : unit, example));
+        } else {
+            return wrong_unit(text, unit, *found);
+        }
+    }
+    value *= factor;
+    if (!std::isfinite(value)) return bad_input(fmt::format("'{}' is not a finite number", text));
+    return value;
+}
+
+std::string format_quantity(double value, std::string_view unit) {
+    const bool prefixed = !unit.empty() && !unit.starts_with("1/") && value != 0 && std::isfinite(value);
+    constexpr std::string_view names[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
+    int i = 5;
+    if (prefixed) {
+        const auto rounded = std::abs(value) * (1 + 5e-5);  // 999.96 is 1 k, not 1000
+        i = std::clamp(static_cast<int>(std::floor(std::log10(rounded) / 3)) + 5, 0, 9);
+        value /= std::pow(10.0, 3 * (i - 5));
+    }
+    return fmt::format("{:.4g}{}{}{}", value, unit.empty() ? "" : " ", names[i], unit);
+}
+
+}  // namespace corpuscle

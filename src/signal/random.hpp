@@ -1,0 +1,35 @@
+#pragma once
+// Random numbers that depend on what they are for, not on who drew them: Philox 4x32-10 (Salmon et al., "Parallel random
+// numbers: as easy as 1, 2, 3", SC 2011). The key is the seed and the purpose, the counter says which draw.
+
+#include <array>
+#include <cstdint>
+
+#include "signal/elementary.hpp"
+
+namespace corpuscle {
+
+using Words = std::array<std::uint32_t, 4>;
+
+constexpr Words philox(Words counter, std::uint64_t key) {
+    auto k0 = static_cast<std::uint32_t>(key), k1 = static_cast<std::uint32_t>(key >> 32);
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t a = std::uint64_t{0xD2511F53} * counter[0], b = std::uint64_t{0xCD9E8D57} * counter[2];
+        counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ k0, static_cast<std::uint32_t>(b),
+                   static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ k1, static_cast<std::uint32_t>(a)};
+        k0 += 0x9E3779B9, k1 += 0xBB67AE85;
+    }
+    return counter;
+}
+
+/// Draw number `index` of a standard normal deviate for (seed, unit, purpose), by Box and Muller.
+inline double normal(std::uint64_t seed, std::uint32_t unit, std::uint32_t purpose, std::uint64_t index) {
+    const Words w = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), unit, purpose}, seed);
+    const auto unit_interval = [](std::uint32_t high, std::uint32_t low) {  // 53 bits, never 0
+        return (static_cast<double>((std::uint64_t{high} << 21) | (low >> 11)) + 0.5) * 0x1p-53;
+    };
+    const double u = unit_interval(w[0], w[1]), turns = unit_interval(w[2], w[3]);
+    return num::sqrt(-2.0 * num::log(u)) * num::cos_turns(turns);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,49 @@
+#pragma once
+// Where force comes from: a stimulus or a recording, read in blocks of samples.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "signal/clock.hpp"
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+/// One stream of force. The id and the name follow it to every output.
+struct Channel {
+    std::uint32_t id = 0;
+    std::string name;  ///< from the file's header or the stimulus; else ch1, ch2 ...
+};
+
+/// A stretch of time with a name, [from, to) in seconds: the phases of the thesis's experiment.
+struct Phase {
+    std::string name;
+    double from = 0, to = 0;
+};
+
+/// Samples of all channels over the same instants: force[channel][sample], newtons.
+struct Frames {
+    explicit Frames(std::size_t channels, std::size_t capacity) : force(channels, std::vector<double>(capacity)), capacity(capacity) {}
+    std::vector<std::vector<double>> force;
+    std::size_t capacity;
+    std::size_t count = 0;  ///< samples filled
+};
+
+class Source {
+public:
+    virtual ~Source() = default;
+    virtual const std::string& name() const = 0;
+    virtual const Clock& clock() const = 0;
+    virtual const std::vector<Channel>& channels() const = 0;
+    /// How much of it has been read, 0 to 1; for progress.
+    virtual double done() const = 0;
+    virtual std::vector<Phase> phases() const { return {}; }
+    /// What the user should know of how the source was read, in sentences.
+    virtual std::vector<std::string> remarks() const { return {}; }
+    /// Fills the next block; count 0 is the end.
+    virtual Result<void> read(Frames&) = 0;
+};
+
+}  // namespace corpuscle

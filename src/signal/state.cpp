@@ -1,0 +1,57 @@
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "signal/afferent.hpp"
+
+namespace corpuscle {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "packed states are little-endian");
+constexpr std::array<char, 8> magic = {'c', 'o', 'r', 'p', 's', 't', '1', '\n'};
+constexpr std::uint64_t longest = 1U << 26;  // of format text or values: far above any afferent, far below trouble
+
+template <class T>
+void put(std::vector<std::byte>& out, const T* data, std::size_t count) {
+    const auto* bytes = reinterpret_cast<const std::byte*>(data);
+    out.insert(out.end(), bytes, bytes + count * sizeof(T));
+}
+
+template <class T>
+bool take(std::span<const std::byte>& in, T* data, std::size_t count) {
+    if (in.size() < count * sizeof(T)) return false;
+    if (count > 0) std::memcpy(data, in.data(), count * sizeof(T));
+    in = in.subspan(count * sizeof(T));
+    return true;
+}
+
+}  // namespace
+
+std::vector<std::byte> pack(const State& s) {
+    std::vector<std::byte> out;
+    const std::array<std::uint64_t, 2> sizes = {s.format.size(), s.values.size()};
+    put(out, magic.data(), magic.size());
+    put(out, sizes.data(), sizes.size());
+    put(out, &s.step, 1);
+    put(out, s.format.data(), s.format.size());
+    put(out, s.values.data(), s.values.size());
+    return out;
+}
+
+Result<State> unpack(std::span<const std::byte> in) {
+    State s;
+    std::array<char, 8> head = {};
+    std::array<std::uint64_t, 2> sizes = {};
+    if (!take(in, head.data(), head.size()) || head != magic)
+        return bad_input("these bytes are no saved state of an afferent (they do not begin with 'corpst1')");
+    if (!take(in, sizes.data(), 2) || !take(in, &s.step, 1) || sizes[0] > longest || sizes[1] > longest ||
+        in.size() != sizes[0] + sizes[1] * sizeof(double))
+        return bad_input("a saved state of an afferent is cut short or too long");
+    s.format.resize(sizes[0]);
+    s.values.resize(sizes[1]);
+    take(in, s.format.data(), s.format.size());
+    take(in, s.values.data(), s.values.size());
+    return s;
+}
+
+}  // namespace corpuscle

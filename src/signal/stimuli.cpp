@@ -1,0 +1,118 @@
+#include "signal/stimuli.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+namespace corpuscle {
+namespace {
+
+/// One member of a sum, its type forgotten.
+struct Shape {
+    double duration = 0;
+    std::vector<Phase> phases;
+    std::function<double(double)> at;
+};
+
+template <class S>
+Shape shape_of(std::span<const Setting> settings, std::uint64_t seed) {
+    S s;
+    s.p = with<typename S::Params>(S::fields, settings);
+    if constexpr (requires { s.seed; }) s.seed = seed;
+    return {s.duration(), s.phases(), [s](double t) { return s.at(t); }};
+}
+
+template <class... S>
+std::optional<Shape> shape_named(StimulusList<S...>, std::string_view name, std::span<const Setting> settings, std::uint64_t seed) {
+    std::optional<Shape> found;
+    ((S::name == name ? (found = shape_of<S>(settings, seed), true) : false) || ...);
+    return found;
+}
+
+template <class... S>
+std::vector<Card> cards(StimulusList<S...>) {
+    return {card_of<S>()...};
+}
+
+std::vector<std::string_view> members(std::string_view text) {
+    std::vector<std::string_view> out;
+    for (;;) {
+        const auto plus = text.find('+');
+        out.push_back(text.substr(0, plus));
+        if (plus == std::string_view::npos) return out;
+        text.remove_prefix(plus + 1);
+    }
+}
+
+std::optional<Card> card_named(std::string_view name) {
+    for (auto& card : stimulus_cards())
+        if (card.name == name) return card;
+    return {};
+}
+
+class Sum final : public Source {
+    std::string name_;
+    Clock clock_;
+    std::vector<Shape> shapes_;
+    std::vector<Channel> channels_;
+    std::int64_t samples_, next_ = 0;
+
+public:
+    Sum(std::string name, Clock clock, std::vector<Shape> shapes, std::int64_t samples)
+        : name_(std::move(name)), clock_(clock), shapes_(std::move(shapes)), channels_{{0, name_}}, samples_(samples) {}
+    const std::string& name() const override { return name_; }
+    const Clock& clock() const override { return clock_; }
+    const std::vector<Channel>& channels() const override { return channels_; }
+    double done() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
+    std::vector<Phase> phases() const override {
+        for (const auto& s : shapes_)
+            if (!s.phases.empty()) return s.phases;
+        return {};
+    }
+    Result<void> read(Frames& block) override {
+        block.count = std::min<std::size_t>(block.capacity, static_cast<std::size_t>(samples_ - next_));
+        for (std::size_t k = 0; k < block.count; ++k) {
+            const double t = clock_.time(next_++);
+            double force = 0;
+            for (const auto& s : shapes_) force += s.at(t);
+            block.force[0][k] = force;
+        }
+        return {};
+    }
+};
+
+}  // namespace
+
+std::vector<Card> stimulus_cards() { return cards(Stimuli{}); }
+
+bool is_stimulus(std::string_view text) {
+    const auto names = members(text);
+    return std::all_of(names.begin(), names.end(), [](auto n) { return card_named(n).has_value(); });
+}
+
+Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> wishes, double rate, std::uint64_t seed) {
+    const auto clock = clock_of(rate);
+    if (!clock) return clock.error();
+    std::vector<Shape> shapes;
+    double duration = 0;
+    for (const auto name : members(text)) {
+        const auto card = card_named(name);
+        if (!card) {
+            std::vector<std::string_view> names;
+            for (const auto& c : stimulus_cards()) names.push_back(c.name);
+            return bad_input(fmt::format("unknown stimulus '{}'{}", name, did_you_mean(name, names)));
+        }
+        const auto settings = settings_for(name, card->rows, wishes);
+        if (!settings) return settings.error();
+        shapes.push_back(*shape_named(Stimuli{}, name, *settings, seed));
+        duration = std::max(duration, shapes.back().duration);
+    }
+    const double samples = std::round(duration * clock->rate());
+    if (!(samples >= 1)) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is not one sample", text, duration, rate));
+    if (samples > 1e15) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is more than 1e15 samples", text, duration, rate));
+    return std::unique_ptr<Source>(std::make_unique<Sum>(std::string(text), *clock, std::move(shapes), static_cast<std::int64_t>(samples)));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,98 @@
+#pragma once
+// Touches: a finger is pressed and let go.
+
+#include <vector>
+
+#include "signal/elementary.hpp"
+#include "signal/field.hpp"
+#include "signal/source.hpp"
+
+namespace corpuscle {
+
+/// How far a movement that begins at `from` and takes `length` has come at t: 0 before, 1 after, even between.
+inline double progress(double t, double from, double length) {
+    if (t < from) return 0;
+    return t < from + length ? (t - from) / length : 1;
+}
+
+/// Five stretches of time that follow each other; the names are those of the thesis's section 1.2.
+inline std::vector<Phase> five_phases(double rest, double up, double hold, double down, double post) {
+    const double a = rest, b = a + up, c = b + hold, d = c + down, e = d + post;
+    return {{"rest", 0, a}, {"protraction", a, b}, {"plateau", b, c}, {"retraction", c, d}, {"post", d, e}};
+}
+
+/// The thesis's experiment (1.2, after Birznieks et al. 2001): half a cosine up, hold, half a cosine down.
+///     F = F_min + (F_max - F_min) (1 - cos(pi x)) / 2,   x = (t - t_rest) / t_up
+struct Press {
+    struct Params {
+        double F_min = 0.2, F_max = 4, t_rest = 0.25, t_up = 0.125, t_hold = 0.25, t_down = 0.125, t_post = 0.25;
+    };
+    static constexpr std::string_view name = "press",
+                                      sentence = "the fingertip experiment of the thesis: half-cosine up, hold, half-cosine down";
+    static constexpr std::string_view source = "thesis 1.2; Birznieks et al. 2001, J Neurosci 21:8222";
+    static constexpr Field<Params> fields[] = {
+        {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
+        {"F_max", &Params::F_max, "N", 0, 1e3, "force of the plateau"},
+        {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before protraction"},
+        {"t_up", &Params::t_up, "s", 0, 1e5, "length of protraction"},
+        {"t_hold", &Params::t_hold, "s", 0, 1e5, "length of the plateau"},
+        {"t_down", &Params::t_down, "s", 0, 1e5, "length of retraction", "by symmetry with t_up; thesis 1.2 prints 250 ms"},
+        {"t_post", &Params::t_post, "s", 0, 1e5, "time after retraction", "choice: one press lasts 1.0 s"},
+    };
+    Params p;
+    double duration() const { return p.t_rest + p.t_up + p.t_hold + p.t_down + p.t_post; }
+    std::vector<Phase> phases() const { return five_phases(p.t_rest, p.t_up, p.t_hold, p.t_down, p.t_post); }
+    double at(double t) const {
+        const double up = progress(t, p.t_rest, p.t_up), down = progress(t, p.t_rest + p.t_up + p.t_hold, p.t_down);
+        const double x = down > 0 ? 1 - down : up;
+        return p.F_min + (p.F_max - p.F_min) * 0.5 * (1 - num::cos_turns(0.5 * x));
+    }
+};
+
+/// Straight ramps with a hold between: Kim's and most physiologists' stimulus.
+struct RampHold {
+    struct Params {
+        double F_min = 0, F_max = 1, t_rest = 0.25, t_up = 0.1, t_hold = 1, t_down = 0.1, t_post = 0.25;
+    };
+    static constexpr std::string_view name = "ramp-hold", sentence = "straight ramp up, hold, straight ramp down", source = "choice";
+    static constexpr Field<Params> fields[] = {
+        {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
+        {"F_max", &Params::F_max, "N", 0, 1e3, "force of the hold"},
+        {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before the ramp"},
+        {"t_up", &Params::t_up, "s", 0, 1e5, "length of the ramp up"},
+        {"t_hold", &Params::t_hold, "s", 0, 1e5, "length of the hold"},
+        {"t_down", &Params::t_down, "s", 0, 1e5, "length of the ramp down"},
+        {"t_post", &Params::t_post, "s", 0, 1e5, "time after the ramp down"},
+    };
+    Params p;
+    double duration() const { return p.t_rest + p.t_up + p.t_hold + p.t_down + p.t_post; }
+    std::vector<Phase> phases() const { return five_phases(p.t_rest, p.t_up, p.t_hold, p.t_down, p.t_post); }
+    double at(double t) const {
+        return p.F_min + (p.F_max - p.F_min) * (progress(t, p.t_rest, p.t_up) - progress(t, p.t_rest + p.t_up + p.t_hold, p.t_down));
+    }
+};
+
+/// From one force to another at once, and back (thesis fig. 3).
+struct Step {
+    struct Params {
+        double F_min = 0, F_max = 1, t_rest = 0.25, t_hold = 0.5, t_post = 0.25;
+    };
+    static constexpr std::string_view name = "step", sentence = "force switched on and off",
+                                      source = "choice; thesis fig. 3 shows the shape";
+    static constexpr Field<Params> fields[] = {
+        {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
+        {"F_max", &Params::F_max, "N", 0, 1e3, "force of the hold"},
+        {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before the step"},
+        {"t_hold", &Params::t_hold, "s", 0, 1e5, "length of the hold"},
+        {"t_post", &Params::t_post, "s", 0, 1e5, "time after the step back"},
+    };
+    Params p;
+    double duration() const { return p.t_rest + p.t_hold + p.t_post; }
+    std::vector<Phase> phases() const {
+        const double on = p.t_rest, off = on + p.t_hold;
+        return {{"rest", 0, on}, {"hold", on, off}, {"post", off, off + p.t_post}};
+    }
+    double at(double t) const { return t >= p.t_rest && t < p.t_rest + p.t_hold ? p.F_max : p.F_min; }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,84 @@
+#include "study/summary.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "signal/version.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string key_of(const Measure& m) { return m.unit.empty() ? std::string(m.name) : std::string(m.name) + "_" + std::string(m.unit); }
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json afferent_document(const AfferentPlan& plan) {
+    Json parameters = Json::object();
+    for (const auto& p : plan.parameters)
+        parameters[std::string(p.row.name)] = {{"value", p.value}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+    return {{"name", plan.name}, {"transduction", plan.receptor}, {"neuron", plan.neuron}, {"parameters", parameters}};
+}
+
+Json input_document(const Summary::InputFacts& input) {
+    Json phases = Json::array();
+    for (const auto& p : input.phases) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
+    return {{"name", input.name},         {"samples", input.samples}, {"rate_Hz", input.clock.rate()}, {"t0_s", input.clock.t0},
+            {"channels", input.channels}, {"phases", phases},         {"remarks", input.remarks}};
+}
+
+Json row_document(const RateRow& row) {
+    Json out = {{"afferent", row.afferent}, {"channel", row.channel}, {"phase", row.phase}};
+    for (std::size_t m = 0; m < std::size(measures); ++m)
+        out[key_of(measures[m])] = measures[m].of == spike_count ? Json(static_cast<std::int64_t>(row.values[m])) : number(row.values[m]);
+    return out;
+}
+
+}  // namespace
+
+Result<void> Summary::begin(const Input& input) {
+    InputFacts facts{input.source.name(), input.source.clock(), 0, {}, input.source.remarks(), input.source.phases()};
+    for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
+    inputs_.push_back(std::move(facts));
+    trains_.assign(input.units(), {});
+    return {};
+}
+
+Result<void> Summary::block(const Input& input, const Answered& answered) {
+    for (const auto& s : answered.spikes) trains_[s.unit - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
+    return {};
+}
+
+Result<void> Summary::end(const Input& input, std::int64_t samples) {
+    auto& facts = inputs_.back();
+    facts.samples = samples;
+    auto phases = facts.phases;
+    if (phases.empty()) phases = {{"all", facts.clock.t0, facts.clock.time(samples)}};
+    for (std::size_t u = 0; u < input.units(); ++u)
+        for (const auto& phase : phases) {
+            RateRow row{input.afferent_of(u).name, facts.channels[input.channel_of(u)], phase.name, {}};
+            for (const auto& m : measures) row.values.push_back(m.of(Stretch(trains_[u], phase)));
+            rows_.push_back(std::move(row));
+        }
+    return {};
+}
+
+Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work, const RespondOptions& options, std::uint64_t seed,
+                       const std::vector<std::string>& warnings) const {
+    Json out = {{"program", "corpuscle"}, {"version", version}};
+    out["options"] = {
+        {"method", options.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", options.sampled}, {"seed", seed}};
+    out["afferents"] = Json::array();
+    for (const auto& a : afferents) out["afferents"].push_back(afferent_document(a));
+    out["inputs"] = Json::array();
+    for (const auto& i : inputs_) out["inputs"].push_back(input_document(i));
+    out["rates"] = Json::array();
+    for (const auto& r : rows_) out["rates"].push_back(row_document(r));
+    out["work"] = {
+        {"samples", work.samples}, {"afferent_steps", work.afferent_steps}, {"spikes", work.spikes}, {"capped_steps", work.capped_steps}};
+    out["warnings"] = warnings;
+    return out;
+}
+
+}  // namespace corpuscle
