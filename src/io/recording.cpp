@@ -145,6 +145,8 @@ class Recording final : public Source {
                 return here(fmt::format("no column '{}' to take as time; give its name, its number or 'none'", *options_.time));
         }
         if (!time_) return {};
+        if (!options_.time && table_->time_is_guessed())
+            remarks_.push_back("no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
         const auto unit = seconds_per_unit(table_->columns()[*time_], path_);
         if (!unit) return unit.error();
         time_unit_ = *unit;

@@ -20,8 +20,10 @@ class Table {
 public:
     virtual ~Table() = default;
     virtual const std::vector<Column>& columns() const = 0;
-    /// Which column is the time, if the file shows it.
+    /// Which column is the time, if the file shows it ...
     virtual std::optional<std::size_t> time_column() const = 0;
+    /// ... by its name, or only by how it runs.
+    virtual bool time_is_guessed() const = 0;
     /// Reads up to `rows` rows of the columns `wanted` into out[i]; fewer than asked for only at the end.
     virtual Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) = 0;
     virtual Result<void> rewind() = 0;

@@ -171,6 +171,7 @@ public:
 
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return time_; }
+    bool time_is_guessed() const override { return time_ && !header_; }
     double done() const override { return lines_.done(); }
     Place place(std::size_t row) const override { return {lines_.path(), row < numbers_.size() ? numbers_[row] : 0}; }
 

@@ -11,15 +11,12 @@ std::vector<Card> cards(ModelList<M...>) {
     return {card_of<M<double>>()...};
 }
 
-/// Calls f with a tag of the member that has this name; false if none has.
-template <template <class> class M>
-struct Tag {
-    template <class T>
-    using Of = M<T>;
-};
-template <template <class> class... M, class F>
-bool with_named(ModelList<M...>, std::string_view name, const F& f) {
-    return ((M<double>::name == name ? (f(Tag<M>{}), true) : false) || ...);
+/// Calls f with the member that has this name.
+template <class List, class F>
+void with_named(List list, std::string_view name, const F& f) {
+    each(list, [&]<template <class> class M>(Model<M> m) {
+        if (M<double>::name == name) f(m);
+    });
 }
 
 const Card* card_named(const std::vector<Card>& cards, std::string_view name) {
@@ -127,9 +124,9 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
         if (plan.name == text) break;
     }
     std::optional<Error> wrong;
-    with_named(Neurons{}, plan.neuron, [&]<template <class> class N>(Tag<N>) { wrong = out_of_order<N<double>>(plan); });
+    with_named(Neurons{}, plan.neuron, [&]<template <class> class N>(Model<N>) { wrong = out_of_order<N<double>>(plan); });
     if (wrong) return *wrong;
-    with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Tag<R>) {
+    with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
         if constexpr (requires { R<double>::least_rate; }) plan.least_rate = R<double>::least_rate;
     });
     return plan;
@@ -138,8 +135,8 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
 std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Run& run) {
     const auto settings = settings_of(plan);
     std::unique_ptr<Afferent> made;
-    with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Tag<R>) {
-        with_named(Neurons{}, plan.neuron, [&]<template <class> class N>(Tag<N>) {
+    with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
+        with_named(Neurons{}, plan.neuron, [&]<template <class> class N>(Model<N>) {
             const auto r = with<typename R<double>::Params>(R<double>::fields, settings);
             const auto n = with<typename N<double>::Params>(N<double>::fields, settings);
             made = std::make_unique<Chain<R, N>>(r, n, run);

@@ -23,6 +23,13 @@ namespace corpuscle {
 
 template <template <class> class... M>
 struct ModelList {};
+/// A model without its kind of number, to be handed to a function.
+template <template <class> class M>
+struct Model {};
+template <template <class> class... M, class F>
+void each(ModelList<M...>, const F& f) {
+    (f(Model<M>{}), ...);
+}
 
 using Receptors = ModelList<Sa1a, Sa1b, Fa1a, Fa1b, Vibration>;
 using Neurons = ModelList<LifA, LifB, Adaptive, Izhikevich, Adex>;

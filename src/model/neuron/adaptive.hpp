@@ -13,8 +13,7 @@ namespace corpuscle {
 /// (A threshold that sinks onto a resting membrane does not fire: without leak that would answer a touch long gone.)
 /// Lee et al. 2016 as the thesis tells it (3.1: no leak, "an adaptive threshold potential"); no equation and no value is
 /// printed, so the equations above and all defaults are our choice. Both methods integrate it exactly under the current they give.
-template <class T>
-struct Adaptive {
+struct AdaptiveFacts {
     struct Params {
         double C_m = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, dV_th = 0.1, tau_th = 50e-3, t_ref = 0;
     };
@@ -34,6 +33,10 @@ struct Adaptive {
         {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
     };
     static constexpr Probe parts[] = {{"u", "V"}, {"theta", "V"}};
+};
+
+template <class T>
+struct Adaptive : AdaptiveFacts {
     struct State {
         T u, a, wait;  // membrane; threshold above V_th; what is left of t_ref, in steps
     };

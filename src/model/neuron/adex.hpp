@@ -11,8 +11,7 @@ namespace corpuscle {
 ///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
 ///     v > V_peak  =>  spike, then v = V_reset and w = w + b
 /// The exponential is not followed above V_peak. Both methods use the same substeps. No refractory time: adaptation is w's part.
-template <class T>
-struct Adex {
+struct AdexFacts {
     struct Params {
         double C_m = 281e-12, g_L = 30e-9, E_L = -70.6e-3, V_T = -50.4e-3, Delta_T = 2e-3, a = 4e-9, b = 80.5e-12, tau_w = 144e-3;
         double V_peak = -40.4e-3, V_reset = -70.6e-3, gain = 3e-4, substep = 20e-6;
@@ -39,6 +38,10 @@ struct Adex {
         {"E_L", &Params::E_L, "V_T", &Params::V_T},
     };
     static constexpr Probe parts[] = {{"v", "V"}, {"w", "A"}};
+};
+
+template <class T>
+struct Adex : AdexFacts {
     struct State {
         T v, w;
     };

@@ -11,8 +11,7 @@ namespace corpuscle {
 ///     v > V_peak  =>  spike, then v = c and w = w + d
 /// The paper's 0.04, 5, 140 in mV and ms are these; its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
 /// Both methods use the same substeps. No refractory time: recovery is w's part. Named in thesis 3.2 for adaptation.
-template <class T>
-struct Izhikevich {
+struct IzhikevichFacts {
     struct Params {
         double a = 20, b = 200, c = -65e-3, d = 8, V_peak = 30e-3, gain = 2.5e6, substep = 20e-6;
     };
@@ -31,6 +30,10 @@ struct Izhikevich {
         {"c", &Params::c, "V_peak", &Params::V_peak},
     };
     static constexpr Probe parts[] = {{"v", "V"}, {"w", "V/s"}};
+};
+
+template <class T>
+struct Izhikevich : IzhikevichFacts {
     struct State {
         T v, w;
     };

@@ -10,10 +10,9 @@ namespace corpuscle {
 /// LIF-A, the leaky integrate-and-fire neuron with a resistor, integrated exactly under a straight-line current:
 ///     R_m C_m du/dt = -(u - E_L) + R_m I;   u > V_th  =>  spike, then u = V_reset for t_ref
 /// (thesis eq. 5, Alg. 3.) Backward Euler is the algorithm itself, u[n] = k_a I[n] + k_b u[n-1] + k_c with the errata's
-/// k_a = R/(1 + RC/T), k_b = (RC/T)/(1 + RC/T), k_c = E_L/(1 + RC/T); a spike then subtracts V_th - V_reset, and t_ref ends
-/// on a sample. A peak of u inside a step that has fallen below V_th again at its end is not seen.
-template <class T>
-struct LifA {
+/// k_a = R/(1 + RC/T), k_b = (RC/T)/(1 + RC/T), k_c = E_L/(1 + RC/T); a spike then subtracts V_th - V_reset; with a t_ref,
+/// which ends on a sample, it sets V_reset. A peak of u inside a step that has fallen below V_th again at its end is not seen.
+struct LifAFacts {
     struct Params {
         double C_m = 500e-9, R_m = 1e6, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
     };
@@ -32,6 +31,10 @@ struct LifA {
         {"E_L", &Params::E_L, "V_th", &Params::V_th},
     };
     static constexpr Probe parts[] = {{"u", "V"}};
+};
+
+template <class T>
+struct LifA : LifAFacts {
     struct State {
         T u, wait;  // membrane; what is left of t_ref, in steps
     };
@@ -99,9 +102,10 @@ private:
         s.u = end;
         auto over = s.u > V_th;
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
-            fired(over, offset_from((level - before) / num::select(over, end - before, T(1.0)), T(0.0)));
-            s.u = num::select(over, s.u - drop, s.u);
-            s.wait = num::select(over, ref, s.wait);
+            const T x = offset_from((level - before) / num::select(over, end - before, T(1.0)), T(0.0));
+            fired(over, x);
+            s.u = num::select(over, num::select(ref > T(0.0), V_reset, s.u - drop), s.u);
+            s.wait = num::select(over, num::positive(x + ref - T(1.0)), s.wait);
             level = level + drop;
             over = over & (s.u > V_th);
         }

@@ -11,8 +11,7 @@ namespace corpuscle {
 ///     C_m du/dt = I - I_leak0 above E_L, u held at E_L when I < I_leak0;   u > V_th  =>  spike, then u = V_reset for t_ref
 /// (thesis eq. 6, 7, Alg. 4; errata: u[n-1], not u_rest, is what the algorithm adds to. C, theta, u_rst, u_rest there.)
 /// A peak of u inside a step that has fallen below V_th again at its end is not seen.
-template <class T>
-struct LifB {
+struct LifBFacts {
     struct Params {
         double C_m = 500e-9, I_leak0 = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
     };
@@ -31,6 +30,10 @@ struct LifB {
         {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
     };
     static constexpr Probe parts[] = {{"u", "V"}};
+};
+
+template <class T>
+struct LifB : LifBFacts {
     struct State {
         T u, wait;  // membrane; what is left of t_ref, in steps
     };

@@ -8,8 +8,7 @@ namespace corpuscle {
 
 /// FA-IA, Lee et al. 2016:   I_+ = k max{F', 0},   I_- = k max{-F', 0}, each to a neuron of its own; their spikes are one train.
 /// (thesis eq. 2 to 4, Alg. 2; errata: the test is on F[n] - F[n-1], and a gain k turns N/s into A.)
-template <class T>
-struct Fa1a {
+struct Fa1aFacts {
     struct Params {
         double k = 100e-9;
     };
@@ -20,6 +19,10 @@ struct Fa1a {
     };
     static constexpr int outputs = 2;
     static constexpr std::string_view signs[] = {"+", "-"};
+};
+
+template <class T>
+struct Fa1a : Fa1aFacts {
     struct State {
         T F;
     };

@@ -8,8 +8,7 @@ namespace corpuscle {
 
 /// FA-IB, the thesis's proposal:   I = k_A max{I_0, 0} + k_B max{-I_0, 0},   I_0' + 2 pi f I_0 = F'
 /// (thesis 3.4, Alg. 6; errata: falling force excites too, the printed sign would silence it. I_0 is in newtons.)
-template <class T>
-struct Fa1b {
+struct Fa1bFacts {
     struct Params {
         double k_A = 3.5e-6, k_B = 2.75e-6, f = 2;
     };
@@ -22,6 +21,10 @@ struct Fa1b {
     };
     static constexpr int outputs = 1;
     static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}};
+};
+
+template <class T>
+struct Fa1b : Fa1bFacts {
     struct State {
         T F, x, I;  // x: high-passed force I_0, N
     };

@@ -8,8 +8,7 @@ namespace corpuscle {
 
 /// SA-IA, Kim et al. 2012:   I = beta + k_s F + k_d |F'|      (thesis eq. 1, Alg. 1; errata: differences divided by T)
 /// A slope is known only over a step, so the dynamic part is constant in it.
-template <class T>
-struct Sa1a {
+struct Sa1aFacts {
     struct Params {
         double beta = 0, k_s = 1e-6, k_d = 100e-9;
     };
@@ -22,6 +21,10 @@ struct Sa1a {
     };
     static constexpr int outputs = 1;
     static constexpr Probe parts[] = {{"I_s", "A"}, {"I_d", "A"}};
+};
+
+template <class T>
+struct Sa1a : Sa1aFacts {
     struct State {
         T F, I_d;
     };

@@ -9,8 +9,7 @@ namespace corpuscle {
 /// SA-IB, the thesis's proposal:   I = k_A F + max{I_B, 0} + max{I_C, 0},   I_x' + 2 pi f_x I_x = K_x F'
 /// (thesis eq. 8 to 12, Alg. 5; the signs and names of Alg. 5 as its errata give them: I_x[n] = k_x2 (K_x dF + I_x[n-1]).)
 /// Between samples the current is taken as a straight line: the error of a spike time falls with T^2.
-template <class T>
-struct Sa1b {
+struct Sa1bFacts {
     struct Params {
         double k_A = 1e-6, K_B = 8e-6, f_B = 20, K_C = 2e-6, f_C = 2;
     };
@@ -27,6 +26,10 @@ struct Sa1b {
     };
     static constexpr int outputs = 1;
     static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
+};
+
+template <class T>
+struct Sa1b : Sa1bFacts {
     struct State {
         T F, x_B, x_C, I;  // x: high-passed force, N
     };

@@ -10,8 +10,7 @@ namespace corpuscle {
 ///     |x / F| = f^2 / (f^2 + f_hp^2) * f_lp / sqrt(f^2 + f_lp^2), greatest at sqrt(2) f_hp for f_lp = f_hp
 /// Our choice, for a class the thesis names but does not model; it gives the tuning of Pacinian corpuscles (best at 200 to
 /// 300 Hz, deaf to slow force), not their mechanics. Each section sees the one before as straight lines between samples.
-template <class T>
-struct Vibration {
+struct VibrationFacts {
     struct Params {
         double k = 400e-6, f_hp = 180, f_lp = 180;
     };
@@ -24,6 +23,10 @@ struct Vibration {
         {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "corner of the low-pass"},
     };
     static constexpr int outputs = 1;
+};
+
+template <class T>
+struct Vibration : VibrationFacts {
     struct State {
         T F, x_1, x_2, x_3, I;
     };

@@ -1,0 +1,249 @@
+// Recordings in every style people have them, and the sentences for those that cannot be read.
+
+#include "io/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/clock_check.hpp"
+#include "io/formats.hpp"
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+
+struct Read {
+    std::vector<std::string> names, remarks;
+    std::vector<std::vector<double>> force;
+    Clock clock;
+};
+
+Result<Read> try_read(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
+    auto source = open_recording(path, options);
+    if (!source) return source.error();
+    Read out{{}, {}, {}, (*source)->clock()};
+    for (const auto& c : (*source)->channels()) out.names.push_back(c.name);
+    out.force.resize(out.names.size());
+    for (Frames frames(out.names.size(), block);;) {
+        if (auto ok = (*source)->read(frames); !ok) return ok.error();
+        if (frames.count == 0) break;
+        for (std::size_t c = 0; c < out.force.size(); ++c) out.force[c].insert(out.force[c].end(), frames.force[c].begin(), frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
+    }
+    out.remarks = (*source)->remarks();
+    return out;
+}
+
+Read read(const std::string& path, const RecordingOptions& options = {}) { return test::sure(try_read(path, options)); }
+
+/// What is said of a file that cannot be read, with its path taken out.
+std::string said(const Folder& folder, const std::string& text, const RecordingOptions& options = {}) {
+    const auto path = folder.write("x.csv", text);
+    const auto made = try_read(path, options);
+    if (made) return "read";
+    auto sentence = made.error().text();
+    if (const auto at = sentence.find(path); at != std::string::npos) sentence.replace(at, path.size(), "x.csv");
+    return sentence;
+}
+
+using Rows = std::vector<std::vector<double>>;
+
+TEST(Recording, IsReadInEveryStyle) {
+    const struct {
+        const char *style, *text;
+        RecordingOptions options;
+        std::vector<std::string> names;
+        double rate;
+        Rows force;
+    } cases[] = {
+        {"commas and a header with units", "time_s,fz_N,fy_mN\n0,1,2000\n0.001,1.5,2500\n0.002,2,3000\n", {}, {"fz", "fy"}, 1000, {{1, 1.5, 2}, {2, 2.5, 3}}},
+        {"units in brackets", "Time [ms],Fz [N],\"F, left (mN)\"\n0,1,2000\n1,1.5,2500\n2,2,3000\n", {}, {"Fz", "F, left"}, 1000, {{1, 1.5, 2}, {2, 2.5, 3}}},
+        {"tabs without header, the time first", "0.0000\t1\t3\n0.0100\t2\t4\n0.0200\t3\t5\n", {}, {"ch1", "ch2"}, 100, {{1, 2, 3}, {3, 4, 5}}},
+        {"blanks, no time", "1 3\n7 4\n3 5\n", {.rate = 50}, {"ch1", "ch2"}, 50, {{1, 7, 3}, {3, 4, 5}}},
+        {"blanks about commas, milliseconds not from 0", "timestamp_ms, a, b\n421419, 3, 9\n421439, 4, 8\n421459, 5, 7\n", {}, {"a", "b"}, 50, {{3, 4, 5}, {9, 8, 7}}},
+        {"semicolons and decimal commas", "t;F_N\n0,0;1,5\n0,5;2,5\n1,0;3,5\n", {}, {"F"}, 2, {{1.5, 2.5, 3.5}}},
+        {"Windows line ends, a byte-order mark, no last line end", "\xef\xbb\xbft,F_gf\r\n0,100\r\n1,200", {}, {"F"}, 1, {{0.980665, 1.96133}}},
+        {"comments and blank lines", "# a cell\n\nt,F\n0,1\n% later\n1,2\n\n", {}, {"F"}, 1, {{1, 2}}},
+        {"one column", "1\n2\n3\n", {.rate = 10}, {"ch1"}, 10, {{1, 2, 3}}},
+        {"counts with a scale, absolute", "Fz,emg0\n-4,1\n6,2\n", {.channels = {"Fz"}, .rate = 10, .scale = 0.5, .absolute = true}, {"Fz"}, 10, {{2, 3}}},
+        {"a unit by option", "F\n1\n2\n", {.rate = 10, .unit = "kgf"}, {"F"}, 10, {{9.80665, 19.6133}}},
+        {"signs and exponents", "t,F_N\n0,+1e0\n1,-2.5E-1\n2,.5\n", {}, {"F"}, 1, {{1, -0.25, 0.5}}},
+    };
+    for (const auto& c : cases) {
+        const Folder folder;
+        const auto made = try_read(folder.write("x.csv", c.text), c.options);
+        ASSERT_TRUE(made) << c.style << ": " << made.error().text();
+        EXPECT_EQ(made->names, c.names) << c.style;
+        EXPECT_NEAR(made->clock.rate(), c.rate, 1e-9) << c.style;
+        ASSERT_EQ(made->force.size(), c.force.size()) << c.style;
+        for (std::size_t k = 0; k < c.force.size(); ++k) {
+            ASSERT_EQ(made->force[k].size(), c.force[k].size()) << c.style;
+            for (std::size_t n = 0; n < c.force[k].size(); ++n) EXPECT_NEAR(made->force[k][n], c.force[k][n], 1e-12) << c.style;
+        }
+    }
+}
+
+TEST(Recording, ChannelsAreChosenByNameNumberAndRange) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "time_s,a_N,b_N,c_N,d_N\n0,1,2,3,4\n1,5,6,7,8\n");
+    const auto names = [&](std::vector<std::string> channels) { return read(path, {.channels = channels}).names; };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names({}), (Names{"a", "b", "c", "d"}));
+    EXPECT_EQ(names({"c", "a_N"}), (Names{"c", "a"}));
+    EXPECT_EQ(names({"2-3,1"}), (Names{"b", "c", "a"}));
+    EXPECT_EQ(names({"b", "2"}), (Names{"b"}));
+    EXPECT_EQ(said(folder, "time_s,fz_N\n0,1\n1,2\n", {.channels = {"fx"}}), "x.csv: no channel 'fx'; did you mean 'fz'?; there are 1: fz");
+    EXPECT_EQ(said(folder, "time_s,fz_N\n0,1\n1,2\n", {.channels = {"1-3"}}), "x.csv: no channel '1-3'; there are 1: fz");
+}
+
+TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
+    const Folder folder;
+    EXPECT_EQ(said(folder, ""), "x.csv: no data in this file");
+    EXPECT_EQ(said(folder, "# only this\n"), "x.csv: no data in this file");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,x\n"), "x.csv:3:3: column 'F': 'x' where a number should be");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number should be");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': nothing where a number should be");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 should be");
+    EXPECT_EQ(said(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}), "x.csv: 'ch1' is read as mV, which is no force; say --scale S, so that what is read times S is newtons");
+    EXPECT_EQ(said(folder, "F_nm\n1\n", {.rate = 10}), "x.csv: 'F' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header is wrong)");
+    EXPECT_EQ(said(folder, "F\n1\n2\n"), "x.csv: there is no time column; say --rate, such as --rate 1kHz");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n2,1\n1,1\n"), "x.csv:4: time goes back, from 2 s to 1 s; --rate takes the rows as evenly spaced");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n"), "x.csv: one sample has no rate of its own; say --rate, such as --rate 1kHz");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n"), "x.csv: the times in 't' do not advance; say --rate, such as --rate 1kHz");
+    EXPECT_EQ(said(folder, "t_N,F\n0,1\n1,1\n"), "x.csv: the time column 't' is in 'N', which is no time; --time names another, or none");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,1\n", {.time = "z"}), "x.csv: no column 'z' to take as time; give its name, its number or 'none'");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}), "--unit and --scale both say what is read: give one");
+    EXPECT_EQ(try_read(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
+    EXPECT_EQ(try_read(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
+}
+
+TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
+    const Folder folder;
+    const std::string bursts = "time_s,F_N\n0,0\n0.001,1\n0.002,2\n0.003,3\n0.1,4\n0.101,5\n0.102,6\n0.2,7\n";
+    EXPECT_EQ(said(folder, bursts).substr(0, 150), "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, samples off their place by up to 82.71 ms. Say --rate 35H");
+    const auto path = folder / "x.csv";
+    const auto even = read(path, {.rate = 35});
+    EXPECT_EQ(even.force[0], (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
+    EXPECT_EQ(even.remarks.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were replaced by an even clock of 35 Hz");
+    const auto between = read(path, {.resample = 20});
+    ASSERT_EQ(between.force[0].size(), 5U);
+    const double right[] = {0, 3 + 47.0 / 97, 4, 6 + 48.0 / 98, 7};
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(between.force[0][static_cast<std::size_t>(k)], right[k], 1e-9);
+    EXPECT_EQ(between.remarks.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}), "x.csv:3: the time 0 s stands twice; --rate takes the rows as evenly spaced");
+}
+
+TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
+    const Folder folder;
+    std::string text = "time_s,F_N\n";
+    for (int k = 0; k < 2000; ++k) text += fmt::format("{:.3f},{}\n", k / 242.6, k);  // to the millisecond
+    const auto made = read(folder.write("x.csv", text));
+    EXPECT_NEAR(made.clock.rate(), 242.6, 0.03);
+    EXPECT_EQ(made.force[0].size(), 2000U);
+    text = "t,F\n";
+    for (int k = 0; k < 1000; ++k) text += fmt::format("{:.4f},{}\n", 5 + k * 0.01 + (k % 3 == 1 ? 1e-4 : 0), k);
+    EXPECT_EQ(read(folder.write("y.csv", text)).clock.rate(), 100);
+    EXPECT_EQ(read(folder / "y.csv").clock.t0, 5);
+}
+
+TEST(Recording, WhatTheClockSaysAgainstTheRateIsTold) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "time_s,F\n0,1\n0.01,2\n0.02,3\n");
+    EXPECT_EQ(read(path).remarks.at(0), "no unit in the file: taken as newtons");
+    EXPECT_EQ(read(path, {.rate = 50}).remarks.at(0), "--rate says 50 Hz, the times in 'time' say 100 Hz on the mean");
+}
+
+TEST(Recording, ResampledAtItsOwnRateIsItself) {
+    const Folder folder;
+    std::string text = "F_N\n";
+    for (int k = 0; k < 100; ++k) text += fmt::format("{}\n", k * k);
+    const auto path = folder.write("x.csv", text);
+    const auto same = read(path, {.rate = 30, .resample = 30}), twice = read(path, {.rate = 30, .resample = 60});
+    ASSERT_EQ(same.force[0].size(), 100U);
+    ASSERT_EQ(twice.force[0].size(), 199U);
+    for (std::size_t k = 0; k < 100; ++k) {
+        EXPECT_NEAR(same.force[0][k], static_cast<double>(k * k), 1e-6);
+        EXPECT_NEAR(twice.force[0][2 * k], static_cast<double>(k * k), 1e-6);
+        if (k < 99) {
+            EXPECT_NEAR(twice.force[0][2 * k + 1], static_cast<double>(k * k) + static_cast<double>(k) + 0.5, 1e-6);
+        }
+    }
+}
+
+TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
+    rc::check("round trip of tables of random numbers, in every dialect", [] {
+        const auto columns = *rc::gen::inRange<std::size_t>(1, 6), rows = *rc::gen::inRange<std::size_t>(1, 200);
+        const auto separator = *rc::gen::element<std::string>(",", "\t", ";", " ");
+        const auto end = *rc::gen::element<std::string>("\n", "\r\n");
+        const bool header = *rc::gen::arbitrary<bool>(), comma = *rc::gen::arbitrary<bool>() && (separator == "\t" || separator == ";");
+        std::vector<std::vector<double>> values(columns);
+        for (auto& c : values) c = *rc::gen::container<std::vector<double>>(rows, rc::gen::map(rc::gen::inRange(-1000000, 1000000), [](int x) { return x / 1e3; }));
+        std::string text;
+        for (std::size_t c = 0; header && c < columns; ++c) text += (c ? separator : "") + fmt::format("F{}_N", c) + (c + 1 == columns ? end : "");
+        for (std::size_t r = 0; r < rows; ++r)
+            for (std::size_t c = 0; c < columns; ++c) {
+                auto number = fmt::format("{}", values[c][r]);
+                if (comma) std::replace(number.begin(), number.end(), '.', ',');
+                text += (c ? separator : "") + number + (c + 1 == columns ? end : "");
+            }
+        const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-round-trip-{}.csv", ::getpid())).string();
+        std::ofstream(path, std::ios::binary) << text;
+        const auto made = try_read(path, {.time = "none", .rate = 100});
+        std::filesystem::remove(path);
+        RC_ASSERT(static_cast<bool>(made));
+        RC_ASSERT(made->force == values);
+    });
+}
+
+TEST(ClockCheck, FindsTheFarthestSampleInOnePass) {
+    rc::check("against the plain two-pass answer", [] {
+        const auto jitter = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 200), rc::gen::inRange(0, 1000));
+        ClockCheck check;
+        std::vector<double> t;
+        for (std::size_t k = 0; k < jitter.size(); ++k) t.push_back(static_cast<double>(k) + jitter[k] * 1e-3), check.add(t.back());
+        const double step = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
+        double late = 0, early = 0;
+        for (std::size_t k = 0; k < t.size(); ++k) late = std::max(late, t[k] - t[0] - static_cast<double>(k) * step), early = std::min(early, t[k] - t[0] - static_cast<double>(k) * step);
+        RC_ASSERT(std::abs(check.spread() - (late - early)) < 1e-9);
+    });
+}
+
+TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
+    const auto path = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
+    CORPUSCLE_NEEDS(path);
+    const auto refused = try_read(path);
+    ASSERT_FALSE(refused) << "its clock comes in bursts";
+    EXPECT_NE(refused.error().text().find("not evenly spaced: mean rate 100.0"), std::string::npos) << refused.error().text();
+    const auto press = read(path, {.rate = 100, .scale = 40});
+    ASSERT_EQ(press.names.size(), 21U);
+    EXPECT_EQ(press.names[10], "fbg11");
+    ASSERT_EQ(press.force[0].size(), 2125U);
+    const auto train = [&](const std::string& who, std::size_t channel) { return times(test::spikes(*test::afferent(who, {.rate = 100}), press.force[channel]), press.clock); };
+    // Contact lasts from 17.2 to 21.2 s; the strongest sensor carries it.
+    const auto sa1 = train("sa1", 10), fa1 = train("fa1", 10);
+    int seconds_of_hold = 0;
+    for (double t = 17.5; t < 20.5; t += 0.5) seconds_of_hold += std::any_of(sa1.begin(), sa1.end(), [&](double s) { return s >= t && s < t + 0.5; });
+    EXPECT_EQ(seconds_of_hold, 6) << "SA-I fires through the hold";
+    EXPECT_GT(fa1.size(), 2U) << "FA-I fires at the faster edges";
+    EXPECT_LT(fa1.size(), sa1.size() / 4);
+    for (std::size_t c = 0; c < 21; ++c)
+        for (const auto* who : {"sa1", "fa1"})
+            for (const double t : train(who, c)) EXPECT_TRUE(t > 17.0 && t < 21.5) << who << " on fbg" << c + 1 << " is not silent at rest: " << t;
+}
+
+TEST(Recording, TheInsolesTimesAreTakenAsTheyAre) {
+    const auto path = test::shared("gait_insole_vgrf/GaCo01_01.txt");
+    CORPUSCLE_NEEDS(path);
+    const auto walk = read(path, {.channels = {"1-16"}, .scale = 0.008});
+    EXPECT_NEAR(walk.clock.rate(), 100.007, 1e-3) << "12119 rows from 0 to 121.172 s, rounded to 0.1 ms";
+    EXPECT_EQ(walk.remarks.at(0), "no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
+    EXPECT_EQ(walk.names.size(), 16U);
+    EXPECT_EQ(walk.force[0].size(), 12119U);
+    EXPECT_NEAR(walk.force[0][0], 199.1 * 0.008, 1e-12);
+}
+
+}  // namespace
+}  // namespace corpuscle

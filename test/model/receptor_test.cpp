@@ -1,0 +1,137 @@
+// Every transduction, alone.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+TEST(Receptor, HighPassUnderARampIsExactWhateverTheStep) {
+    const double f = 20, w = 2 * M_PI * f, slope = 3;
+    for (const double dt : {1e-6, 1e-4, 1e-2, 0.3}) {
+        const HighPass<double> filter(f, dt, Method::exact);
+        double x = 0;
+        for (int k = 1; k <= 10; ++k) {
+            x = filter.next(x, slope * dt);
+            EXPECT_NEAR(x, slope / w * -std::expm1(-w * k * dt), 1e-14) << dt;
+        }
+    }
+}
+
+TEST(Receptor, CurrentsOfAStepJoinOnToTheNextOrHoldASlope) {
+    each(Receptors{}, []<template <class> class R>(Model<R>) {
+        const std::string name(R<double>::name);
+        const R<double> receptor(Same<typename R<double>::Params>{{}}, 1e-3, Method::exact);
+        const auto f = test::force("press", {.rate = 1e3});
+        auto s = receptor.start(f[0]);
+        Current<double> i[R<double>::outputs], before[R<double>::outputs] = {};
+        for (std::size_t k = 1; k < f.size(); ++k) {
+            receptor.step(s, f[k], i);
+            for (int o = 0; o < R<double>::outputs; ++o) {
+                ASSERT_TRUE(std::isfinite(i[o].from) && std::isfinite(i[o].to)) << name;
+                ASSERT_GE(i[o].to, 0) << name << " excites or is still";
+                if (k > 1 && name != "sa1a" && name != "fa1a") {  // those two hold a slope
+                    ASSERT_EQ(i[o].from, before[o].to) << name;
+                }
+                before[o] = i[o];
+            }
+        }
+    });
+}
+
+TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
+    each(Receptors{}, []<template <class> class R>(Model<R>) {
+        using Params = typename R<double>::Params;
+        const auto f = test::force("press", {.rate = 1e3});
+        for (const auto method : {Method::exact, Method::backward_euler})
+            for (const auto& field : R<double>::fields) {
+                const auto current = [&](auto receptor, auto number) {  // at 330 ms, in the middle of protraction
+                    using T = decltype(number);
+                    auto s = receptor.start(T(f[0]));
+                    Current<T> i[R<double>::outputs];
+                    for (std::size_t k = 1; k <= 330; ++k) receptor.step(s, T(f[k]), i);
+                    return i[0].to;
+                };
+                const Params p;
+                const double scale = p.*field.at != 0 ? p.*field.at : 1e-6, h = 1e-5 * scale;
+                const auto moved = [&](double by) {
+                    Params q = p;
+                    q.*field.at += by;
+                    return current(R<double>(Same<Params>{q}, 1e-3, method), 0.0);
+                };
+                const double slope = (moved(h) - moved(-h)) / (2 * h) * scale, made = current(R<num::Dual>(Seeded<Params>{p, field.at}, 1e-3, method), num::Dual{}).d * scale;
+                EXPECT_NEAR(made, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << field.name;
+            }
+    });
+}
+
+TEST(Receptor, StaticPartsAreProportionalToForce) {
+    for (const auto& [name, gain] : {std::pair{"sa1b+lif-b", 1e-6}, {"sa1a+lif-b", 1e-6}}) {
+        const auto a = test::afferent(name);
+        const std::vector<double> f(1000, 3.0);
+        std::vector<std::vector<double>> probes(a->probes().size(), std::vector<double>(f.size()));
+        std::vector<double*> shown;
+        for (auto& p : probes) shown.push_back(p.data());
+        std::vector<Spike> out;
+        Answer answer{out, 0, shown};
+        auto state = a->start();
+        ASSERT_TRUE(a->respond(f, state, answer));
+        for (std::size_t p = 0; p < probes.size(); ++p)
+            if (a->probes()[p].name == "I") {
+                EXPECT_NEAR(probes[p].back(), 3 * gain, 1e-18) << name;
+            }
+    }
+}
+
+TEST(Afferent, Sa2HoldsWithoutAdaptingAndFeelsReleaseAsTouch) {
+    const auto t = test::train("sa2", "ramp-hold", {.settings = {"ramp-hold.t_hold=2s"}});
+    std::vector<double> hold;
+    for (const double x : t)
+        if (x > 0.45 && x < 2.3) hold.push_back(x);
+    ASSERT_GT(hold.size(), 10U);
+    for (std::size_t k = 2; k < hold.size(); ++k) EXPECT_NEAR(hold[k] - hold[k - 1], hold[1] - hold[0], 1e-6);
+}
+
+TEST(Afferent, Fa2IsBestAt200To300HzAndDeafToThePress) {
+    EXPECT_TRUE(test::train("fa2").empty());
+    const auto rate = [](double f, double amplitude) {
+        return test::train("fa2", "sine", {.settings = {fmt::format("sine.f={}Hz", f), fmt::format("sine.F_amp={}N", amplitude), "sine.duration=2s"}, .rate = 20e3}).size();
+    };
+    const auto threshold = [&](double f) {  // the least amplitude that makes it fire in two seconds
+        double low = 1e-4, high = 10;
+        for (int k = 0; k < 20; ++k) (rate(f, std::sqrt(low * high)) > 0 ? high : low) = std::sqrt(low * high);
+        return high;
+    };
+    double best = 0, least = INFINITY;
+    for (const double f : {20.0, 40.0, 80.0, 120.0, 160.0, 200.0, 250.0, 300.0, 350.0, 400.0, 500.0, 800.0})
+        if (const double at = threshold(f); at < least) least = at, best = f;
+    EXPECT_GE(best, 200);
+    EXPECT_LE(best, 300);
+    EXPECT_GT(threshold(20), 30 * least);
+    EXPECT_GT(threshold(800), 1.5 * least);
+    std::size_t most = 0;
+    double brisk = 0;
+    for (const double f : {100.0, 150.0, 200.0, 250.0, 300.0, 350.0, 400.0, 600.0})
+        if (rate(f, 0.1) > most) most = rate(f, 0.1), brisk = f;
+    EXPECT_GE(brisk, 200);
+    EXPECT_LE(brisk, 300);
+}
+
+TEST(Afferent, TouchSimsNamesAndOtherSpellingsAreAccepted) {
+    for (const auto& [other, name] : {std::pair{"SA1", "sa1"}, {"RA", "fa1"}, {"PC", "fa2"}, {"SA-I", "sa1"}, {"FA-II", "fa2"}}) EXPECT_EQ(test::sure(plan_afferent(other, {})).name, name);
+    const auto mine = test::wishes({"RA.f=3Hz"});
+    EXPECT_EQ(test::sure(plan_afferent("RA", mine)).value("f"), 3);
+}
+
+TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
+    EXPECT_EQ(plan_afferent("sa", {}).error().sentence, "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')");
+    EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().sentence, "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
+    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.V_reset=600mV"})).error().sentence, "sa1: V_reset = 0.6 must be below V_th = 0.5");
+    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.f_B=25ms"})).error().sentence, "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'");
+}
+
+}  // namespace
+}  // namespace corpuscle

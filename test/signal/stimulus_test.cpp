@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Asked, test::force;
+
+TEST(Stimulus, EachIsFiniteNeverPullsAndComesAgainTheSame) {
+    for (const auto& card : stimulus_cards()) {
+        const std::string name(card.name);
+        const auto once = force(name), again = force(name);
+        ASSERT_FALSE(once.empty()) << name;
+        EXPECT_EQ(once, again) << name;
+        for (const double f : once) ASSERT_TRUE(std::isfinite(f)) << name;
+        if (name == "noise") continue;  // which may, now and then
+        for (const double f : once) ASSERT_GE(f, 0) << name;
+    }
+}
+
+TEST(Stimulus, EachIsTheSameAtEveryRate) {
+    for (const auto& card : stimulus_cards()) {
+        const std::string name(card.name);
+        const auto coarse = force(name, {.rate = 1e3}), fine = force(name, {.rate = 8e3});
+        for (std::size_t k = 0; k < coarse.size(); ++k) ASSERT_NEAR(coarse[k], fine[8 * k], 1e-9) << name << " at " << k;
+    }
+}
+
+TEST(Stimulus, PhasesFollowEachOtherToTheEnd) {
+    for (const auto& card : stimulus_cards()) {
+        const auto source = test::sure(make_stimulus(card.name, {}, 1e3, 0));
+        double at = 0;
+        for (const auto& p : source->phases()) {
+            EXPECT_EQ(p.from, at) << card.name;
+            EXPECT_GE(p.to, p.from) << card.name;
+            at = p.to;
+        }
+        if (at > 0) {
+            EXPECT_NEAR(at * 1e3, static_cast<double>(test::force_of(*source).size()), 0.5) << card.name;
+        }
+    }
+}
+
+TEST(Stimulus, PressIsTheThesissExperiment) {
+    const auto f = force("press", {.rate = 1e3});
+    ASSERT_EQ(f.size(), 1000U);
+    EXPECT_EQ(f[0], 0.2);
+    EXPECT_EQ(f[250], 0.2);
+    EXPECT_NEAR(f[312], 0.2 + 1.9 * (1 - std::cos(M_PI * 62 / 125)), 1e-12);
+    for (std::size_t k = 375; k <= 625; ++k) EXPECT_EQ(f[k], 4.0) << k;
+    for (std::size_t k = 0; k <= 125; ++k) EXPECT_NEAR(f[250 + k], f[750 - k], 1e-12) << "retraction mirrors protraction";
+    EXPECT_EQ(f[999], 0.2);
+}
+
+TEST(Stimulus, ASumAddsAndLastsAsLongAsItsLongest) {
+    const auto sum = force("press+sine", {.settings = {"sine.duration=1.5s"}}), press = force("press"), sine = force("sine", {.settings = {"sine.duration=1.5s"}});
+    ASSERT_EQ(sum.size(), 15000U);
+    for (std::size_t k = 0; k < press.size(); ++k) ASSERT_EQ(sum[k], press[k] + sine[k]);
+}
+
+TEST(Stimulus, NoiseFollowsItsSeedAndHasItsSpread) {
+    const Asked a{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 1}, b{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 2};
+    const auto x = force("noise", a);
+    EXPECT_NE(x, force("noise", b));
+    double sum = 0, square = 0;
+    for (std::size_t k = 0; k < x.size(); k += 5) sum += x[k], square += (x[k] - 1) * (x[k] - 1);  // every fifth sample is a deviate itself
+    const auto n = static_cast<double>(x.size() / 5);
+    EXPECT_NEAR(sum / n, 1, 5 * 0.2 / std::sqrt(n));
+    EXPECT_NEAR(std::sqrt(square / n), 0.2, 5 * 0.2 / std::sqrt(2 * n));
+}
+
+TEST(Stimulus, ChirpAndGratingHaveTheFrequenciesTheySay) {
+    const auto rises = [](const std::vector<double>& f, std::size_t from, std::size_t to, double through) {
+        int n = 0;
+        for (std::size_t k = from + 1; k < to; ++k) n += f[k - 1] < through && f[k] >= through;
+        return n;
+    };
+    const auto chirp = force("chirp", {.rate = 20e3});
+    EXPECT_NEAR(rises(chirp, 80000, 100000, 1.0), 500 * (1 - std::pow(500.0, -0.2)) / std::log(500.0) * 5, 1.0);  // turns in the last second
+    const auto grating = force("grating");
+    EXPECT_NEAR(rises(grating, 0, grating.size(), 1.0), 20, 1);  // 40 mm/s over 2 mm
+}
+
+TEST(Stimulus, WrongNamesAndValuesAreRefusedWithWhatIsRight) {
+    const auto said = [](const std::string& text, std::vector<std::string> settings = {}, double rate = 1e3) {
+        const auto mine = test::wishes(settings);
+        const auto made = make_stimulus(text, mine, rate, 0);
+        return made ? std::string("accepted") : made.error().text();
+    };
+    EXPECT_EQ(said("pres"), "unknown stimulus 'pres'; did you mean 'press'?");
+    EXPECT_EQ(said("press", {"press.F_mx=2N"}), "press: unknown parameter 'F_mx'; did you mean 'F_max'? (it has F_min, F_max, t_rest, t_up, t_hold, t_down, t_post)");
+    EXPECT_EQ(said("press", {"press.F_max=2s"}), "press.F_max: '2s' is a time; N is wanted, such as '2 N'");
+    EXPECT_EQ(said("press", {"press.t_up=-1s"}), "press: t_up = -1 s is outside [0, 100000]");
+    EXPECT_EQ(said("sine", {"sine.duration=0"}), "sine: 0 s at 1000 Hz is not one sample");
+}
+
+}  // namespace
+}  // namespace corpuscle

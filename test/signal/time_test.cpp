@@ -1,0 +1,80 @@
+// Clocks, spikes, saved states, random numbers: the nouns that others rest on.
+
+#include "support/property.hpp"
+
+#include <cmath>
+
+#include "signal/random.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+TEST(Clock, IsAnExactFractionOfASecond) {
+    const auto fraction = [](double rate) {
+        const auto c = test::sure(clock_of(rate));
+        return std::pair(c.per, c.seconds);
+    };
+    EXPECT_EQ(fraction(1000), std::pair(std::int64_t{1000}, std::int64_t{1}));
+    EXPECT_EQ(fraction(242.6), std::pair(std::int64_t{1213}, std::int64_t{5}));
+    EXPECT_EQ(fraction(0.1), std::pair(std::int64_t{1}, std::int64_t{10}));
+    for (const double rate : {M_PI, 1 / 3.0, 1e9 + 0.5, 44100 / 1.001}) EXPECT_NEAR(test::sure(clock_of(rate)).rate(), rate, 1e-12 * rate);
+}
+
+TEST(Clock, TimesOfALongRunAreNotAccumulated) {
+    const auto c = test::sure(clock_of(10e3, 2.5));
+    EXPECT_EQ(c.time(0), 2.5);
+    EXPECT_EQ(c.time(36'000'000'000), 2.5 + 3.6e6);  // a thousand hours
+    EXPECT_EQ(c.time(11, 0.5), 2.5 + 10.5 / 10e3);
+}
+
+TEST(Clock, RefusesRatesThatAreNone) {
+    for (const double rate : {0.0, -1.0, 1e13, std::nan("")}) EXPECT_FALSE(clock_of(rate)) << rate;
+}
+
+TEST(Spike, IsOrderedByTimeThenUnit) {
+    EXPECT_LT((Spike{3, 0.9, 7}), (Spike{4, 0.1, 0}));
+    EXPECT_LT((Spike{4, 0.1, 7}), (Spike{4, 0.2, 0}));
+    EXPECT_LT((Spike{4, 0.1, 0}), (Spike{4, 0.1, 1}));
+}
+
+RC_GTEST_PROP(State, PackedAndUnpackedIsTheSame, ()) {
+    const State s{*rc::gen::container<std::string>(rc::gen::inRange('a', 'z')), *rc::gen::arbitrary<std::int64_t>(), *rc::gen::arbitrary<std::vector<double>>()};
+    const auto back = unpack(pack(s));
+    RC_ASSERT(static_cast<bool>(back));
+    RC_ASSERT(back->format == s.format && back->step == s.step && back->values == s.values);
+}
+
+TEST(State, CutShortOrForeignBytesAreRefused) {
+    const auto bytes = pack({"sa1b+lif-b/1", 5, {1, 2, 3}});
+    for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(unpack(std::span(bytes).first(n))) << n;
+    auto longer = bytes;
+    longer.push_back(std::byte{0});
+    EXPECT_FALSE(unpack(longer));
+    auto foreign = bytes;
+    foreign[0] = std::byte{'x'};
+    EXPECT_FALSE(unpack(foreign));
+}
+
+TEST(Random, PhiloxGivesThePublishedWords) {  // known answers of Random123, kat_vectors
+    EXPECT_EQ(philox({0, 0, 0, 0}, 0), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+    EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+    EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822), (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+TEST(Random, NormalDeviatesHaveTheMomentsOfANormal) {
+    constexpr int n = 200000;
+    double sum = 0, square = 0, fourth = 0;
+    for (std::uint64_t k = 0; k < n; ++k) {
+        const double x = normal(7, 1, 2, k);
+        sum += x, square += x * x, fourth += x * x * x * x;
+    }
+    EXPECT_NEAR(sum / n, 0, 5 / std::sqrt(n));
+    EXPECT_NEAR(square / n, 1, 5 * std::sqrt(2.0 / n));
+    EXPECT_NEAR(fourth / n, 3, 5 * std::sqrt(96.0 / n));
+    EXPECT_NE(normal(7, 1, 2, 0), normal(8, 1, 2, 0));
+    EXPECT_NE(normal(7, 1, 2, 0), normal(7, 2, 2, 0));
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,55 @@
+#pragma once
+// The thesis's two afferents under its press, without sampling: the high-passed half-cosine in closed form, its current
+// integrated by Simpson's rule in steps of a microsecond (what is left is below a nanosecond).
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace corpuscle::test {
+
+inline constexpr double rest = 0.25, up = 0.125, hold = 0.25, down = 0.125, whole = 1.0, F_min = 0.2, F_max = 4;
+
+inline double press_force(double t) {
+    const double s = t < rest + up ? (t - rest) / up : 1 - (t - rest - up - hold) / down;
+    return t < rest || t >= rest + up + hold + down ? F_min : t >= rest + up && t < rest + up + hold ? F_max : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
+}
+
+/// x' + 2 pi f x = F', x(0) = 0, in newtons.
+inline double high_passed_press(double t, double f) {
+    const double w = 2 * M_PI * f, omega = M_PI / up, swing = (F_max - F_min) / 2 * omega / (w * w + omega * omega);
+    const auto ramp = [&](double s) { return swing * (w * std::sin(omega * s) - omega * std::cos(omega * s) + omega * std::exp(-w * s)); };
+    double x = 0;
+    if (t > rest) x = ramp(std::min(t - rest, up));
+    if (t > rest + up) x *= std::exp(-w * std::min(t - rest - up, hold));
+    const double s = std::min(t - rest - up - hold, down);
+    if (s > 0) x = x * std::exp(-w * s) - ramp(s);
+    if (t > rest + up + hold + down) x *= std::exp(-w * (t - rest - up - hold - down));
+    return x;
+}
+
+inline double sa1_current(double t) {
+    return 1e-6 * press_force(t) + std::max(8e-6 * high_passed_press(t, 20), 0.0) + std::max(2e-6 * high_passed_press(t, 2), 0.0);
+}
+inline double fa1_current(double t) {
+    const double x = high_passed_press(t, 2);
+    return x > 0 ? 3.5e-6 * x : -2.75e-6 * x;
+}
+
+/// Spike times of LIF-B under a current, u_rest = 0.
+inline std::vector<double> lif_b_train(const std::function<double(double)>& current, double leak, double V_th, double V_reset, double C_m = 500e-9) {
+    constexpr double h = 1e-6;
+    std::vector<double> train;
+    double u = 0, at_start = current(0) - leak;
+    for (long k = 0; k < std::lround(whole / h); ++k) {
+        const double t = static_cast<double>(k) * h, at_end = current(t + h) - leak;
+        const double end = std::max(u + h / 6 * (at_start + 4 * (current(t + h / 2) - leak) + at_end) / C_m, 0.0);
+        if (end > V_th) train.push_back(t + h * (V_th - u) / (end - u));
+        u = end > V_th ? end - V_th + V_reset : end;
+        at_start = at_end;
+    }
+    return train;
+}
+
+}  // namespace corpuscle::test

@@ -1,0 +1,6 @@
+#pragma once
+// Property tests: rapidcheck's bridge wants GoogleTest before it.
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>

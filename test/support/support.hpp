@@ -1,0 +1,124 @@
+#pragma once
+// What several tests need: a run of one afferent under one force, files to read, the shared recordings.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "model/catalog.hpp"
+#include "signal/stimuli.hpp"
+
+namespace corpuscle::test {
+
+struct Asked {
+    std::vector<std::string> settings = {};
+    double rate = 10e3;
+    Method method = Method::exact;
+    bool sampled = false;
+    std::size_t block = 4096;
+    std::uint64_t seed = 0;
+};
+
+template <class T>
+T sure(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().text());
+    return std::move(*result);
+}
+
+inline std::vector<Wish> wishes(const std::vector<std::string>& settings) {
+    std::vector<Wish> out;
+    for (const auto& s : settings) out.push_back(sure(parse_wish(s)));
+    return out;
+}
+
+inline std::unique_ptr<Afferent> afferent(const std::string& name, const Asked& asked = {}) {
+    return make_afferent(sure(plan_afferent(name, wishes(asked.settings))), {1 / asked.rate, asked.method, asked.sampled});
+}
+
+/// All of a source's first channel.
+inline std::vector<double> force_of(Source& source) {
+    std::vector<double> all;
+    for (Frames block(source.channels().size(), 1000);;) {
+        if (auto ok = source.read(block); !ok) throw std::runtime_error(ok.error().text());
+        if (block.count == 0) return all;
+        all.insert(all.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
+    }
+}
+
+inline std::vector<double> force(const std::string& stimulus, const Asked& asked = {}) {
+    const auto mine = wishes(asked.settings);
+    return force_of(*sure(make_stimulus(stimulus, mine, asked.rate, asked.seed)));
+}
+
+inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f, std::size_t block = 4096) {
+    std::vector<Spike> out;
+    Answer answer{out};
+    auto state = a.start();
+    for (std::size_t k = 0; k < f.size(); k += block)
+        if (auto ok = a.respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, answer); !ok) throw std::runtime_error(ok.error().text());
+    return out;
+}
+
+/// Spike times (s) of an afferent under a stimulus; settings are for both.
+inline std::vector<double> train(const std::string& name, const std::string& stimulus = "press", const Asked& asked = {}) {
+    return times(spikes(*afferent(name, asked), force(stimulus, asked), asked.block), sure(clock_of(asked.rate)));
+}
+
+/// The afferents of every name, and every transduction with every neuron.
+inline std::vector<std::string> every_afferent() {
+    std::vector<std::string> all;
+    for (const auto& a : named_afferents()) all.emplace_back(a.name);
+    for (const auto& r : receptor_cards())
+        for (const auto& n : neuron_cards()) all.push_back(std::string(r.name) + "+" + std::string(n.name));
+    return all;
+}
+
+inline std::string read_file(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+/// A directory of the test's own, removed with it.
+class Folder {
+    std::filesystem::path path_;
+
+public:
+    Folder() {
+        const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+        path_ = std::filesystem::temp_directory_path() / ("corpuscle-test-" + std::to_string(::getpid()) + "-" + info->name());
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    std::string path() const { return path_.string(); }
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(*this / name, std::ios::binary) << text;
+        return *this / name;
+    }
+    std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        for (const auto& e : std::filesystem::recursive_directory_iterator(path_)) all.push_back(e.path().filename().string());
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+};
+
+/// Recordings made by others lie beside the project, not in it: CORPUSCLE_DATA, else ../shared/data.
+inline std::string shared(const std::string& name) {
+    const char* set = std::getenv("CORPUSCLE_DATA");
+    return (std::filesystem::path(set ? set : CORPUSCLE_ROOT "/../shared/data") / name).lexically_normal().string();
+}
+
+}  // namespace corpuscle::test
+
+/// Leaves the test, loudly, if a shared file is not on this machine.
+#define CORPUSCLE_NEEDS(path)                                                                          \
+    if (!std::filesystem::exists(path)) {                                                              \
+        GTEST_SKIP() << "ABSENT: " << (path) << "\nNothing was checked here; set CORPUSCLE_DATA to the folder of recordings."; \
+    }
