@@ -16,6 +16,8 @@ struct Column {
     std::string unit;  ///< as the file says it; "" if it says none
 };
 
+inline constexpr std::size_t rows_a_block = 4096;
+
 class Table {
 public:
     virtual ~Table() = default;

@@ -31,7 +31,9 @@ Result<Read> try_read(const std::string& path, const RecordingOptions& options =
     for (Frames frames(out.names.size(), block);;) {
         if (auto ok = (*source)->read(frames); !ok) return ok.error();
         if (frames.count == 0) break;
-        for (std::size_t c = 0; c < out.force.size(); ++c) out.force[c].insert(out.force[c].end(), frames.force[c].begin(), frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
+        for (std::size_t c = 0; c < out.force.size(); ++c)
+            out.force[c].insert(out.force[c].end(), frames.force[c].begin(),
+                                frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
     }
     out.remarks = (*source)->remarks();
     return out;
@@ -59,16 +61,46 @@ TEST(Recording, IsReadInEveryStyle) {
         double rate;
         Rows force;
     } cases[] = {
-        {"commas and a header with units", "time_s,fz_N,fy_mN\n0,1,2000\n0.001,1.5,2500\n0.002,2,3000\n", {}, {"fz", "fy"}, 1000, {{1, 1.5, 2}, {2, 2.5, 3}}},
-        {"units in brackets", "Time [ms],Fz [N],\"F, left (mN)\"\n0,1,2000\n1,1.5,2500\n2,2,3000\n", {}, {"Fz", "F, left"}, 1000, {{1, 1.5, 2}, {2, 2.5, 3}}},
-        {"tabs without header, the time first", "0.0000\t1\t3\n0.0100\t2\t4\n0.0200\t3\t5\n", {}, {"ch1", "ch2"}, 100, {{1, 2, 3}, {3, 4, 5}}},
+        {"commas and a header with units",
+         "time_s,fz_N,fy_mN\n0,1,2000\n0.001,1.5,2500\n0.002,2,3000\n",
+         {},
+         {"fz", "fy"},
+         1000,
+         {{1, 1.5, 2}, {2, 2.5, 3}}},
+        {"units in brackets",
+         "Time [ms],Fz [N],\"F, left (mN)\"\n0,1,2000\n1,1.5,2500\n2,2,3000\n",
+         {},
+         {"Fz", "F, left"},
+         1000,
+         {{1, 1.5, 2}, {2, 2.5, 3}}},
+        {"tabs without header, the time first",
+         "0.0000\t1\t3\n0.0100\t2\t4\n0.0200\t3\t5\n",
+         {},
+         {"ch1", "ch2"},
+         100,
+         {{1, 2, 3}, {3, 4, 5}}},
         {"blanks, no time", "1 3\n7 4\n3 5\n", {.rate = 50}, {"ch1", "ch2"}, 50, {{1, 7, 3}, {3, 4, 5}}},
-        {"blanks about commas, milliseconds not from 0", "timestamp_ms, a, b\n421419, 3, 9\n421439, 4, 8\n421459, 5, 7\n", {}, {"a", "b"}, 50, {{3, 4, 5}, {9, 8, 7}}},
+        {"blanks about commas, milliseconds not from 0",
+         "timestamp_ms, a, b\n421419, 3, 9\n421439, 4, 8\n421459, 5, 7\n",
+         {},
+         {"a", "b"},
+         50,
+         {{3, 4, 5}, {9, 8, 7}}},
         {"semicolons and decimal commas", "t;F_N\n0,0;1,5\n0,5;2,5\n1,0;3,5\n", {}, {"F"}, 2, {{1.5, 2.5, 3.5}}},
-        {"Windows line ends, a byte-order mark, no last line end", "\xef\xbb\xbft,F_gf\r\n0,100\r\n1,200", {}, {"F"}, 1, {{0.980665, 1.96133}}},
+        {"Windows line ends, a byte-order mark, no last line end",
+         "\xef\xbb\xbft,F_gf\r\n0,100\r\n1,200",
+         {},
+         {"F"},
+         1,
+         {{0.980665, 1.96133}}},
         {"comments and blank lines", "# a cell\n\nt,F\n0,1\n% later\n1,2\n\n", {}, {"F"}, 1, {{1, 2}}},
         {"one column", "1\n2\n3\n", {.rate = 10}, {"ch1"}, 10, {{1, 2, 3}}},
-        {"counts with a scale, absolute", "Fz,emg0\n-4,1\n6,2\n", {.channels = {"Fz"}, .rate = 10, .scale = 0.5, .absolute = true}, {"Fz"}, 10, {{2, 3}}},
+        {"counts with a scale, absolute",
+         "Fz,emg0\n-4,1\n6,2\n",
+         {.channels = {"Fz"}, .rate = 10, .scale = 0.5, .absolute = true},
+         {"Fz"},
+         10,
+         {{2, 3}}},
         {"a unit by option", "F\n1\n2\n", {.rate = 10, .unit = "kgf"}, {"F"}, 10, {{9.80665, 19.6133}}},
         {"signs and exponents", "t,F_N\n0,+1e0\n1,-2.5E-1\n2,.5\n", {}, {"F"}, 1, {{1, -0.25, 0.5}}},
     };
@@ -107,8 +139,11 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(said(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number should be");
     EXPECT_EQ(said(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': nothing where a number should be");
     EXPECT_EQ(said(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 should be");
-    EXPECT_EQ(said(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}), "x.csv: 'ch1' is read as mV, which is no force; say --scale S, so that what is read times S is newtons");
-    EXPECT_EQ(said(folder, "F_nm\n1\n", {.rate = 10}), "x.csv: 'F' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header is wrong)");
+    EXPECT_EQ(said(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}),
+              "x.csv: 'ch1' is read as mV, which is no force; say --scale S, so that what is read times S is newtons");
+    EXPECT_EQ(said(folder, "F_nm\n1\n", {.rate = 10}),
+              "x.csv: 'F' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header "
+              "is wrong)");
     EXPECT_EQ(said(folder, "F\n1\n2\n"), "x.csv: there is no time column; say --rate, such as --rate 1kHz");
     EXPECT_EQ(said(folder, "t,F\n0,1\n2,1\n1,1\n"), "x.csv:4: time goes back, from 2 s to 1 s; --rate takes the rows as evenly spaced");
     EXPECT_EQ(said(folder, "t,F\n0,1\n"), "x.csv: one sample has no rate of its own; say --rate, such as --rate 1kHz");
@@ -123,7 +158,9 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
 TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
     const Folder folder;
     const std::string bursts = "time_s,F_N\n0,0\n0.001,1\n0.002,2\n0.003,3\n0.1,4\n0.101,5\n0.102,6\n0.2,7\n";
-    EXPECT_EQ(said(folder, bursts).substr(0, 150), "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, samples off their place by up to 82.71 ms. Say --rate 35H");
+    EXPECT_EQ(said(folder, bursts).substr(0, 150),
+              "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, samples off their place by up "
+              "to 82.71 ms. Say --rate 35H");
     const auto path = folder / "x.csv";
     const auto even = read(path, {.rate = 35});
     EXPECT_EQ(even.force[0], (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
@@ -133,7 +170,8 @@ TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
     const double right[] = {0, 3 + 47.0 / 97, 4, 6 + 48.0 / 98, 7};
     for (int k = 0; k < 5; ++k) EXPECT_NEAR(between.force[0][static_cast<std::size_t>(k)], right[k], 1e-9);
     EXPECT_EQ(between.remarks.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}), "x.csv:3: the time 0 s stands twice; --rate takes the rows as evenly spaced");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}),
+              "x.csv:3: the time 0 s stands twice; --rate takes the rows as evenly spaced");
 }
 
 TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
@@ -180,9 +218,12 @@ TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
         const auto end = *rc::gen::element<std::string>("\n", "\r\n");
         const bool header = *rc::gen::arbitrary<bool>(), comma = *rc::gen::arbitrary<bool>() && (separator == "\t" || separator == ";");
         std::vector<std::vector<double>> values(columns);
-        for (auto& c : values) c = *rc::gen::container<std::vector<double>>(rows, rc::gen::map(rc::gen::inRange(-1000000, 1000000), [](int x) { return x / 1e3; }));
+        for (auto& c : values)
+            c = *rc::gen::container<std::vector<double>>(rows,
+                                                         rc::gen::map(rc::gen::inRange(-1000000, 1000000), [](int x) { return x / 1e3; }));
         std::string text;
-        for (std::size_t c = 0; header && c < columns; ++c) text += (c ? separator : "") + fmt::format("F{}_N", c) + (c + 1 == columns ? end : "");
+        for (std::size_t c = 0; header && c < columns; ++c)
+            text += (c ? separator : "") + fmt::format("F{}_N", c) + (c + 1 == columns ? end : "");
         for (std::size_t r = 0; r < rows; ++r)
             for (std::size_t c = 0; c < columns; ++c) {
                 auto number = fmt::format("{}", values[c][r]);
@@ -206,7 +247,9 @@ TEST(ClockCheck, FindsTheFarthestSampleInOnePass) {
         for (std::size_t k = 0; k < jitter.size(); ++k) t.push_back(static_cast<double>(k) + jitter[k] * 1e-3), check.add(t.back());
         const double step = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
         double late = 0, early = 0;
-        for (std::size_t k = 0; k < t.size(); ++k) late = std::max(late, t[k] - t[0] - static_cast<double>(k) * step), early = std::min(early, t[k] - t[0] - static_cast<double>(k) * step);
+        for (std::size_t k = 0; k < t.size(); ++k)
+            late = std::max(late, t[k] - t[0] - static_cast<double>(k) * step),
+            early = std::min(early, t[k] - t[0] - static_cast<double>(k) * step);
         RC_ASSERT(std::abs(check.spread() - (late - early)) < 1e-9);
     });
 }
@@ -221,17 +264,21 @@ TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
     ASSERT_EQ(press.names.size(), 21U);
     EXPECT_EQ(press.names[10], "fbg11");
     ASSERT_EQ(press.force[0].size(), 2125U);
-    const auto train = [&](const std::string& who, std::size_t channel) { return times(test::spikes(*test::afferent(who, {.rate = 100}), press.force[channel]), press.clock); };
+    const auto train = [&](const std::string& who, std::size_t channel) {
+        return times(test::spikes(*test::afferent(who, {.rate = 100}), press.force[channel]), press.clock);
+    };
     // Contact lasts from 17.2 to 21.2 s; the strongest sensor carries it.
     const auto sa1 = train("sa1", 10), fa1 = train("fa1", 10);
     int seconds_of_hold = 0;
-    for (double t = 17.5; t < 20.5; t += 0.5) seconds_of_hold += std::any_of(sa1.begin(), sa1.end(), [&](double s) { return s >= t && s < t + 0.5; });
+    for (double t = 17.5; t < 20.5; t += 0.5)
+        seconds_of_hold += std::any_of(sa1.begin(), sa1.end(), [&](double s) { return s >= t && s < t + 0.5; });
     EXPECT_EQ(seconds_of_hold, 6) << "SA-I fires through the hold";
     EXPECT_GT(fa1.size(), 2U) << "FA-I fires at the faster edges";
     EXPECT_LT(fa1.size(), sa1.size() / 4);
     for (std::size_t c = 0; c < 21; ++c)
         for (const auto* who : {"sa1", "fa1"})
-            for (const double t : train(who, c)) EXPECT_TRUE(t > 17.0 && t < 21.5) << who << " on fbg" << c + 1 << " is not silent at rest: " << t;
+            for (const double t : train(who, c))
+                EXPECT_TRUE(t > 17.0 && t < 21.5) << who << " on fbg" << c + 1 << " is not silent at rest: " << t;
 }
 
 TEST(Recording, TheInsolesTimesAreTakenAsTheyAre) {

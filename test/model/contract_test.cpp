@@ -16,7 +16,9 @@ using test::afferent, test::every_afferent, test::force, test::spikes;
 TEST(Contract, NoForceGivesNoSpikes) {
     for (const auto& name : every_afferent())
         for (const auto method : {Method::exact, Method::backward_euler})
-            for (const double rate : {1e3, 10e3}) EXPECT_TRUE(spikes(*afferent(name, {.rate = rate, .method = method}), std::vector<double>(20000)).empty()) << name << ' ' << rate;
+            for (const double rate : {1e3, 10e3})
+                EXPECT_TRUE(spikes(*afferent(name, {.rate = rate, .method = method}), std::vector<double>(20000)).empty())
+                    << name << ' ' << rate;
 }
 
 TEST(Contract, EachAnswersToATouchOfItsKind) {
@@ -32,7 +34,8 @@ TEST(Contract, ParametersOfATransductionAndANeuronNeverShareAName) {
         for (const auto& n : neuron_cards()) {
             std::set<std::string_view> names;
             for (const auto* card : {&r, &n})
-                for (const auto& row : card->rows) EXPECT_TRUE(names.insert(row.name).second) << r.name << '+' << n.name << ": " << row.name;
+                for (const auto& row : card->rows)
+                    EXPECT_TRUE(names.insert(row.name).second) << r.name << '+' << n.name << ": " << row.name;
         }
 }
 
@@ -64,7 +67,8 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
         const auto names = every_afferent();
         const auto name = names[*rc::gen::inRange<std::size_t>(0, names.size())];
         const auto method = *rc::gen::element(Method::exact, Method::backward_euler);
-        const auto f = force(*rc::gen::element<std::string>("press+noise", "ramp-hold", "grating", "step+sine"), {.settings = {"noise.F_mean=0"}, .rate = 2e3, .seed = 5});
+        const auto f = force(*rc::gen::element<std::string>("press+noise", "ramp-hold", "grating", "step+sine"),
+                             {.settings = {"noise.F_mean=0"}, .rate = 2e3, .seed = 5});
         const auto a = afferent(name, {.rate = 2e3, .method = method});
         const auto shown = [&](const std::vector<std::size_t>& sizes) {
             std::vector<Spike> out;
@@ -85,14 +89,19 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
         const auto whole = shown({f.size()}), parts = shown(sizes);
         RC_ASSERT(whole.first == parts.first);
         RC_ASSERT(whole.second == parts.second);
-        RC_ASSERT(spikes(*a, f) == [&] { auto s = whole.first; for (auto& x : s) x.unit = 0; return s; }());  // watching changes nothing
+        RC_ASSERT(spikes(*a, f) == [&] {
+            auto s = whole.first;
+            for (auto& x : s) x.unit = 0;
+            return s;
+        }());  // watching changes nothing
     });
 }
 
 TEST(Contract, SpikesComeInOrderInsideTheirSteps) {
     for (const auto& name : every_afferent())
         for (const auto method : {Method::exact, Method::backward_euler}) {
-            const auto train = spikes(*afferent(name, {.rate = 500, .method = method}), force("press+noise", {.settings = {"noise.F_sd=2N"}, .rate = 500}));
+            const auto train = spikes(*afferent(name, {.rate = 500, .method = method}),
+                                      force("press+noise", {.settings = {"noise.F_sd=2N"}, .rate = 500}));
             EXPECT_TRUE(std::is_sorted(train.begin(), train.end())) << name;
             for (const auto& s : train) ASSERT_TRUE(s.offset > 0 && s.offset <= 1) << name << ' ' << s.offset;
         }
@@ -108,7 +117,8 @@ TEST(Contract, AStateOfAnotherAfferentIsRefused) {
 
 TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
     for (const auto& name : every_afferent()) {
-        const bool vibration = name == "fa2" || name.starts_with("vibration"), substeps = name.ends_with("izhikevich") || name.ends_with("adex");
+        const bool vibration = name == "fa2" || name.starts_with("vibration"),
+                   substeps = name.ends_with("izhikevich") || name.ends_with("adex");
         const auto at = [&](double rate) {
             std::vector<std::string> settings = {"sine.f=200Hz", "sine.F_amp=0.3N", "sine.duration=100ms"};
             if (substeps) settings.push_back(fmt::format("{}.substep={}us", name, std::min(1e6 / rate, 1000.0)));

@@ -8,18 +8,20 @@ namespace corpuscle {
 namespace {
 
 struct Shown {
-    std::vector<double> times;      // s
-    std::vector<double> membrane;   // first probe, a value a sample
+    std::vector<double> times;     // s
+    std::vector<double> membrane;  // first probe, a value a sample
     std::int64_t capped = 0;
 };
 
 template <template <class> class N>
-Shown run(typename N<double>::Params p, const std::function<double(double)>& current, double seconds, double dt, Method method = Method::exact) {
+Shown run(typename N<double>::Params p, const std::function<double(double)>& current, double seconds, double dt,
+          Method method = Method::exact) {
     const N<double> neuron(Same<typename N<double>::Params>{p}, dt, method);
     auto state = neuron.start();
     Shown out;
     for (long k = 1; k <= std::lround(seconds / dt); ++k) {
-        const double end = current(static_cast<double>(k) * dt), from = method == Method::exact ? current(static_cast<double>(k - 1) * dt) : end;
+        const double end = current(static_cast<double>(k) * dt),
+                     from = method == Method::exact ? current(static_cast<double>(k - 1) * dt) : end;
         out.capped += neuron.step(state, {from, end}, [&](bool, double x) { out.times.push_back((static_cast<double>(k - 1) + x) * dt); });
         double parts[std::size(N<double>::parts)];
         neuron.show(state, parts);
@@ -66,7 +68,8 @@ TEST(Neuron, EachWithARefractoryTimeKeepsItAndIsHeldThrough) {
                     p.t_ref = t_ref;
                     const auto shown = run<N>(p, [](double) { return 1e-3; }, 0.5, 1e-3, method);  // far above any threshold
                     ASSERT_GT(shown.times.size(), 5U) << N<double>::name;
-                    for (std::size_t k = 1; k < shown.times.size(); ++k) ASSERT_GE(shown.times[k] - shown.times[k - 1], t_ref - 1e-12) << N<double>::name;
+                    for (std::size_t k = 1; k < shown.times.size(); ++k)
+                        ASSERT_GE(shown.times[k] - shown.times[k - 1], t_ref - 1e-12) << N<double>::name;
                     if (t_ref < 5e-3) continue;
                     const auto sample = static_cast<std::size_t>(shown.times[0] / 1e-3);  // the sample after the first spike: still held
                     EXPECT_NEAR(shown.membrane[sample], p.V_reset, method == Method::exact ? 1e-12 : p.V_th * 5) << N<double>::name;
@@ -141,7 +144,8 @@ TEST(Neuron, AdexFiresAsItsEquationsDo) {
     std::vector<double> right;
     for (double t = 0, h = 1e-7; t < 0.3; t += h) {
         const double I = 1.5e-9;
-        const double dv = (-30e-9 * (v + 70.6e-3) + 30e-9 * 2e-3 * std::exp((v + 50.4e-3) / 2e-3) - w + I) / 281e-12, dw = (4e-9 * (v + 70.6e-3) - w) / 144e-3;
+        const double dv = (-30e-9 * (v + 70.6e-3) + 30e-9 * 2e-3 * std::exp((v + 50.4e-3) / 2e-3) - w + I) / 281e-12,
+                     dw = (4e-9 * (v + 70.6e-3) - w) / 144e-3;
         v += h * dv, w += h * dw;
         if (v > -40.4e-3) v = -70.6e-3, w += 80.5e-12, right.push_back(t);
     }
@@ -157,7 +161,7 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
         constexpr double dt = 1e-4;
         constexpr int steps = 400;
         for (const auto& field : N<double>::fields) {
-            if (field.name == "substep") continue;  // it chooses a count, not a value
+            if (field.name == "substep") continue;                  // it chooses a count, not a value
             const auto last_time = [&](auto neuron, auto number) {  // of the last spike before the end, and the membrane there
                 using T = decltype(number);
                 auto state = neuron.start();
@@ -182,8 +186,10 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
             if (field.name == "t_ref") continue;  // at 0 it has a slope to one side only
             const auto up = moved(h), down = moved(-h);
             const double time_slope = (up.first - down.first) / (2 * h), membrane_slope = (up.second - down.second) / (2 * h);
-            EXPECT_NEAR(dual.first.d * scale, time_slope * scale, 1e-4 * (1 + std::abs(time_slope * scale))) << N<double>::name << '.' << field.name << ": time of a spike";
-            EXPECT_NEAR(dual.second.d * scale, membrane_slope * scale, 1e-4 * (1e-2 + std::abs(membrane_slope * scale))) << N<double>::name << '.' << field.name << ": membrane";
+            EXPECT_NEAR(dual.first.d * scale, time_slope * scale, 1e-4 * (1 + std::abs(time_slope * scale)))
+                << N<double>::name << '.' << field.name << ": time of a spike";
+            EXPECT_NEAR(dual.second.d * scale, membrane_slope * scale, 1e-4 * (1e-2 + std::abs(membrane_slope * scale)))
+                << N<double>::name << '.' << field.name << ": membrane";
         }
     });
 }

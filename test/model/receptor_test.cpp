@@ -62,7 +62,8 @@ TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                     q.*field.at += by;
                     return current(R<double>(Same<Params>{q}, 1e-3, method), 0.0);
                 };
-                const double slope = (moved(h) - moved(-h)) / (2 * h) * scale, made = current(R<num::Dual>(Seeded<Params>{p, field.at}, 1e-3, method), num::Dual{}).d * scale;
+                const double slope = (moved(h) - moved(-h)) / (2 * h) * scale,
+                             made = current(R<num::Dual>(Seeded<Params>{p, field.at}, 1e-3, method), num::Dual{}).d * scale;
                 EXPECT_NEAR(made, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << field.name;
             }
     });
@@ -98,7 +99,10 @@ TEST(Afferent, Sa2HoldsWithoutAdaptingAndFeelsReleaseAsTouch) {
 TEST(Afferent, Fa2IsBestAt200To300HzAndDeafToThePress) {
     EXPECT_TRUE(test::train("fa2").empty());
     const auto rate = [](double f, double amplitude) {
-        return test::train("fa2", "sine", {.settings = {fmt::format("sine.f={}Hz", f), fmt::format("sine.F_amp={}N", amplitude), "sine.duration=2s"}, .rate = 20e3}).size();
+        return test::train("fa2", "sine",
+                           {.settings = {fmt::format("sine.f={}Hz", f), fmt::format("sine.F_amp={}N", amplitude), "sine.duration=2s"},
+                            .rate = 20e3})
+            .size();
     };
     const auto threshold = [&](double f) {  // the least amplitude that makes it fire in two seconds
         double low = 1e-4, high = 10;
@@ -121,16 +125,21 @@ TEST(Afferent, Fa2IsBestAt200To300HzAndDeafToThePress) {
 }
 
 TEST(Afferent, TouchSimsNamesAndOtherSpellingsAreAccepted) {
-    for (const auto& [other, name] : {std::pair{"SA1", "sa1"}, {"RA", "fa1"}, {"PC", "fa2"}, {"SA-I", "sa1"}, {"FA-II", "fa2"}}) EXPECT_EQ(test::sure(plan_afferent(other, {})).name, name);
+    for (const auto& [other, name] : {std::pair{"SA1", "sa1"}, {"RA", "fa1"}, {"PC", "fa2"}, {"SA-I", "sa1"}, {"FA-II", "fa2"}})
+        EXPECT_EQ(test::sure(plan_afferent(other, {})).name, name);
     const auto mine = test::wishes({"RA.f=3Hz"});
     EXPECT_EQ(test::sure(plan_afferent("RA", mine)).value("f"), 3);
 }
 
 TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
-    EXPECT_EQ(plan_afferent("sa", {}).error().sentence, "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')");
-    EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().sentence, "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
+    EXPECT_EQ(
+        plan_afferent("sa", {}).error().sentence,
+        "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')");
+    EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().sentence,
+              "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
     EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.V_reset=600mV"})).error().sentence, "sa1: V_reset = 0.6 must be below V_th = 0.5");
-    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.f_B=25ms"})).error().sentence, "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'");
+    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.f_B=25ms"})).error().sentence,
+              "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'");
 }
 
 }  // namespace

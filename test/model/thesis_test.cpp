@@ -18,7 +18,9 @@ struct Case {
     std::vector<std::string> settings() const {
         return {afferent + ".V_th=" + std::to_string(V_th), afferent + ".V_reset=" + std::to_string(V_reset)};
     }
-    std::vector<double> exact() const { return test::lif_b_train(afferent == "sa1" ? test::sa1_current : test::fa1_current, afferent == "sa1" ? 5e-7 : 1e-6, V_th, V_reset); }
+    std::vector<double> exact() const {
+        return test::lif_b_train(afferent == "sa1" ? test::sa1_current : test::fa1_current, afferent == "sa1" ? 5e-7 : 1e-6, V_th, V_reset);
+    }
 };
 
 const Case cases[] = {{"sa1", 0.5, 0.25}, {"fa1", 0.5, 0.25}, {"sa1", 1, 0.5}, {"fa1", 1, 0.5}, {"sa1", 0.2, 0}, {"fa1", 0.2, 0}};
@@ -32,11 +34,15 @@ double worst(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 TEST(Thesis, ExactIsWithinAMicrosecondOfTheClosedFormAt10kHz) {
-    for (const auto& c : cases) EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), c.exact()), 1e-6) << c.afferent << ' ' << c.V_th;
+    for (const auto& c : cases)
+        EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), c.exact()), 1e-6)
+            << c.afferent << ' ' << c.V_th;
 }
 
 TEST(Thesis, ExactIsWithinATenthOfAMillisecondAt1kHz) {
-    for (const auto& c : cases) EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), c.exact()), 1e-4) << c.afferent << ' ' << c.V_th;
+    for (const auto& c : cases)
+        EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), c.exact()), 1e-4)
+            << c.afferent << ' ' << c.V_th;
 }
 
 TEST(Thesis, PrintedClosedFormTimesAreMet) {
@@ -53,7 +59,8 @@ double slope(const Case& c, Method method) {
     double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
     int n = 0;
     for (double rate = 1e3; rate <= 32e3; rate *= 2, ++n) {  // five halvings of T
-        const double x = std::log(1 / rate), y = std::log(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = rate, .method = method}), right));
+        const double x = std::log(1 / rate),
+                     y = std::log(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = rate, .method = method}), right));
         sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
     }
     return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
@@ -94,7 +101,10 @@ std::vector<double> algorithm(const Case& c, double T) {
 TEST(Thesis, SampledBackwardEulerIsTheAlgorithmToTheSample) {
     for (const auto& c : cases)
         for (const double T : {1e-3, 5e-4, 1e-4})
-            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1 / T, .method = Method::backward_euler, .sampled = true}), algorithm(c, T)), 1e-12)
+            EXPECT_LT(worst(train(c.afferent, "press",
+                                  {.settings = c.settings(), .rate = 1 / T, .method = Method::backward_euler, .sampled = true}),
+                            algorithm(c, T)),
+                      1e-12)
                 << c.afferent << ' ' << c.V_th << ' ' << T;
 }
 
@@ -106,10 +116,17 @@ TEST(Thesis, GoldenCasesAreMet) {
         const Case c{g["model"] == "SA-I" ? "sa1" : "fa1", g["lif"]["theta"], g["lif"]["u_rst"]};
         const auto right = g["spike_times"].get<std::vector<double>>();
         if (g["variant"] == "exact") {
-            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), right), 1e-6) << g["model"] << g["neuron_set"];
-            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), right), 1e-4) << g["model"] << g["neuron_set"];
+            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), right), 1e-6)
+                << g["model"] << g["neuron_set"];
+            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), right), 1e-4)
+                << g["model"] << g["neuron_set"];
         } else {
-            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1 / g["T"].get<double>(), .method = Method::backward_euler, .sampled = true}), right), 1e-12)
+            EXPECT_LT(
+                worst(
+                    train(c.afferent, "press",
+                          {.settings = c.settings(), .rate = 1 / g["T"].get<double>(), .method = Method::backward_euler, .sampled = true}),
+                    right),
+                1e-12)
                 << g["model"] << g["neuron_set"];
         }
         for (const auto& [name, facts] : g["stats"]["phases"].items()) {
@@ -136,17 +153,25 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     const auto run = [](const std::string& neuron, double amplitude, Method method, bool sampled, double T) {
         // A step of force through SA-IA with k_s = 1 uA/N and no dynamic part is a step of current.
         const std::string who = "sa1a+" + neuron;
-        const auto a = test::afferent(who, {.settings = {who + ".k_d=0", who + ".C_m=1uF", who + ".V_th=1V", who + ".V_reset=0.5V"}, .rate = 1 / T, .method = method, .sampled = sampled});
-        return times(test::spikes(*a, test::force("step", {.settings = {"step.F_max=" + std::to_string(amplitude) + "N", "step.t_rest=0.5s", "step.t_hold=3.5s", "step.t_post=2s"}, .rate = 1 / T})), test::sure(clock_of(1 / T)));
+        const auto a = test::afferent(who, {.settings = {who + ".k_d=0", who + ".C_m=1uF", who + ".V_th=1V", who + ".V_reset=0.5V"},
+                                            .rate = 1 / T,
+                                            .method = method,
+                                            .sampled = sampled});
+        return times(test::spikes(*a, test::force("step", {.settings = {"step.F_max=" + std::to_string(amplitude) + "N", "step.t_rest=0.5s",
+                                                                        "step.t_hold=3.5s", "step.t_post=2s"},
+                                                           .rate = 1 / T})),
+                     test::sure(clock_of(1 / T)));
     };
     for (const auto& g : golden["cases"]) {
         const double amplitude = g["I_amp"].get<double>() * 1e6;
         for (const auto& [neuron, key] : {std::pair{"lif-a", "spike_times_A"}, {"lif-b", "spike_times_B"}}) {
             // The step stands between two samples, half a step early for first-order hold.
-            EXPECT_LT(worst(run(neuron, amplitude, Method::exact, false, 1e-4), g["exact"][key].get<std::vector<double>>()), 6e-5) << neuron;
+            EXPECT_LT(worst(run(neuron, amplitude, Method::exact, false, 1e-4), g["exact"][key].get<std::vector<double>>()), 6e-5)
+                << neuron;
             if (g["rounding_ties_in_sampled_LIF_B"].get<bool>() && std::string(neuron) == "lif-b") continue;  // one rounding decides there
             for (const auto& s : g["sampled"])
-                EXPECT_LT(worst(run(neuron, amplitude, Method::backward_euler, true, s["T"]), s[key].get<std::vector<double>>()), 1e-9) << neuron << ' ' << s["T"];
+                EXPECT_LT(worst(run(neuron, amplitude, Method::backward_euler, true, s["T"]), s[key].get<std::vector<double>>()), 1e-9)
+                    << neuron << ' ' << s["T"];
         }
     }
 }
@@ -160,7 +185,8 @@ TEST(Thesis, DefaultPressHasTheDescribedPattern) {
     EXPECT_EQ(of(sa1, 0.625, 0.75).count(), 1U);
     EXPECT_EQ(of(sa1, 0.75, 1).count(), 0U);
     const auto plateau = of(sa1, 0.375, 0.625);
-    for (std::size_t k = plateau.begin + 1; k + 1 < plateau.end; ++k) EXPECT_LT(sa1[k] - sa1[k - 1], sa1[k + 1] - sa1[k]) << "the plateau slows down steadily";
+    for (std::size_t k = plateau.begin + 1; k + 1 < plateau.end; ++k)
+        EXPECT_LT(sa1[k] - sa1[k - 1], sa1[k + 1] - sa1[k]) << "the plateau slows down steadily";
     EXPECT_NEAR(peak_rate(of(fa1, 0.25, 0.5)), 50.5, 0.05);
     EXPECT_NEAR(peak_rate(of(fa1, 0.625, 1)), 35.7, 0.05);
     EXPECT_EQ(of(fa1, 0.43, 0.69).count(), 0U);

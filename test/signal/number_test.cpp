@@ -26,7 +26,9 @@ TEST(Elementary, LogIsWithinTwoUnitsInTheLastPlace) {
     std::uniform_real_distribution<double> e(-700, 700), near_one(0.5, 2);
     for (int k = 0; k < 100000; ++k)
         for (const double a : {std::exp(e(random)), near_one(random)})
-            ASSERT_LT(std::abs(static_cast<long double>(num::log(a)) - std::log(static_cast<long double>(a))), 3e-16L * std::max(1.0L, std::abs(std::log(static_cast<long double>(a))))) << a;
+            ASSERT_LT(std::abs(static_cast<long double>(num::log(a)) - std::log(static_cast<long double>(a))),
+                      3e-16L * std::max(1.0L, std::abs(std::log(static_cast<long double>(a)))))
+                << a;
     EXPECT_EQ(num::log(1.0), 0.0);
 }
 
@@ -46,8 +48,10 @@ TEST(Elementary, SineAndCosineOfTurnsAreExactAtQuartersAndCloseElsewhere) {
 }
 
 TEST(Elementary, ExprelKeepsItsDigitsNearZero) {
-    for (double x = -1; x < 1; x += 1e-4) ASSERT_NEAR(num::exprel(x), x == 0 ? 1.0 : static_cast<double>(std::expm1(static_cast<long double>(x)) / x), 1e-13) << x;
-    for (double x = 1e-300; x < 1; x *= 7) ASSERT_NEAR(num::exprel(-x), static_cast<double>(-std::expm1(-static_cast<long double>(x)) / x), 1e-13) << x;
+    for (double x = -1; x < 1; x += 1e-4)
+        ASSERT_NEAR(num::exprel(x), x == 0 ? 1.0 : static_cast<double>(std::expm1(static_cast<long double>(x)) / x), 1e-13) << x;
+    for (double x = 1e-300; x < 1; x *= 7)
+        ASSERT_NEAR(num::exprel(-x), static_cast<double>(-std::expm1(-static_cast<long double>(x)) / x), 1e-13) << x;
     EXPECT_EQ(num::exprel(0.0), 1.0);
 }
 

@@ -54,13 +54,15 @@ TEST(Stimulus, PressIsTheThesissExperiment) {
 }
 
 TEST(Stimulus, ASumAddsAndLastsAsLongAsItsLongest) {
-    const auto sum = force("press+sine", {.settings = {"sine.duration=1.5s"}}), press = force("press"), sine = force("sine", {.settings = {"sine.duration=1.5s"}});
+    const auto sum = force("press+sine", {.settings = {"sine.duration=1.5s"}}), press = force("press"),
+               sine = force("sine", {.settings = {"sine.duration=1.5s"}});
     ASSERT_EQ(sum.size(), 15000U);
     for (std::size_t k = 0; k < press.size(); ++k) ASSERT_EQ(sum[k], press[k] + sine[k]);
 }
 
 TEST(Stimulus, NoiseFollowsItsSeedAndHasItsSpread) {
-    const Asked a{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 1}, b{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 2};
+    const Asked a{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 1},
+        b{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 2};
     const auto x = force("noise", a);
     EXPECT_NE(x, force("noise", b));
     double sum = 0, square = 0;
@@ -77,7 +79,8 @@ TEST(Stimulus, ChirpAndGratingHaveTheFrequenciesTheySay) {
         return n;
     };
     const auto chirp = force("chirp", {.rate = 20e3});
-    EXPECT_NEAR(rises(chirp, 80000, 100000, 1.0), 500 * (1 - std::pow(500.0, -0.2)) / std::log(500.0) * 5, 1.0);  // turns in the last second
+    EXPECT_NEAR(rises(chirp, 80000, 100000, 1.0), 500 * (1 - std::pow(500.0, -0.2)) / std::log(500.0) * 5,
+                1.0);  // turns in the last second
     const auto grating = force("grating");
     EXPECT_NEAR(rises(grating, 0, grating.size(), 1.0), 20, 1);  // 40 mm/s over 2 mm
 }
@@ -89,7 +92,8 @@ TEST(Stimulus, WrongNamesAndValuesAreRefusedWithWhatIsRight) {
         return made ? std::string("accepted") : made.error().text();
     };
     EXPECT_EQ(said("pres"), "unknown stimulus 'pres'; did you mean 'press'?");
-    EXPECT_EQ(said("press", {"press.F_mx=2N"}), "press: unknown parameter 'F_mx'; did you mean 'F_max'? (it has F_min, F_max, t_rest, t_up, t_hold, t_down, t_post)");
+    EXPECT_EQ(said("press", {"press.F_mx=2N"}),
+              "press: unknown parameter 'F_mx'; did you mean 'F_max'? (it has F_min, F_max, t_rest, t_up, t_hold, t_down, t_post)");
     EXPECT_EQ(said("press", {"press.F_max=2s"}), "press.F_max: '2s' is a time; N is wanted, such as '2 N'");
     EXPECT_EQ(said("press", {"press.t_up=-1s"}), "press: t_up = -1 s is outside [0, 100000]");
     EXPECT_EQ(said("sine", {"sine.duration=0"}), "sine: 0 s at 1000 Hz is not one sample");

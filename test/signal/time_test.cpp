@@ -39,7 +39,8 @@ TEST(Spike, IsOrderedByTimeThenUnit) {
 }
 
 RC_GTEST_PROP(State, PackedAndUnpackedIsTheSame, ()) {
-    const State s{*rc::gen::container<std::string>(rc::gen::inRange('a', 'z')), *rc::gen::arbitrary<std::int64_t>(), *rc::gen::arbitrary<std::vector<double>>()};
+    const State s{*rc::gen::container<std::string>(rc::gen::inRange('a', 'z')), *rc::gen::arbitrary<std::int64_t>(),
+                  *rc::gen::arbitrary<std::vector<double>>()};
     const auto back = unpack(pack(s));
     RC_ASSERT(static_cast<bool>(back));
     RC_ASSERT(back->format == s.format && back->step == s.step && back->values == s.values);
@@ -59,7 +60,8 @@ TEST(State, CutShortOrForeignBytesAreRefused) {
 TEST(Random, PhiloxGivesThePublishedWords) {  // known answers of Random123, kat_vectors
     EXPECT_EQ(philox({0, 0, 0, 0}, 0), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
-    EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822), (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+    EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822),
+              (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
 TEST(Random, NormalDeviatesHaveTheMomentsOfANormal) {

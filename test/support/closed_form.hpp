@@ -13,7 +13,9 @@ inline constexpr double rest = 0.25, up = 0.125, hold = 0.25, down = 0.125, whol
 
 inline double press_force(double t) {
     const double s = t < rest + up ? (t - rest) / up : 1 - (t - rest - up - hold) / down;
-    return t < rest || t >= rest + up + hold + down ? F_min : t >= rest + up && t < rest + up + hold ? F_max : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
+    return t < rest || t >= rest + up + hold + down ? F_min
+           : t >= rest + up && t < rest + up + hold ? F_max
+                                                    : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
 }
 
 /// x' + 2 pi f x = F', x(0) = 0, in newtons.
@@ -38,7 +40,8 @@ inline double fa1_current(double t) {
 }
 
 /// Spike times of LIF-B under a current, u_rest = 0.
-inline std::vector<double> lif_b_train(const std::function<double(double)>& current, double leak, double V_th, double V_reset, double C_m = 500e-9) {
+inline std::vector<double> lif_b_train(const std::function<double(double)>& current, double leak, double V_th, double V_reset,
+                                       double C_m = 500e-9) {
     constexpr double h = 1e-6;
     std::vector<double> train;
     double u = 0, at_start = current(0) - leak;

@@ -58,7 +58,8 @@ inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f
     Answer answer{out};
     auto state = a.start();
     for (std::size_t k = 0; k < f.size(); k += block)
-        if (auto ok = a.respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, answer); !ok) throw std::runtime_error(ok.error().text());
+        if (auto ok = a.respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, answer); !ok)
+            throw std::runtime_error(ok.error().text());
     return out;
 }
 
@@ -118,7 +119,7 @@ inline std::string shared(const std::string& name) {
 }  // namespace corpuscle::test
 
 /// Leaves the test, loudly, if a shared file is not on this machine.
-#define CORPUSCLE_NEEDS(path)                                                                          \
-    if (!std::filesystem::exists(path)) {                                                              \
+#define CORPUSCLE_NEEDS(path)                                                                                                  \
+    if (!std::filesystem::exists(path)) {                                                                                      \
         GTEST_SKIP() << "ABSENT: " << (path) << "\nNothing was checked here; set CORPUSCLE_DATA to the folder of recordings."; \
     }

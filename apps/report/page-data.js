@@ -1,0 +1,96 @@
+"use strict";
+// The report's data, taken apart only when somebody looks: numbers stay base64 text until their trace is shown.
+
+function bytesOf(base64) {
+    if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
+    const text = atob(base64), bytes = new Uint8Array(text.length);
+    for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);
+    return bytes;
+}
+
+/// One recorded quantity. Sample k was taken at t0 + k T; with bucket > 1 only least and greatest of each `bucket` samples are known.
+class Trace {
+    constructor(record, input) {
+        Object.assign(this, {part: record.part, afferent: record.afferent, unit: record.unit, bucket: record.bucket});
+        this.t0 = input.t0;
+        this.T = input.T;
+        this.samples = input.samples;
+        this.record = record;
+    }
+
+    get pyramid() {
+        if (!this.built) this.built = new Pyramid(...this.decode());
+        return this.built;
+    }
+
+    decode() {
+        const numbers = new Float32Array(bytesOf(this.record.data).buffer);
+        if (this.bucket === 1) return [numbers];
+        const lo = new Float32Array(this.record.count), hi = new Float32Array(this.record.count);
+        for (let j = 0; j < lo.length; ++j) [lo[j], hi[j]] = [numbers[2 * j], numbers[2 * j + 1]];
+        return [lo, hi];
+    }
+
+    /// [least, greatest] of samples k ... l-1, buckets counted whole.
+    range(k, l) { return this.pyramid.range(Math.floor(k / this.bucket), Math.ceil(l / this.bucket)); }
+
+    whole() { return this.range(0, this.samples); }
+
+    /// [least, greatest] known of the sample nearest to time t; equal where every sample is kept.
+    at(t) {
+        const k = Math.max(0, Math.min(this.samples - 1, Math.round((t - this.t0) / this.T)));
+        return this.range(k, k + 1);
+    }
+}
+
+/// Spike times of one afferent on one channel, ascending, and the frequency f_k = 1 / (t[k+1] - t[k]) that belongs to t[k].
+class Spikes {
+    constructor(record) {
+        this.record = record;
+        this.count = record ? record.count : 0;
+    }
+
+    get times() {
+        if (!this.decoded) this.decoded = this.count ? new Float64Array(bytesOf(this.record.times).buffer) : new Float64Array(0);
+        return this.decoded;
+    }
+
+    get frequency() {
+        if (!this.built) this.built = new Pyramid(this.frequencies());
+        return this.built;
+    }
+
+    frequencies() {
+        const t = this.times, f = new Float64Array(Math.max(t.length - 1, 0));
+        for (let k = 0; k < f.length; ++k) f[k] = t[k + 1] > t[k] ? 1 / (t[k + 1] - t[k]) : NaN;
+        return f;
+    }
+
+    /// How many spikes came before t.
+    before(t) {
+        let low = 0, high = this.times.length;
+        while (low < high) {
+            const middle = (low + high) >> 1;
+            if (this.times[middle] < t) low = middle + 1;
+            else high = middle;
+        }
+        return low;
+    }
+}
+
+class Report {
+    constructor(data) {
+        this.data = data;
+        this.spikeTrains = new Map(data.spikes.map((record) => [record.afferent + "\n" + record.channel, new Spikes(record)]));
+    }
+
+    /// Fresh every time, so that what is built for one channel is let go with it.
+    traces(input, channel) {
+        return this.data.traces.filter((record) => record.channel === channel.id).map((record) => new Trace(record, input));
+    }
+
+    spikes(afferent, channel) { return this.spikeTrains.get(afferent.name + "\n" + channel.id) || new Spikes(null); }
+}
+
+const endOf = (input) => input.t0 + input.samples * input.T;
+const phaseAt = (input, t) => input.phases.find((phase) => t >= phase.from && t < phase.to);

@@ -1,0 +1,75 @@
+"use strict";
+// The instantaneous frequency of each afferent on the chosen channel.
+
+const MARKS = ["●", "▲", "■", "◆"];
+
+/// f_k = 1 / (t[k+1] - t[k]) as a mark at t[k]; the last spike has none.
+class FrequencyPanel extends Panel {
+    constructor({trains, ...rest}) {
+        const highest = trains.reduce((high, {spikes}) => Math.max(high, spikes.frequency.range(0, spikes.count)[1] || 0), 0);
+        const power = prefixPower(highest, "Hz");
+        super({...rest, scale: 10 ** power, title: titleHtml("instantaneous frequency", PREFIXES[power] + "Hz"), bottom: true,
+               series: trains.map(({name, color, index}) => ({label: name, html: escaped(name), color, mark: MARKS[index % 4], index}))});
+        Object.assign(this, {trains: trains.map((one) => one.spikes), highest});
+    }
+
+    options() {
+        const series = Object.fromEntries(this.series.map(({label, color, index}) =>
+            [label, {color, strokeWidth: 0, drawPoints: true, pointSize: 2.5, drawPointCallback: drawMark(index % 4)}]));
+        return {series};
+    }
+
+    range(rows) {
+        const high = rows && rows.length ? this.trains.reduce((m, _, k) => Math.max(m, greatest(rows, k + 1)), 0) : this.highest;
+        return [(high || 1) * -0.04, (high || 1) * 1.08];
+    }
+
+    rows(a, b, width) {
+        const margin = 4 * (b - a) / width;  // marks cut by the edge are drawn too
+        const seen = this.trains.map((spikes) => [spikes.before(a - margin), Math.min(spikes.before(b + margin), spikes.count - 1)]);
+        const all = seen.reduce((sum, [i, j]) => sum + Math.max(j - i, 0), 0);
+        return all <= 2 * width ? this.everyMark(seen) : this.columnMarks(a, b, width);
+    }
+
+    everyMark(seen) {
+        const rows = [];
+        this.trains.forEach((spikes, s) => {
+            const f = spikes.frequency.levels[0].lo;
+            for (let k = seen[s][0]; k < seen[s][1]; ++k) rows.push([spikes.times[k], ...this.trains.map((_, o) => (o === s ? f[k] : null))]);
+        });
+        return rows.sort((one, other) => one[0] - other[0]);
+    }
+
+    /// Least and greatest in each pixel column.
+    columnMarks(a, b, width) {
+        const rows = [], columns = Math.ceil(width), step = (b - a) / columns;
+        let from = this.trains.map((spikes) => spikes.before(a));
+        for (let c = 0; c < columns; ++c) {
+            const to = this.trains.map((spikes) => spikes.before(a + (c + 1) * step));
+            const ranges = this.trains.map((spikes, s) => spikes.frequency.range(from[s], to[s]));
+            for (const end of [0, 1]) rows.push([a + (c + 0.5) * step, ...ranges.map((range) => range[end])]);
+            from = to;
+        }
+        return rows;
+    }
+
+    /// The frequency at t is that of the last spike before it.
+    read(t) {
+        this.trains.forEach((spikes, s) => {
+            const k = spikes.before(t) - 1;
+            this.values[s].textContent = k < 0 || k >= spikes.count - 1 ? "–" : quantity(spikes.frequency.range(k, k + 1)[0], "Hz");
+        });
+    }
+}
+
+/// Disc, triangle, square, diamond: afferents differ in shape as well as colour.
+function drawMark(kind) {
+    const corners = [null, [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]], [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]], [[0, -1.3], [1.3, 0], [0, 1.3], [-1.3, 0]]][kind];
+    return (_chart, _series, context, x, y, color, size) => {
+        context.fillStyle = color;
+        context.beginPath();
+        if (corners) corners.forEach(([dx, dy]) => context.lineTo(x + dx * size, y + dy * size));
+        else context.arc(x, y, size, 0, 2 * Math.PI);
+        context.fill();
+    };
+}

@@ -1,0 +1,124 @@
+"use strict";
+// A panel is one dygraph with a heading that doubles as legend and readout. All panels share their left edge and width,
+// so that one instant stands at one x in all of them.
+
+const AXIS_FONT = 11;
+
+/// Colours live in the style sheet, once, for light and dark.
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+const afferentColour = (index) => colour("series-" + index % 8);
+
+/// Between two #rrggbb colours: share 0 is the first, 1 the second.
+function mixed(first, second, share) {
+    const part = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
+    return "#" + [0, 1, 2].map((k) => Math.round(part(first, k) * (1 - share) + part(second, k) * share).toString(16).padStart(2, "0")).join("");
+}
+
+function element(parent, tag, className = "", html = "") {
+    const made = document.createElement(tag);
+    if (className) made.className = className;
+    if (html) made.innerHTML = html;
+    if (parent) parent.append(made);
+    return made;
+}
+
+class Panel {
+    /// `series`: [{label, html, color, width, dash}], one for each column of rows(). `scale`: what one unit of the axis is.
+    /// `bottom` shows the time axis, `named` writes the phases' names.
+    constructor({host, input, name, title, about, height, series, scale = 1, bottom = false, named = false}) {
+        Object.assign(this, {input, name, series, about, height, scale, named, axisHeight: bottom ? 22 : 16, bottom, dots: false});
+        this.root = element(host, "figure", "panel");
+        this.root.dataset.panel = name;
+        this.heading = element(this.root, "figcaption");
+        element(this.heading, "span", "panel-title", title);
+        this.plot = element(this.root, "div", "plot");
+        this.plot.style.height = height + this.axisHeight + "px";
+        this.plot.setAttribute("role", "img");
+        this.values = series.map((one) => this.legend(one));
+    }
+
+    legend({label, html, color, width = 1.5, dash, mark}) {
+        const item = element(this.heading, "span", "legend-item");
+        if (label) item.dataset.series = label;
+        const swatch = element(item, "span", mark ? "mark" : "swatch", mark || "");
+        if (mark) swatch.style.color = color;
+        else swatch.style.borderTop = `${width}px ${dash ? (dash[0] > 3 ? "dashed" : "dotted") : "solid"} ${color}`;
+        element(item, "span", "legend-name", html);
+        return element(item, "span", "legend-value");
+    }
+
+    /// Called once the panel stands in the page and its width is known.
+    start(view) {
+        this.chart = new Dygraph(this.plot, this.empty(view.a, view.b), {
+            labels: ["t", ...this.series.map((one) => one.label)],
+            series: Object.fromEntries(this.series.map((one) => [one.label, {color: one.color, strokeWidth: one.width, strokePattern: one.dash || null}])),
+            dateWindow: [view.a, view.b],
+            valueRange: this.range(null),
+            axes: {
+                x: {ticker: (lo, hi, pixels) => timeTicks(lo, hi, pixels, this.bottom), axisLabelWidth: 90},
+                y: {ticker: (lo, hi, pixels) => this.valueTicks(lo, hi, pixels), axisLabelWidth: view.labelWidth},
+            },
+            underlayCallback: (context, area, chart) => {
+                this.chart = chart;  // the first drawing comes before the constructor returns
+                if (area.w >= 1) this.under(context, area);  // a hidden page has no width
+            },
+            interactionModel: {},  // the view has its own, for all panels at once
+            pixelRatio: document.documentElement.classList.contains("printing") ? 2 : null,
+            legend: "never", pointSize: 2.2, highlightCircleSize: 0, showLabelsOnHighlight: false,
+            axisLabelFontSize: AXIS_FONT, axisTickSize: 3, rightGap: 14, xAxisHeight: this.axisHeight,
+            gridLineColor: colour("grid"), gridLineWidth: 1, axisLineColor: colour("axis"), axisLineWidth: 1,
+            ...this.options(),
+        });
+        this.hairline = element(this.plot, "div", "hairline");
+        this.selection = element(this.plot, "div", "selection");
+    }
+
+    options() { return {}; }
+    click() {}
+    forget() { this.values.forEach((value) => { value.textContent = ""; }); }
+    empty(a, b) { return [a, b].map((t) => [t, ...this.series.map(() => null)]); }
+    get area() { return this.chart.getArea(); }
+
+    /// `fit`: the vertical axis follows what is in view.
+    draw(a, b, fit) {
+        if (this.area.w < 1) return;
+        const rows = this.rows(a, b, this.area.w);
+        this.chart.updateOptions({file: rows.length ? rows : this.empty(a, b), dateWindow: [a, b],
+                                  valueRange: this.range(fit ? rows : null), drawPoints: this.dots});
+        this.plot.setAttribute("aria-label", `${this.about}, from ${timeText(a, (b - a) / 1000)} to ${timeText(b, (b - a) / 1000)}`);
+    }
+
+    valueTicks(lo, hi, pixels) {
+        const {values, decimals} = roundTicks(lo / this.scale, hi / this.scale, pixels / 32);
+        return values.map((v) => ({v: v * this.scale, label: v.toFixed(decimals).replace("-", "−")}));
+    }
+
+    under(context, area) {
+        context.lineJoin = "bevel";  // mitred peaks would overshoot what they show
+        const x = (t) => Math.max(area.x, Math.min(area.x + area.w, this.chart.toDomXCoord(t)));
+        this.input.phases.forEach(({name, from, to}, k) => {
+            const [left, right] = [x(from), x(to)];
+            context.fillStyle = colour("band");
+            if (k % 2) context.fillRect(left, area.y, right - left, area.h);
+            if (this.named) writeInside(context, name, left, right, area.y + 12);
+        });
+    }
+
+    destroy() {
+        this.chart.destroy();
+        this.root.remove();
+    }
+}
+
+function writeInside(context, text, left, right, y) {
+    context.font = `${AXIS_FONT}px system-ui, sans-serif`;
+    context.textAlign = "center";
+    context.fillStyle = colour("faint");
+    if (context.measureText(text).width + 6 < right - left) context.fillText(text, (left + right) / 2, y);
+}
+
+/// Grid lines, and below the last panel of a section their times. A tick on the very end would not be drawn.
+function timeTicks(a, b, pixels, labelled) {
+    const {values, decimals} = roundTicks(a, b, pixels / 110);
+    return values.map((v) => ({v: Math.min(v, b - 1e-9 * (b - a)), label: labelled ? v.toFixed(decimals).replace("-", "−") + " s" : undefined}));
+}

@@ -1,0 +1,132 @@
+"use strict";
+// Spikes of every afferent on every channel. What is drawn is bounded by the pixels there are, not by the spikes.
+
+const MOST_LABELS = 46;  // more lanes than this are too thin for a label each
+
+/// Each lane is an afferent on a channel: ticks while they stand apart, spikes per pixel as shade when they do not.
+class RasterPanel extends Panel {
+    /// `lanes`: [{afferent, label, color, spikes, channel, chosen}], the first at the top.
+    constructor({lanes, pick, afferents, named, ...rest}) {
+        const tall = Math.min(24, 560 / lanes.length), strip = named ? 16 : 0;
+        super({...rest, named, title: "spikes", height: strip + Math.max(40, tall * lanes.length), bottom: true,
+               series: afferents.map(({name, color}) => ({label: name, html: escaped(name), color, width: 3}))});
+        Object.assign(this, {lanes, pick, strip, each: lanes.length <= MOST_LABELS});
+    }
+
+    rows() { return []; }
+    options() { return {drawGrid: false}; }
+    read() {}
+    forget() {}
+
+    /// A lane is one high; what is above them holds the phases' names.
+    range() { return [0, this.lanes.length * this.height / (this.height - this.strip)]; }
+    inner(area) { return {...area, y: area.y + this.strip, h: area.h - this.strip, tall: (area.h - this.strip) / this.lanes.length}; }
+
+    /// Labels lane by lane while there is room; else one for each afferent, amid its lanes.
+    valueTicks() {
+        const n = this.lanes.length;
+        if (this.each) return this.lanes.map(({label}, k) => ({v: n - k - 0.5, label: escaped(label)}));
+        return this.series.map(({label}) => {
+            const first = this.lanes.findIndex((lane) => lane.afferent === label);
+            const last = this.lanes.findLastIndex((lane) => lane.afferent === label);
+            return {v: n - (first + last + 1) / 2, label: escaped(label)};
+        });
+    }
+
+    under(context, whole) {
+        super.under(context, whole);
+        const area = this.inner(whole);
+        const [a, b] = this.chart.xAxisRange();
+        const seen = this.lanes.map(({spikes}) => [spikes.before(a), spikes.before(b)]);
+        const busiest = seen.reduce((most, [i, j]) => Math.max(most, j - i), 0);
+        const all = seen.reduce((sum, [i, j]) => sum + j - i, 0);
+        this.markLanes(context, area);
+        if (busiest * 4 < area.w && all < 20000) this.drawTicks(context, area, seen);
+        else this.drawDensity(context, area, a, b, seen);
+        this.countSpikes(seen);
+    }
+
+    /// The chosen channel's lanes are tinted; a line parts one afferent's lanes from the next one's.
+    markLanes(context, area) {
+        if (!this.pick) return;
+        const [tint, rule] = [colour("chosen"), colour("rule")];
+        this.lanes.forEach((lane, k) => {
+            const y = area.y + k * area.tall;
+            context.fillStyle = tint;
+            if (lane.chosen) context.fillRect(area.x, y, area.w, Math.max(area.tall, 2));
+            context.fillStyle = rule;
+            if (k && lane.afferent !== this.lanes[k - 1].afferent) context.fillRect(area.x, Math.round(y), area.w, 1);
+        });
+    }
+
+    drawTicks(context, area, seen) {
+        const {tall} = area, gap = tall > 4 ? tall * 0.12 : 0;
+        this.lanes.forEach(({spikes, color}, k) => {
+            context.fillStyle = color;
+            for (let i = seen[k][0]; i < seen[k][1]; ++i)
+                context.fillRect(this.chart.toDomXCoord(spikes.times[i]) - 0.75, area.y + k * tall + gap, 1.5, Math.max(1, tall - 2 * gap));
+        });
+    }
+
+    /// Painted one pixel a lane and column, then stretched over the plot. Lanes thinner than a pixel share one.
+    drawDensity(context, area, a, b, seen) {
+        const columns = Math.round(area.w * devicePixelRatio);
+        const lines = Math.min(this.lanes.length, Math.floor(area.h * devicePixelRatio));
+        const counts = Array.from({length: lines}, () => new Uint32Array(columns));
+        const colours = [];
+        this.lanes.forEach(({spikes, color}, k) => {
+            const line = Math.floor(k * lines / this.lanes.length);
+            countPerColumn(counts[line], spikes, ...seen[k], a, b);
+            colours[line] = color;
+        });
+        const image = painted(counts, colours), gap = area.tall > 6 ? 1 : 0;
+        context.imageSmoothingEnabled = false;
+        for (let k = 0; k < lines; ++k)
+            context.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
+    }
+
+    /// The legend says how many spikes of the chosen channel are in view, and of how many.
+    countSpikes(seen) {
+        this.series.forEach(({label}, s) => {
+            const k = this.lanes.findIndex((lane) => lane.afferent === label && lane.chosen);
+            const shown = seen[k][1] - seen[k][0], total = this.lanes[k].spikes.count;
+            this.values[s].textContent = shown === total ? `${total}` : `${shown} of ${total}`;
+        });
+    }
+
+    click(x, y) {
+        const area = this.inner(this.area);
+        const lane = this.lanes[Math.floor((y - area.y) / area.tall)];
+        if (lane && this.pick && !lane.chosen) this.pick(lane.channel);
+    }
+}
+
+/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few are counted one by one; of many, only the columns' edges are looked up.
+function countPerColumn(counts, spikes, i, j, a, b) {
+    const t = spikes.times, columns = counts.length;
+    if (j - i < 8 * columns) {
+        for (let k = i; k < j; ++k) ++counts[Math.min(columns - 1, Math.floor((t[k] - a) / (b - a) * columns))];
+        return;
+    }
+    for (let c = 0, from = i; c < columns; ++c) {
+        const to = c + 1 < columns ? spikes.before(a + (b - a) * (c + 1) / columns) : j;
+        counts[c] += to - from;
+        from = to;
+    }
+}
+
+/// An image of the counts: the more spikes, the less transparent.
+function painted(counts, colours) {
+    const most = counts.reduce((high, line) => line.reduce((m, n) => Math.max(m, n), high), 1);
+    const canvas = element(null, "canvas");
+    [canvas.width, canvas.height] = [counts[0].length, counts.length];
+    const image = new ImageData(canvas.width, canvas.height), pixels = new Uint32Array(image.data.buffer);
+    counts.forEach((line, y) => {
+        const [red, green, blue] = [1, 3, 5].map((k) => parseInt(colours[y].slice(k, k + 2), 16));
+        const opaque = (blue << 16) | (green << 8) | red;
+        for (let x = 0; x < line.length; ++x)
+            if (line[x]) pixels[y * canvas.width + x] = ((55 + 200 * Math.sqrt(line[x] / most)) << 24) | opaque;
+    });
+    canvas.getContext("2d").putImageData(image, 0, 0);
+    return canvas;
+}

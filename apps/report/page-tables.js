@@ -1,0 +1,57 @@
+"use strict";
+// What the report says in words and numbers: rates, parameters, versions.
+
+const MOST_ROWS = 2000;  // more would only slow the browser; the numbers are in the program's own files
+
+/// Rates of the chosen channel, or of all.
+function showRates(table, inputs, input, channel) {
+    const section = document.getElementById("rates");
+    section.hidden = !table || !table.rows.length;
+    if (section.hidden) return;
+    const all = document.getElementById("all-rows");
+    const several = inputs.reduce((sum, one) => sum + one.channels.length, 0) > 1;
+    document.getElementById("choose-rows").hidden = !several;
+    const fill = () => fillRates(section.querySelector(".scroll"), table, several && !all.checked ? [input.name, channel.name] : null);
+    all.onchange = fill;
+    fill();
+}
+
+function fillRates(host, {columns, rows}, only) {
+    const [atInput, atChannel] = [columns.indexOf("input"), columns.indexOf("channel")];
+    const wanted = rows.filter((row) => !only || ((atInput < 0 || row[atInput] === only[0]) && (atChannel < 0 || row[atChannel] === only[1])));
+    const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number"));
+    const cell = (tag, c, text) => `<${tag}${numeric[c] ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${escaped(text)}</${tag}>`;
+    const line = (row, k) => `<tr${k && row[0] !== wanted[k - 1][0] ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value))).join("")}</tr>`;
+    host.innerHTML = `<table><thead><tr>${columns.map((name, c) => cell("th", c, name)).join("")}</tr></thead>
+        <tbody>${wanted.slice(0, MOST_ROWS).map(line).join("")}</tbody></table>`;
+    if (wanted.length > MOST_ROWS) element(host, "p", "note", `the first ${MOST_ROWS} of ${wanted.length} rows`);
+}
+
+function showParameters(afferents) {
+    const section = document.getElementById("parameters");
+    const told = afferents.map((one, index) => ({...one, index})).filter((one) => one.parameters && one.parameters.length);
+    section.hidden = !told.length;
+    section.querySelector(".columns").innerHTML = told.map(parameterTable).join("");
+}
+
+function parameterTable({name, made_of, parameters, index}) {
+    const head = ["model", "parameter", "value", "default", "meaning"].map((text) => `<th scope="col">${text}</th>`).join("");
+    return `<table class="parameters"><caption><span class="chip" style="background: ${afferentColour(index)}"></span>${escaped(name)}
+        <span class="unit">${escaped(made_of || "")}</span></caption><thead><tr>${head}</tr></thead><tbody>${parameters.map(parameterRow).join("")}</tbody></table>`;
+}
+
+function parameterRow(parameter, k, all) {
+    const first = !k || all[k - 1].of !== parameter.of;
+    const source = parameter.source ? ` <span class="unit">(${escaped(parameter.source)})</span>` : "";
+    const text = (value) => escaped(quantity(value, parameter.unit || "", true));
+    return `<tr class="${parameter.set ? "set" : ""} ${first && k ? "group" : ""}"><td>${first ? escaped(parameter.of || "") : ""}</td>
+        <th scope="row">${escaped(parameter.name)}</th><td class="number">${text(parameter.value)}${parameter.set ? ' <span class="tag">set</span>' : ""}</td>
+        <td class="number">${text(parameter.default)}</td><td>${escaped(parameter.sentence || "")}${source}</td></tr>`;
+}
+
+function showVersions(versions) {
+    const entries = Object.entries(versions || {});
+    const section = document.getElementById("versions");
+    section.hidden = !entries.length;
+    section.querySelector("dl").innerHTML = entries.map(([name, text]) => `<div><dt>${escaped(name)}</dt><dd>${escaped(text)}</dd></div>`).join("");
+}

@@ -1,0 +1,89 @@
+"use strict";
+// Force, currents, membranes: quantities over time, thinned to the pixels there are.
+
+/// Traces of one unit over time; the axis carries the prefix that suits the largest value.
+class TracePanel extends Panel {
+    /// `line`: {value, html} draws a thin dashed level, the threshold.
+    constructor({traces, line = null, title, ...rest}) {
+        const extent = extentOf(traces.map((trace) => trace.whole()), line);
+        const power = prefixPower(Math.max(Math.abs(extent[0]), Math.abs(extent[1])), traces[0].unit);
+        const unit = PREFIXES[power] + unitText(traces[0].unit);
+        super({...rest, scale: 10 ** power, title: titleHtml(title, unit)});
+        Object.assign(this, {traces, line, extent});
+        if (line) this.legend({html: line.html, color: colour("level"), width: 1, dash: [5, 3]}).textContent = quantity(line.value, traces[0].unit, true);
+    }
+
+    /// Every sample where they are few; else least and greatest of each column of about a pixel. Columns stand at
+    /// multiples of their own width, so that they do not shimmer while the window moves.
+    rows(a, b, width) {
+        const {t0, T, samples} = this.traces[0];
+        const finest = Math.min(...this.traces.map((trace) => trace.bucket));
+        const count = (b - a) / T;
+        const single = finest === 1 && count <= 2 * width;
+        const column = single ? 1 : finest * Math.max(1, Math.ceil(count / (finest * width)));
+        this.dots = single && count < width / 8;
+        const first = Math.max(0, Math.floor((a - t0) / T / column) - 1);
+        const end = Math.min(Math.ceil(samples / column), Math.ceil((b - t0) / T / column) + 2);
+        const rows = [], last = this.traces.map(() => 0);
+        for (let c = first; c < end; ++c) {
+            const t = t0 + (c * column + (column - 1) / 2) * T;
+            const ranges = this.traces.map((trace) => trace.range(c * column, (c + 1) * column));
+            if (single) rows.push([t, ...ranges.map((range) => range[0])]);
+            else rows.push(...bothEnds(t, ranges, last));
+        }
+        return rows;
+    }
+
+    range(rows) {
+        const extent = rows && rows.length ? extentOf(this.traces.map((_, k) => [least(rows, k + 1), greatest(rows, k + 1)]), null) : this.extent;
+        return padded(extent, this.named ? 0.24 : 0.07);
+    }
+
+    under(context, area) {
+        super.under(context, area);
+        if (this.line) this.drawLine(context, area);
+    }
+
+    drawLine(context, area) {
+        const y = Math.round(this.chart.toDomYCoord(this.line.value)) + 0.5;
+        context.save();
+        context.strokeStyle = colour("level");
+        context.setLineDash([5, 3]);
+        context.beginPath();
+        context.moveTo(area.x, y);
+        context.lineTo(area.x + area.w, y);
+        context.stroke();
+        context.restore();
+    }
+
+    read(t) {
+        this.traces.forEach((trace, k) => { this.values[k].textContent = rangeText(trace.at(t), trace.unit); });
+    }
+}
+
+/// Two rows for a column: for each trace the end nearer to where its line arrives comes first, so that slopes stay thin.
+function bothEnds(t, ranges, last) {
+    const near = ranges.map(([low, high], k) => (Math.abs(last[k] - low) <= Math.abs(last[k] - high) ? 0 : 1));
+    ranges.forEach((range, k) => { last[k] = range[1 - near[k]]; });
+    return [[t, ...ranges.map((range, k) => range[near[k]])], [t, ...last]];
+}
+
+/// One value, or both where only least and greatest are known and differ.
+function rangeText([low, high], unit) {
+    const [first, second] = [quantity(low, unit), quantity(high, unit)];
+    return first === second ? first : `${first} … ${second}`;
+}
+
+const least = (rows, column) => rows.reduce((low, row) => (row[column] !== null && row[column] < low ? row[column] : low), Infinity);
+const greatest = (rows, column) => rows.reduce((high, row) => (row[column] !== null && row[column] > high ? row[column] : high), -Infinity);
+
+function extentOf(ranges, line) {
+    const ends = [...ranges.flat(), line ? line.value : null].filter((v) => v !== null && Number.isFinite(v));
+    return ends.length ? [Math.min(...ends), Math.max(...ends)] : [0, 0];
+}
+
+/// Room below and above; `above` is a share of the height, more where names are written.
+function padded([low, high], above) {
+    const height = high - low || Math.abs(high) * 0.2 || 1;
+    return [low - height * 0.07, high + height * above];
+}

@@ -1,0 +1,190 @@
+"use strict";
+// Puts the report together: heading, then the figures of the chosen input and channel, then the tables.
+
+const report = new Report(JSON.parse(document.getElementById("data").textContent));
+const at = (id) => document.getElementById(id);
+const view = new View({span: at("span"), now: at("now")});
+const shown = {input: null, channel: null, traces: []};
+
+function showHeading({title, program, command, remarks}) {
+    at("title").textContent = title;
+    at("program").textContent = program;
+    at("command").textContent = command;
+    at("remarks").hidden = !remarks || !remarks.length;
+    at("remarks").innerHTML = (remarks || []).map((text) => `<li>${escaped(text)}</li>`).join("");
+}
+
+/// The figures of one channel. The window of time stays when only the channel changes.
+function show(input, channel) {
+    const keep = shown.input === input;
+    Object.assign(shown, {input, channel, traces: report.traces(input, channel)});
+    const scroll = scrollY;
+    view.clear();
+    at("figures").replaceChildren();
+    labelWidth(input);
+    view.show([...forcePanels(), ...report.data.afferents.flatMap(afferentPanels), ...spikePanels()], input, keep);
+    scrollTo(0, scroll);
+    showChoice(input, channel);
+    showRates(report.data.table, report.data.inputs, input, channel);
+}
+
+/// All panels leave the same room at their left, enough for the raster's labels.
+function labelWidth(input) {
+    const labels = lanes(input, null).map(({label}) => label);
+    const longest = labels.length <= MOST_LABELS ? Math.max(0, ...labels.map((label) => label.length)) : 0;
+    view.labelWidth = Math.max(60, Math.min(130, 7 * longest));
+    at("figures").style.setProperty("--left", view.labelWidth + 6 + "px");
+}
+
+function showChoice(input, channel) {
+    const {inputs} = report.data;
+    at("choose-input").hidden = inputs.length < 2;
+    at("choose-channel").hidden = input.channels.length < 2;
+    at("input").innerHTML = inputs.map((one, k) => `<option value="${k}" ${one === input ? "selected" : ""}>${escaped(one.name)}</option>`).join("");
+    at("channel").innerHTML = input.channels.map((one) => `<option value="${one.id}" ${one === channel ? "selected" : ""}>${escaped(one.name)}</option>`).join("");
+}
+
+/// One section of figures, with a heading.
+function section(title, about = "", chip = "") {
+    const made = element(at("figures"), "section");
+    const mark = chip && `<span class="chip" style="background: ${chip}"></span>`;
+    element(made, "h2", "", `${mark}${escaped(title)} <small>${escaped(about)}</small>`);
+    return made;
+}
+
+function forcePanels() {
+    const traces = shown.traces.filter((trace) => trace.afferent === null);
+    if (!shown.traces.length) element(at("figures"), "p", "note", "No traces were kept for this channel; its spikes follow.");
+    if (!traces.length) return [];
+    const host = section("Stimulus", [shown.channel.name, shown.input.sentence].filter(Boolean).join(": "));
+    return byUnit(traces).map((group, k, all) => new TracePanel({
+        host, input: shown.input, traces: group, name: group[0].part, title: group.map((trace) => trace.part).join(", "),
+        about: group.map((trace) => trace.part).join(", "), height: 120, bottom: k === all.length - 1, named: k === 0,
+        series: group.map(({part}, n) => ({label: part, html: group.length > 1 ? symbolHtml(part) : "", width: 1.6,
+                                           color: mixed(colour("ink"), colour("faint"), n / group.length)})),
+    }));
+}
+
+/// Currents, membranes, and what else it has states of, a panel each.
+function afferentPanels(afferent, index) {
+    const traces = shown.traces.filter((trace) => trace.afferent === afferent.name);
+    if (!traces.length) return [];
+    const about = [afferent.made_of, afferent.sentence].filter(Boolean).join(": ");
+    const host = section(afferent.name, about, afferentColour(index));
+    return byUnit(traces).map((group, k, all) => {
+        const {unit} = group[0];
+        const title = {A: "current", V: "membrane"}[unit] || group.map((trace) => trace.part).join(", ");
+        const hasLine = unit === "V" && Number.isFinite(afferent.V_th);
+        group.sort((one, other) => isWhole(other) - isWhole(one));  // the whole first, so that its parts are drawn over it
+        return new TracePanel({
+            host, input: shown.input, traces: group, name: `${afferent.name} ${title}`, title,
+            about: `${afferent.name} ${title}: ${group.map((trace) => trace.part).join(", ")}`,
+            height: unit === "A" ? 130 : 110, bottom: k === all.length - 1,
+            line: hasLine ? {value: afferent.V_th, html: symbolHtml("V_th")} : null,
+            series: styles(group, afferentColour(index)),
+        });
+    });
+}
+
+function byUnit(traces) {
+    const groups = new Map();
+    for (const trace of traces) groups.set(trace.unit, [...(groups.get(trace.unit) || []), trace]);
+    return [...groups.values()];
+}
+
+/// A total current or a membrane, and not one of the parts.
+const isWhole = (trace) => /^[Iu](_[+-])?$/.test(trace.part);
+
+/// Totals and membranes are bold in the afferent's colour; what they are made of is thinner, in its shades and in dashes.
+function styles(traces, base) {
+    const main = traces.filter(isWhole);
+    const bold = [{color: base, width: 2}, {color: mixed(base, colour("ink"), 0.55), width: 2, dash: traces[0].unit === "A" ? [6, 3] : null}];
+    const thin = [{color: mixed(base, colour("ink"), 0.55), width: 1}, {color: mixed(base, colour("ink"), 0.2), width: 1, dash: [6, 3]},
+                  {color: mixed(base, colour("ink"), 0.7), width: 1.2, dash: [2, 2]}, {color: mixed(base, colour("paper"), 0.35), width: 1}];
+    const parts = traces.filter((trace) => !isWhole(trace));
+    const pick = (list, k) => list[Math.min(k, list.length - 1)];
+    const look = (trace) => (isWhole(trace) ? pick(bold, main.indexOf(trace)) : pick(main.length ? thin : [...bold, ...thin], parts.indexOf(trace)));
+    return traces.map((trace) => ({label: trace.part, html: symbolHtml(trace.part), ...look(trace)}));
+}
+
+function spikePanels() {
+    const {input, channel} = shown, {afferents} = report.data;
+    if (!afferents.length) return [];
+    const host = section("Spikes", input.channels.length > 1 ? `all channels; click a row to see its channel. Counts and frequencies are of ${channel.name}.` : "");
+    const colours = afferents.map(({name}, index) => ({name, color: afferentColour(index), index}));
+    return [
+        new RasterPanel({host, input, name: "raster", about: "spikes", lanes: lanes(input, channel), afferents: colours, named: !shown.traces.length,
+                         pick: input.channels.length > 1 ? (one) => show(input, one) : null}),
+        new FrequencyPanel({host, input, name: "frequency", about: "instantaneous frequency", height: 150,
+                            trains: colours.map((one, k) => ({...one, spikes: report.spikes(afferents[k], channel)}))}),
+    ];
+}
+
+/// The raster's lanes: every afferent on every channel. A label leaves out the input's name, and if long keeps its end.
+function lanes(input, chosen) {
+    const cut = (text) => (text.length > 18 ? "…" + text.slice(-17) : text);
+    const own = ({name}) => (name.startsWith(input.name + ":") ? name.slice(input.name.length + 1) : name);
+    return report.data.afferents.flatMap((afferent, index) => {
+        const color = afferentColour(index);
+        return input.channels.map((channel) => ({
+            afferent: afferent.name, channel, chosen: channel === chosen, color, spikes: report.spikes(afferent, channel),
+            label: cut(input.channels.length > 1 ? `${afferent.name} ${own(channel)}` : afferent.name)}));
+    });
+}
+
+/// The channel with most spikes: of many, the first may have felt nothing.
+function liveliest(input) {
+    const count = (channel) => report.data.afferents.reduce((sum, afferent) => sum + report.spikes(afferent, channel).count, 0);
+    return input.channels.reduce((best, channel) => (count(channel) > count(best) ? channel : best));
+}
+
+function connect() {
+    const {inputs} = report.data;
+    at("input").onchange = () => show(inputs[at("input").value], liveliest(inputs[at("input").value]));
+    at("channel").onchange = () => show(shown.input, shown.input.channels.find((one) => String(one.id) === at("channel").value));
+    at("earlier").onclick = () => view.pan(-0.25);
+    at("later").onclick = () => view.pan(0.25);
+    at("in").onclick = () => view.zoom(0.5);
+    at("out").onclick = () => view.zoom(2);
+    at("whole").onclick = () => view.whole();
+    at("fit").onchange = () => { view.fit = at("fit").checked; view.request(); };
+    followKeys(view);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
+    addEventListener("beforeprint", () => forPaper(true));
+    addEventListener("afterprint", () => forPaper(false));
+}
+
+/// Colours are read from the style sheet when figures are made, so other colours need other figures.
+function recolour() {
+    showParameters(report.data.afferents);
+    show(shown.input, shown.channel);
+}
+
+function forPaper(on) {
+    document.documentElement.classList.toggle("printing", on);
+    recolour();
+}
+
+/// For tests, and for looking at a report from the browser's console.
+///   charts                       the dygraphs shown, by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency"
+///   valueAt(part, t, afferent)   of the chosen channel, at the sample nearest to t: a number; [least, greatest] where the
+///                                trace keeps only these; null where there is no such trace. "force" has no afferent
+///   window(), setWindow(a, b)    the seconds shown; setting draws at once
+///   pointsDrawn()                by panel, the rows last handed to its dygraph and the width of its plot in pixels
+window.corpuscle = {
+    get charts() { return Object.fromEntries(view.panels.map((panel) => [panel.name, panel.chart])); },
+    valueAt(part, t, afferent = null) {
+        const trace = shown.traces.find((one) => one.part === part && one.afferent === afferent);
+        if (!trace) return null;
+        return trace.bucket === 1 ? trace.at(t)[0] : trace.at(t);
+    },
+    window: () => [view.a, view.b],
+    setWindow(a, b) { view.set(a, b); view.draw(); },
+    pointsDrawn: () => Object.fromEntries(view.panels.map(({name, chart, area}) => [name, {rows: chart.numRows(), width: area.w}])),
+};
+
+showHeading(report.data);
+showParameters(report.data.afferents);
+showVersions(report.data.versions);
+connect();
+show(report.data.inputs[0], liveliest(report.data.inputs[0]));

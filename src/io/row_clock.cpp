@@ -1,0 +1,100 @@
+#include "io/row_clock.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "io/clock_check.hpp"
+#include "io/columns.hpp"
+#include "signal/quantity.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::string hertz(double rate) { return fmt::format("{:.5g} Hz", rate); }
+
+std::string steps(const ClockCheck& c) {
+    return fmt::format("steps from {} to {}", format_quantity(c.least_step(), "s"), format_quantity(c.longest_step(), "s"));
+}
+
+/// One pass over the time column; time may go back only where the rows' own times do not matter.
+Result<ClockCheck> check_times(Table& table, std::size_t column, double unit, bool may_go_back) {
+    ClockCheck check;
+    std::vector<std::vector<double>> block(1);
+    for (double last = 0;;) {
+        const auto rows = table.read({column}, rows_a_block, block);
+        if (!rows) return rows.error();
+        for (std::size_t k = 0; k < *rows; ++k) {
+            const double t = block[0][k] * unit;
+            if (check.count() > 0 && t < last && !may_go_back)
+                return bad_input(fmt::format("time goes back, from {:g} s to {:g} s; --rate takes the rows as evenly spaced", last, t),
+                                 table.place(k));
+            check.add(last = t);
+        }
+        if (*rows < rows_a_block) break;
+    }
+    if (auto ok = table.rewind(); !ok) return ok.error();
+    return check;
+}
+
+std::string uneven(const std::string& name, const ClockCheck& c) {
+    const double mean = 1 / c.mean_step();
+    return fmt::format(
+        "the times in '{}' are not evenly spaced: mean rate {}, {}, samples off their place by up to {}. Say --rate {:.5g}Hz to take the "
+        "samples as evenly spaced, or --resample {:.3g}Hz to interpolate between their times",
+        name, hertz(mean), steps(c), format_quantity(c.spread(), "s"), mean, std::max(1.0, std::round(mean)));
+}
+
+/// The clock that `rate` gives, with what the times say against it.
+Result<Clock> by_rate(double rate, const std::string& name, const ClockCheck& times, std::vector<std::string>& remarks) {
+    if (times.count() > 1 && std::abs(times.mean_step() * rate - 1) > 0.01)
+        remarks.push_back(
+            fmt::format("--rate says {}, the times in '{}' say {} on the mean", hertz(rate), name, hertz(1 / times.mean_step())));
+    else if (times.count() > 1 && !times.even())
+        remarks.push_back(
+            fmt::format("the uneven times in '{}' ({}) were replaced by an even clock of {}", name, steps(times), hertz(rate)));
+    return clock_of(rate, times.first());
+}
+
+/// The clock that the times themselves give; by_times if they are to be interpolated.
+Result<Clock> by_own_times(const std::string& name, const ClockCheck& times, const RecordingOptions& options, RowClock& out) {
+    if (times.count() == 1) return bad_input("one sample has no rate of its own; say --rate, such as --rate 1kHz");
+    if (!(times.mean_step() > 0)) return bad_input(fmt::format("the times in '{}' do not advance; say --rate, such as --rate 1kHz", name));
+    if (times.even()) return times.clock();
+    if (!options.resample) return bad_input(uneven(name, times));
+    out.by_times = true;
+    out.remarks.push_back(
+        fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, steps(times), hertz(*options.resample)));
+    return clock_of(*options.resample, times.first());
+}
+
+}  // namespace
+
+Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, const std::string& path) {
+    RowClock out;
+    const auto column = choose_time(table, options.time, path);
+    if (!column) return column.error();
+    if (!*column) {
+        if (!options.rate) return bad_input("there is no time column; say --rate, such as --rate 1kHz", {path});
+        const auto clock = clock_of(*options.rate);
+        if (!clock) return clock.error();
+        out.clock = *clock;
+        return out;
+    }
+    out.column = *column;
+    if (!options.time && table.time_is_guessed())
+        out.remarks.push_back("no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
+    const auto unit = seconds_per_unit(table.columns()[*out.column], path);
+    if (!unit) return unit.error();
+    out.seconds_per_unit = *unit;
+    const auto times = check_times(table, *out.column, *unit, options.rate.has_value());
+    if (!times) return times.error();
+    if (times->count() < 1) return bad_input("no data in this file", {path});
+    const auto& name = table.columns()[*out.column].name;
+    auto clock = options.rate ? by_rate(*options.rate, name, *times, out.remarks) : by_own_times(name, *times, options, out);
+    if (!clock) return bad_input(clock.error().sentence, {path});
+    out.clock = *clock;
+    return out;
+}
+
+}  // namespace corpuscle

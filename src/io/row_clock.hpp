@@ -1,0 +1,24 @@
+#pragma once
+// When each row of a table was sampled: from its time column, or from the rate that the user gives.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/recording.hpp"
+#include "signal/clock.hpp"
+
+namespace corpuscle {
+
+struct RowClock {
+    std::optional<std::size_t> column;  ///< of the time
+    double seconds_per_unit = 1;        ///< of that column
+    bool by_times = false;              ///< rows stand at their own uneven times; else on the clock
+    Clock clock;
+    std::vector<std::string> remarks;
+};
+
+/// Reads the table once for its times, if it has some, and rewinds it. An uneven clock needs `rate` or `resample`.
+Result<RowClock> find_row_clock(Table&, const RecordingOptions&, const std::string& path);
+
+}  // namespace corpuscle

@@ -1,0 +1,440 @@
+#!/usr/bin/python3
+"""The report page in a real browser:   report_page_test.py CORPUSCLE OUTDIR
+
+Makes reports with the program, opens them in headless Chromium, uses them as a reader would, and compares what they
+show with the data they carry. Leaves OUTDIR/press.png and OUTDIR/press-zoomed.png to look at.
+"""
+import base64
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from array import array
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select, WebDriverWait
+
+FLAGS = ("--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+         "--disable-component-update --disable-sync --window-size=1200,900").split()
+DATA = re.compile(r'(<script type="application/json" id="data">)(.*?)(</script>)', re.S)
+PREFIX = {"f": 1e-15, "p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1, "k": 1e3, "M": 1e6}
+
+CORPUSCLE, OUT = None, None
+
+
+def respond(name, *arguments):
+    """A report made by the program."""
+    path = OUT / name
+    subprocess.run([CORPUSCLE, "respond", "press", *arguments, "--report", str(path), "--quiet"], check=True)
+    return path
+
+
+def data_of(path):
+    return json.loads(DATA.search(path.read_text())[2])
+
+
+def doctored(path, name, change):
+    """The same page with other data: for what `respond press` has none of, such as several channels."""
+    data = data_of(path)
+    change(data)
+    text = json.dumps(data).replace("<", "\\u003c")
+    made = OUT / name
+    made.write_text(DATA.sub(lambda m: m[1] + text + m[3], path.read_text()))
+    return made
+
+
+def numbers(kind, text):
+    found = array(kind)
+    found.frombytes(base64.b64decode(text))
+    return found
+
+
+def coded(kind, values):
+    return base64.b64encode(array(kind, values).tobytes()).decode()
+
+
+def trace(data, part, afferent=None, channel=None):
+    """Least and greatest of each bucket of a trace; both the same where every sample is kept."""
+    channel = data["inputs"][0]["channels"][0]["id"] if channel is None else channel
+    record = next(r for r in data["traces"] if (r["part"], r["afferent"], r["channel"]) == (part, afferent, channel))
+    values = numbers("f", record["data"])
+    return (values, values, 1) if record["bucket"] == 1 else (values[0::2], values[1::2], record["bucket"])
+
+
+def spike_times(data, afferent):
+    return numbers("d", next(r for r in data["spikes"] if r["afferent"] == afferent)["times"])
+
+
+def plateau(data):
+    """A time amid the longest stretch of greatest force, and that force."""
+    low, _, bucket = trace(data, "force")
+    top, best, run = max(low), (0, 0), 0
+    for k, value in enumerate(low):
+        run = run + 1 if value == top else 0
+        best = max(best, (run, k))
+    clock = data["inputs"][0]
+    return clock["t0"] + (best[1] - best[0] / 2) * bucket * clock["T"], top
+
+
+def si(text):
+    """A readout as a number: "1.250 µA" is 1.25e-6."""
+    number, prefix = re.fullmatch(r"(−?[\d.]+)\s?([fpnµmkM]?)(?:N|A|V|Hz|s)", text.strip()).groups()
+    return float(number.replace("−", "-")) * PREFIX[prefix]
+
+
+class Page(unittest.TestCase):
+    """A browser with one report open; whatever a test does, the console stays silent."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        cls.addClassCleanup(cls.profile.cleanup)
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium")
+        for flag in [*FLAGS, "--user-data-dir=" + cls.profile.name]:
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        cls.addClassCleanup(cls.browser.quit)
+        cls.path = cls.report()
+        cls.data = data_of(cls.path)
+
+    def setUp(self):
+        self.browser.get(self.path.as_uri())
+        self.input = self.data["inputs"][0]
+        self.end = self.input["t0"] + self.input["samples"] * self.input["T"]
+
+    def tearDown(self):
+        said = [e["message"] for e in self.browser.get_log("browser") if e["level"] != "INFO"]
+        self.assertEqual([text for text in said if "willReadFrequently" not in text], [])  # that advice is for this test, which reads pixels back
+
+    def js(self, script, *arguments):
+        return self.browser.execute_script(script, *arguments)
+
+    def windows(self):
+        """What each dygraph itself says it shows."""
+        return self.js("return Object.values(corpuscle.charts).map((chart) => chart.xAxisRange())")
+
+    def settle(self, moved):
+        """Waits for the frame that draws all panels; `moved` tells from (a, b) that it has come."""
+        WebDriverWait(self.browser, 20).until(lambda _: all(moved(*window) for window in self.windows()))
+
+    def plot(self, panel):
+        found = self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] .plot')
+        self.js("arguments[0].scrollIntoView({block: 'center'})", found)
+        return found
+
+    def at_time(self, panel, t):
+        """Where time t stands in a panel, from the middle of its plot, as the mouse counts."""
+        plot = self.plot(panel)
+        x = self.js("return corpuscle.charts[arguments[0]].toDomXCoord(arguments[1])", panel, t)
+        return plot, round(x - plot.size["width"] / 2)
+
+    def drag(self, panel, begin, end, key=None):
+        plot, x = self.at_time(panel, begin)
+        _, to = self.at_time(panel, end)
+        mouse = ActionChains(self.browser, duration=50)
+        mouse = mouse.key_down(key) if key else mouse
+        mouse.move_to_element_with_offset(plot, x, 0).click_and_hold().move_by_offset((to - x) // 2, 3).move_by_offset((to - x) - (to - x) // 2, 3).release()
+        (mouse.key_up(key) if key else mouse).perform()
+
+    def hover(self, panel, t):
+        plot, x = self.at_time(panel, t)
+        self.js("document.getElementById('now').textContent = ''")
+        ActionChains(self.browser, duration=50).move_to_element_with_offset(plot, x, 0).perform()
+        WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "now").text)
+
+    def readout(self, panel, series):
+        return self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] [data-series="{series}"] .legend-value').text
+
+    def panels(self):
+        return self.js("return Object.keys(corpuscle.charts)")
+
+    def inked(self):
+        """By panel, how many pixels of the plot are darker than bands and grid."""
+        return self.js("""
+            return Object.fromEntries(Object.entries(corpuscle.charts).map(([name, chart]) => {
+                const canvas = document.querySelector(`[data-panel="${name}"] canvas`), ratio = canvas.width / canvas.clientWidth;
+                const {x, y, w, h} = chart.getArea();
+                const pixels = canvas.getContext("2d").getImageData((x + 3) * ratio, (y + 2) * ratio, (w - 4) * ratio, (h - 4) * ratio).data;
+                let count = 0;
+                for (let i = 0; i < pixels.length; i += 4)
+                    if (pixels[i + 3] > 100 && Math.min(pixels[i], pixels[i + 1], pixels[i + 2]) < 170) ++count;
+                return [name, count];
+            }))""")
+
+    def screenshot(self, name):
+        self.browser.set_window_size(1200, 900)
+        height = self.js("scrollTo(0, 0); return document.documentElement.scrollHeight")
+        self.browser.set_window_size(1200, height + 160)  # what the browser keeps for itself, and a little
+        self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.browser.save_screenshot(str(OUT / name))
+        self.browser.set_window_size(1200, 900)
+
+
+class Press(Page):
+    @classmethod
+    def report(cls):
+        return respond("press.html", "--afferent", "sa1", "--afferent", "fa1")
+
+    def test_the_page_asks_for_nothing_but_itself(self):
+        events = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
+        asked = {e["params"]["request"]["url"] for e in events
+                 if e["method"] == "Network.requestWillBeSent" and e["params"]["documentURL"] == self.path.as_uri()}
+        self.assertIn(self.path.as_uri(), asked)
+        self.assertEqual([url for url in asked if url != self.path.as_uri() and not url.startswith("data:")], [])
+
+    def test_the_file_refers_to_nothing_outside(self):
+        text = re.sub(r"<!--.*?-->|/\*.*?\*/", "", DATA.sub("", self.path.read_text()), flags=re.S)  # licences may name their homes
+        self.assertEqual(re.findall(r"https?://[^\s\"')]*", text), [])
+        self.assertEqual(re.findall(r"""(?:src|href)\s*=\s*["']?(?!data:)[\w./]|url\(\s*["']?(?!data:)|@import""", text.split("<script", 1)[0]), [])
+        self.assertEqual(re.findall(r"<script[^>]*\bsrc\b|<link[^>]*stylesheet", text), [])
+        self.assertNotIn("{{page", text)
+
+    def test_every_panel_is_there_and_drawn(self):
+        inked = self.inked()
+        self.assertEqual(self.panels(), ["force", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane", "raster", "frequency"])
+        self.assertEqual({name: count for name, count in inked.items() if count < 80}, {})
+        self.screenshot("press.png")
+
+    def test_each_panel_says_what_it_shows_to_those_who_do_not_see_it(self):
+        for plot in self.browser.find_elements(By.CSS_SELECTOR, ".plot"):
+            self.assertEqual(plot.get_attribute("role"), "img")
+            self.assertRegex(plot.get_attribute("aria-label"), r"\w+.* from .*\ss to .*\ss")
+        self.assertGreaterEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#rates th[scope=col]")), 4)
+
+    def test_a_drag_in_one_panel_zooms_all(self):
+        length = self.end - self.input["t0"]
+        begin, end = self.input["t0"] + 0.2 * length, self.input["t0"] + 0.45 * length
+        self.drag("sa1 current", begin, end)
+        self.settle(lambda a, b: b - a < 0.5 * length)
+        windows = self.windows()
+        self.assertEqual(windows, [windows[0]] * 7)
+        self.assertEqual(windows[0], self.js("return corpuscle.window()"))
+        self.assertAlmostEqual(windows[0][0], begin, delta=0.003 * length)
+        self.assertAlmostEqual(windows[0][1], end, delta=0.003 * length)
+        self.hover("force", begin + 0.1 * length)
+        self.screenshot("press-zoomed.png")
+
+    def test_shift_drag_pans_and_double_click_shows_the_whole(self):
+        length = self.end - self.input["t0"]
+        middle = self.input["t0"] + 0.5 * length
+        self.js("corpuscle.setWindow(arguments[0], arguments[1])", middle, middle + 0.2 * length)
+        self.drag("force", middle + 0.15 * length, middle + 0.05 * length, Keys.SHIFT)
+        self.settle(lambda a, b: a > middle + 0.05 * length)
+        for a, b in self.windows():
+            self.assertAlmostEqual(a, middle + 0.1 * length, delta=0.003 * length)
+            self.assertAlmostEqual(b - a, 0.2 * length, delta=1e-9)
+        ActionChains(self.browser).double_click(self.plot("frequency")).perform()
+        self.settle(lambda a, b: b - a > 0.99 * length)
+
+    def test_buttons_and_keys_zoom_too(self):
+        length = self.end - self.input["t0"]
+        self.browser.find_element(By.ID, "in").click()
+        self.settle(lambda a, b: abs(b - a - length / 2) < 1e-9)
+        self.browser.find_element(By.TAG_NAME, "body").send_keys("+")
+        self.settle(lambda a, b: abs(b - a - length / 4) < 1e-9)
+        self.browser.find_element(By.ID, "out").click()
+        self.settle(lambda a, b: abs(b - a - length / 2) < 1e-9)
+        self.browser.find_element(By.ID, "whole").click()
+        self.settle(lambda a, b: abs(b - a - length) < 1e-9)
+
+    def test_the_force_read_on_the_plateau_is_the_force_of_the_data(self):
+        t, force = plateau(self.data)
+        self.hover("fa1 current", t)  # the cursor is shared: read in one panel, pointed at in another
+        self.assertAlmostEqual(si(self.readout("force", "force")), force, delta=1e-3 * force)
+        self.assertAlmostEqual(self.js("return corpuscle.valueAt('force', arguments[0])", t), force, delta=1e-6 * force)
+        lines = self.browser.find_elements(By.CSS_SELECTOR, ".hairline")
+        self.assertEqual(len({line.location["x"] for line in lines if line.is_displayed()}), 1)
+        self.assertEqual(len(lines), 7)
+
+    def test_every_current_read_between_two_samples_is_that_of_the_nearer(self):
+        T, t0 = self.input["T"], self.input["t0"]
+        k = round((spike_times(self.data, "sa1")[3] - t0) / T)
+        parts = [part["name"] for part in self.data["afferents"][0]["parts"] if part["unit"] == "A"]
+        self.assertGreater(len(parts), 1)
+        self.js("corpuscle.setWindow(arguments[0], arguments[1])", t0 + (k - 20) * T, t0 + (k + 20) * T)
+        for beside in (-0.3, 0.3):
+            self.hover("sa1 current", t0 + (k + beside) * T)
+            for part in parts:
+                low, high, bucket = trace(self.data, part, "sa1")
+                said = self.readout("sa1 current", part).split("…")
+                for value, text in zip((low[k // bucket], high[k // bucket]), said * (3 - len(said))):
+                    self.assertAlmostEqual(si(text), value, delta=6e-4 * abs(value) + 1e-18, msg=part)
+
+    def test_the_raster_has_as_many_spikes_as_the_table(self):
+        columns = [cell.text for cell in self.browser.find_elements(By.CSS_SELECTOR, "#rates thead th")]
+        rows = [[cell.text for cell in row.find_elements(By.TAG_NAME, "td")] for row in self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")]
+        at = {name: columns.index(name) for name in ("afferent", "phase", "spikes")}
+        for afferent in ("sa1", "fa1"):
+            said = self.readout("raster", afferent)
+            mine = [row for row in rows if row[at["afferent"]] == afferent]
+            whole = [row for row in mine if row[at["phase"]] in ("", "–", "all", "whole")] or mine
+            self.assertEqual(int(said), sum(int(row[at["spikes"]]) for row in whole))
+            self.assertEqual(int(said), len(spike_times(self.data, afferent)))
+            self.assertGreater(int(said), 0)
+
+    def test_each_spike_is_one_tick(self):
+        for lane, afferent in enumerate(("sa1", "fa1")):
+            times = spike_times(self.data, afferent)
+            pad = 0.1 * (times[4] - times[0])
+            a, b = self.js("corpuscle.setWindow(arguments[0], arguments[1]); return corpuscle.window()", times[0] - pad, times[4] + pad)
+            ticks = self.js("""
+                const chart = corpuscle.charts.raster, {x, y, w, h} = chart.getArea();
+                const canvas = document.querySelector('[data-panel="raster"] canvas'), ratio = canvas.width / canvas.clientWidth;
+                const line = canvas.getContext("2d").getImageData((x + 2) * ratio, (y + (arguments[0] + 0.5) * h / 2) * ratio, (w - 2) * ratio, 1).data;
+                let runs = 0, inside = false;
+                for (let i = 0; i < line.length; i += 4) {
+                    const dark = line[i + 3] > 60 && Math.min(line[i], line[i + 1], line[i + 2]) < 200;
+                    if (dark && !inside) ++runs;
+                    inside = dark;
+                }
+                return runs""", lane)
+            self.assertEqual(ticks, sum(a <= t < b for t in times), afferent)
+
+    def test_the_frequency_of_a_spike_stands_at_that_spike(self):
+        times = spike_times(self.data, "fa1")
+        drawn = self.js("""
+            const chart = corpuscle.charts.frequency, points = [];
+            for (let row = 0; row < chart.numRows(); ++row) if (chart.getValue(row, 2) !== null) points.push([chart.getValue(row, 0), chart.getValue(row, 2)]);
+            return points""")
+        self.assertEqual([t for t, _ in drawn], list(times[:-1]))
+        for (t, f), following in zip(drawn, times[1:]):
+            self.assertAlmostEqual(f * (following - t), 1, places=9)
+
+    def test_the_vertical_axis_follows_the_view_when_asked(self):
+        t, _ = plateau(self.data)
+        self.browser.find_element(By.ID, "fit").click()
+        self.js("corpuscle.setWindow(arguments[0], arguments[1])", t - 20 * self.input["T"], t + 20 * self.input["T"])
+        low, high = self.js("return corpuscle.charts['sa1 current'].yAxisRange()")
+        self.browser.find_element(By.ID, "fit").click()
+        self.js("corpuscle.setWindow(corpuscle.window()[0], corpuscle.window()[1])")
+        wide = self.js("return corpuscle.charts['sa1 current'].yAxisRange()")
+        self.assertLess(high - low, 0.9 * (wide[1] - wide[0]))
+
+    def test_it_fits_a_narrow_window(self):
+        self.browser.set_window_size(700, 900)
+        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.charts.force.width_ < 700"))
+        self.assertLessEqual(self.js("return document.documentElement.scrollWidth - innerWidth"), 0)
+        self.browser.set_window_size(1200, 900)
+
+
+class TwoChannels(Page):
+    @classmethod
+    def report(cls):
+        """A second channel: half the force, one spike of sa1, and no traces of the afferents."""
+        def add(data):
+            first = data["inputs"][0]["channels"][0]
+            data["inputs"][0]["channels"].append({"id": 77, "name": "second <b>", "unit": first["unit"]})
+            low, _, bucket = trace(data, "force")
+            record = next(r for r in data["traces"] if r["part"] == "force")
+            both = [v / 2 for v in low] if bucket == 1 else [v / 2 for pair in zip(*trace(data, "force")[:2]) for v in pair]
+            data["traces"].append({**record, "channel": 77, "data": coded("f", both)})
+            data["spikes"].append({"afferent": "sa1", "channel": 77, "count": 1, "times": coded("d", [plateau(data)[0]])})
+            at = {name: data["table"]["columns"].index(name) for name in ("afferent", "channel", "spikes")}
+            row = list(data["table"]["rows"][0])
+            row[at["afferent"]], row[at["channel"]], row[at["spikes"]] = "sa1", "second <b>", 1
+            data["table"]["rows"].append(row)
+        return doctored(respond("press.html", "--afferent", "sa1", "--afferent", "fa1"), "two-channels.html", add)
+
+    def shown(self):
+        return Select(self.browser.find_element(By.ID, "channel")).first_selected_option.text
+
+    def test_the_selector_changes_the_channel_and_keeps_the_window(self):
+        t, force = plateau(self.data)
+        window = self.js("corpuscle.setWindow(arguments[0], arguments[1]); return corpuscle.window()", t - 0.01, t + 0.01)
+        Select(self.browser.find_element(By.ID, "channel")).select_by_visible_text("second <b>")
+        self.assertEqual(self.panels(), ["force", "raster", "frequency"])
+        self.assertEqual(self.windows(), [window] * 3)
+        self.hover("force", t)
+        self.assertAlmostEqual(si(self.readout("force", "force")), force / 2, delta=1e-3 * force)
+        self.assertEqual((self.readout("raster", "sa1"), self.readout("raster", "fa1")), ("1", "0"))
+        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")), 1)
+
+    def test_a_click_on_a_raster_row_picks_its_channel(self):
+        plot = self.plot("raster")
+        x, y, w, h = (self.js("return corpuscle.charts.raster.getArea()")[k] for k in "xywh")
+        row = y + 1.5 * h / 4  # sa1 on the second channel
+        ActionChains(self.browser).move_to_element_with_offset(plot, 0, round(row - plot.size["height"] / 2)).click().perform()
+        WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "second <b>")
+
+    def test_the_table_shows_all_channels_when_asked(self):
+        self.browser.find_element(By.ID, "all-rows").click()
+        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")), len(self.data["table"]["rows"]))
+
+
+class SpikesOnly(Page):
+    @classmethod
+    def report(cls):
+        """No traces, and a million spikes of sa1."""
+        def strip(data):
+            clock = data["inputs"][0]
+            data["traces"] = []
+            step = clock["samples"] * clock["T"] / 1_000_000
+            record = next(r for r in data["spikes"] if r["afferent"] == "sa1")
+            record.update(count=1_000_000, times=coded("d", (clock["t0"] + (k + 0.5) * step for k in range(1_000_000))))
+        return doctored(respond("press.html", "--afferent", "sa1", "--afferent", "fa1"), "spikes-only.html", strip)
+
+    def test_raster_and_frequency_still_show(self):
+        inked = self.inked()
+        self.assertEqual(self.panels(), ["raster", "frequency"])
+        self.assertGreater(min(inked.values()), 80)
+        self.assertEqual(self.readout("raster", "sa1"), "1000000")
+        self.assertLess(self.js("return corpuscle.pointsDrawn().frequency.rows / corpuscle.pointsDrawn().frequency.width"), 3)
+
+
+class Million(Page):
+    @classmethod
+    def report(cls):
+        return respond("million.html", "--rate", "1MHz")
+
+    def test_what_is_drawn_is_bounded_by_the_width_not_by_the_samples(self):
+        self.assertGreaterEqual(self.input["samples"], 1_000_000)
+        length = self.end - self.input["t0"]
+        self.bounded()
+        for share in (0.5, 0.1, 0.02):
+            a, b = self.js("return corpuscle.window()")
+            self.drag("force", a + 0.3 * (b - a), a + (0.3 + share) * (b - a))
+            self.settle(lambda c, d: d - c < 0.9 * (b - a))
+            self.bounded()
+        self.assertLess(self.js("return corpuscle.window()[1] - corpuscle.window()[0]"), 0.01 * length)
+        middle = self.input["t0"] + length / 2
+        for samples in (5000, 1500, 200, 4):
+            self.js("corpuscle.setWindow(arguments[0], arguments[1])", middle, middle + samples * self.input["T"])
+            self.bounded()
+
+    def bounded(self):
+        for panel, drawn in self.js("return corpuscle.pointsDrawn()").items():
+            self.assertGreater(drawn["width"], 500)
+            self.assertLess(drawn["rows"], 3 * drawn["width"], panel)
+            self.assertGreater(drawn["rows"], 0, panel)
+
+    def test_no_extreme_is_lost_in_thinning(self):
+        low, high, _ = trace(self.data, "force")
+        self.assertEqual(self.drawn_extremes("force", 1), [min(low), max(high)])
+        for afferent in self.data["afferents"][:1]:
+            parts = [part["name"] for part in afferent["parts"] if part["unit"] == "V"]
+            low, high, _ = trace(self.data, parts[0], afferent["name"])
+            self.assertEqual(self.drawn_extremes(afferent["name"] + " membrane", 1), [min(low), max(high)])
+
+    def drawn_extremes(self, panel, column):
+        return self.js("""
+            const chart = corpuscle.charts[arguments[0]], values = [];
+            for (let row = 0; row < chart.numRows(); ++row) values.push(chart.getValue(row, arguments[1]));
+            return [Math.min(...values), Math.max(...values)]""", panel, column)
+
+
+del Page  # not a test by itself
+
+if __name__ == "__main__":
+    CORPUSCLE, OUT = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    OUT.mkdir(parents=True, exist_ok=True)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
