@@ -5,13 +5,18 @@
 #include <cmath>
 
 #include "assets.hpp"
-#include "signal/quantity.hpp"
 #include "signal/version.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+#ifdef __clang__
+constexpr std::string_view compiler = __VERSION__;
+#else
+constexpr std::string_view compiler = "g++ " __VERSION__;
+#endif
 
 Json trace_document(std::uint32_t channel, const Json& afferent, std::string_view part, std::string_view unit, const Envelope& e) {
     return {{"channel", channel},
@@ -24,10 +29,8 @@ Json trace_document(std::uint32_t channel, const Json& afferent, std::string_vie
 }
 
 Json parameter_document(const Parameter& p) {
-    return {{"name", p.row.name}, {"value", p.value},           {"text", format_quantity(p.value, p.row.unit)},
-            {"unit", p.row.unit}, {"default", p.row.initial},   {"default_text", format_quantity(p.row.initial, p.row.unit)},
-            {"set", p.set},       {"sentence", p.row.sentence}, {"source", p.row.source},
-            {"of", p.of}};
+    return {{"name", p.row.name}, {"value", p.value},           {"unit", p.row.unit},     {"default", p.row.initial},
+            {"set", p.set},       {"sentence", p.row.sentence}, {"source", p.row.source}, {"of", p.of}};
 }
 
 Json level(const AfferentPlan& plan, std::string_view name) {
@@ -131,7 +134,8 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
                            {"count", trains_[u].size()},
                            {"times", base64(trains_[u].data(), trains_[u].size() * sizeof(double))}});
     }
-    inputs_.push_back({{"name", input.source.name()},
+    inputs_.push_back({{"name", input.name},
+                       {"sentence", input.source.sentence()},
                        {"t0", input.source.clock().t0},
                        {"T", input.source.clock().T()},
                        {"samples", samples},
@@ -165,7 +169,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                            {"command", command},     {"inputs", inputs_},
                            {"afferents", afferents}, {"traces", traces_},
                            {"spikes", spikes_},      {"table", table_document(summary)},
-                           {"remarks", remarks},     {"versions", {{"corpuscle", version}}}};
+                           {"remarks", remarks},     {"versions", {{"corpuscle", version}, {"compiler", compiler}}}};
     return filled(asset("page.html"), escaped(title), safe_json(document));
 }
 

@@ -10,24 +10,26 @@
 namespace corpuscle {
 
 OutputFile::OutputFile(OutputFile&& o) noexcept
-    : path_(std::move(o.path_)), part_(std::move(o.part_)), file_(std::exchange(o.file_, nullptr)) {
+    : path_(std::move(o.path_)), part_(std::move(o.part_)), made_(std::move(o.made_)), file_(std::exchange(o.file_, nullptr)) {
     o.part_.clear();
 }
 
 OutputFile& OutputFile::operator=(OutputFile&& o) noexcept {
-    std::swap(path_, o.path_), std::swap(part_, o.part_), std::swap(file_, o.file_);
+    std::swap(path_, o.path_), std::swap(part_, o.part_), std::swap(made_, o.made_), std::swap(file_, o.file_);
     return *this;
 }
 
 OutputFile::~OutputFile() {
     if (file_) std::fclose(file_);
-    if (!part_.empty()) std::remove(part_.c_str());
+    if (part_.empty()) return;
+    std::remove(part_.c_str());
+    if (!made_.empty()) ::rmdir(made_.c_str());  // leaves it if something else is in it
 }
 
 Result<OutputFile> OutputFile::create(const std::string& path) {
     std::error_code status;
     const auto above = std::filesystem::path(path).parent_path();
-    if (!above.empty()) std::filesystem::create_directories(above, status);
+    const bool made = !above.empty() && std::filesystem::create_directories(above, status);
     if (status) return bad_input(fmt::format("the directory cannot be made: {}", status.message()), {above.string()});
     if (std::filesystem::is_directory(path)) return bad_input("this is a directory, not a file to write", {path});
     OutputFile out;
@@ -36,6 +38,7 @@ Result<OutputFile> OutputFile::create(const std::string& path) {
     out.file_ = std::fopen(part.c_str(), "wb");
     if (!out.file_) return bad_input(fmt::format("cannot be written: {}", std::strerror(errno)), {path});
     out.part_ = part;
+    if (made) out.made_ = above.string();
     return out;
 }
 

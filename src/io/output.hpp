@@ -11,7 +11,7 @@
 namespace corpuscle {
 
 class OutputFile {
-    std::string path_, part_;
+    std::string path_, part_, made_;  // made_: a directory that was not there before
     std::FILE* file_ = nullptr;
 
 public:

@@ -124,6 +124,10 @@ public:
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
     double done() const override { return table_->done(); }
+    std::string sentence() const override {
+        return fmt::format("{} of {}, at {:g} Hz", channels_.size() == 1 ? "a channel" : fmt::format("{} channels", channels_.size()),
+                           std::filesystem::path(path_).filename().string(), clock_.rate());
+    }
     std::vector<std::string> remarks() const override { return remarks_; }
 
     Result<void> read(Frames& block) override {

@@ -40,6 +40,8 @@ public:
     /// How much of it has been read, 0 to 1; for progress.
     virtual double done() const = 0;
     virtual std::vector<Phase> phases() const { return {}; }
+    /// What it is, in a few words.
+    virtual std::string sentence() const = 0;
     /// What the user should know of how the source was read, in sentences.
     virtual std::vector<std::string> remarks() const { return {}; }
     /// Fills the next block; count 0 is the end.

@@ -46,7 +46,7 @@ std::vector<std::string_view> members(std::string_view text) {
     }
 }
 
-std::optional<Card> card_named(std::string_view name) {
+std::optional<Card> named(std::string_view name) {
     for (auto& card : stimulus_cards())
         if (card.name == name) return card;
     return {};
@@ -65,6 +65,11 @@ public:
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
+    std::string sentence() const override {
+        std::vector<std::string_view> all;
+        for (const auto member : members(name_)) all.push_back(named(member)->sentence);
+        return fmt::format("{}", fmt::join(all, "; "));
+    }
     double done() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
     std::vector<Phase> phases() const override {
         for (const auto& s : shapes_)
@@ -89,7 +94,7 @@ std::vector<Card> stimulus_cards() { return cards(Stimuli{}); }
 
 bool is_stimulus(std::string_view text) {
     const auto names = members(text);
-    return std::all_of(names.begin(), names.end(), [](auto n) { return card_named(n).has_value(); });
+    return std::all_of(names.begin(), names.end(), [](auto n) { return named(n).has_value(); });
 }
 
 Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> wishes, double rate, std::uint64_t seed) {
@@ -98,7 +103,7 @@ Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<c
     std::vector<Shape> shapes;
     double duration = 0;
     for (const auto name : members(text)) {
-        const auto card = card_named(name);
+        const auto card = named(name);
         if (!card) {
             std::vector<std::string_view> names;
             for (const auto& c : stimulus_cards()) names.push_back(c.name);

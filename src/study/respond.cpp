@@ -18,10 +18,11 @@ class Bench {
     std::int64_t samples_ = 0;
 
 public:
-    Bench(const Source& source, std::span<const AfferentPlan> plans, Input input, const RespondOptions& options, bool probed)
-        : input_(input), force_(source.channels().size(), options.block) {
+    Bench(Input input, const RespondOptions& options, bool probed)
+        : input_(std::move(input)), force_(input_.source.channels().size(), options.block) {
+        const auto plans = input_.afferents;
         for (const auto& plan : plans) {
-            afferents_.push_back(make_afferent(plan, {source.clock().T(), options.method, options.sampled}));
+            afferents_.push_back(make_afferent(plan, {input_.source.clock().T(), options.method, options.sampled}));
             probes_of_.push_back(afferents_.back()->probes());
         }
         input_.probes = probes_of_;
@@ -65,11 +66,17 @@ public:
     }
 };
 
+std::string unique_name(std::span<const std::unique_ptr<Source>> sources, std::size_t n) {
+    int same = 1;
+    for (std::size_t k = 0; k < n; ++k) same += sources[k]->name() == sources[n]->name();
+    return same == 1 ? sources[n]->name() : fmt::format("{} ({})", sources[n]->name(), same);
+}
+
 }  // namespace
 
 std::string Input::channel_name(std::size_t channel) const {
-    const auto& name = source.channels()[channel].name;
-    return of == 1 || name == source.name() ? name : source.name() + ":" + name;
+    const auto& own = source.channels()[channel].name;
+    return of == 1 ? own : own == source.name() ? name : name + ":" + own;
 }
 
 Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents,
@@ -79,7 +86,7 @@ Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span
     std::uint32_t unit = 0;
     for (std::size_t n = 0; n < sources.size(); ++n) {
         auto& source = *sources[n];
-        Bench bench(source, afferents, {source, afferents, {}, unit, n, sources.size()}, options, probed);
+        Bench bench({source, unique_name(sources, n), afferents, {}, unit, n, sources.size()}, options, probed);
         for (auto* listener : listeners)
             if (auto ok = listener->begin(bench.input()); !ok) return ok.error();
         for (;;) {

@@ -14,6 +14,7 @@ namespace corpuscle {
 /// unit = first_unit + channel * afferents + afferent.
 struct Input {
     const Source& source;
+    std::string name;  ///< the source's; a second of the same name is "press (2)"
     std::span<const AfferentPlan> afferents;
     std::span<const std::span<const Probe>> probes;  ///< of each afferent
     std::uint32_t first_unit = 0;

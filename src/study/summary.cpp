@@ -38,7 +38,7 @@ Json row_document(const RateRow& row) {
 }  // namespace
 
 Result<void> Summary::begin(const Input& input) {
-    InputFacts facts{input.source.name(), input.source.clock(), 0, {}, input.source.remarks(), input.source.phases()};
+    InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.remarks(), input.source.phases()};
     for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
     inputs_.push_back(std::move(facts));
     trains_.assign(input.units(), {});

@@ -1,0 +1,173 @@
+// The program as people use it: what it prints, writes and returns.
+
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using Json = nlohmann::json;
+
+struct Ran {
+    int status;
+    std::string out, err;
+};
+
+Ran run(const Folder& folder, const std::string& words) {
+    const auto out = folder / ".out", err = folder / ".err";
+    const int status = std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+    Ran ran{WEXITSTATUS(status), test::read_file(out), test::read_file(err)};
+    std::filesystem::remove(out);
+    std::filesystem::remove(err);
+    return ran;
+}
+
+TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
+    const Folder folder;
+    const auto ran = run(folder, "respond press");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("sa1       press    plateau           9       36.0       49.0        49.0       29.8"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("Nothing was written"), std::string::npos);
+    EXPECT_EQ(ran.err, "");
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Program, WritesWhatIsAskedForTheSameTwice) {
+    const Folder folder;
+    const std::string words = "respond press noise --seed 3 --out answer --traces --report";
+    ASSERT_EQ(run(folder, words).status, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "report.html", "spikes.csv", "summary.json", "traces-2.csv", "traces.csv"}));
+    std::map<std::string, std::string> first;
+    for (const auto& name : folder.names())
+        if (name != "answer") first[name] = test::read_file(folder / ("answer/" + name));
+    ASSERT_EQ(run(folder, words).status, 0);
+    for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
+    const auto summary = Json::parse(first["summary.json"]);
+    EXPECT_EQ(summary["work"]["samples"], 20000);
+    EXPECT_EQ(summary["afferents"][0]["parameters"]["f_B"]["value"], 20.0);
+    EXPECT_EQ(summary["inputs"][1]["name"], "noise");
+    EXPECT_EQ(summary["options"]["seed"], 3);
+    EXPECT_EQ(summary["rates"][2]["phase"], "plateau");
+    EXPECT_EQ(summary["rates"][2]["spikes"], 9);
+    EXPECT_EQ(first["spikes.csv"].substr(0, 45), "afferent,channel,time_s\nsa1,press,0.319558712");
+}
+
+TEST(Program, ReportAloneGoesWhereItIsToldOrHere) {
+    const Folder folder;
+    EXPECT_EQ(run(folder, "respond press --report").status, 0);
+    EXPECT_EQ(run(folder, "respond --report press").status, 0) << "the word after --report is no page, so it is a force";
+    EXPECT_EQ(run(folder, "respond press --report sub/touch.html").status, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"report.html", "sub", "touch.html"}));
+    const auto page = test::read_file(folder / "report.html");
+    EXPECT_EQ(page.find("{{title}}"), std::string::npos);
+    EXPECT_NE(page.find("<title>press</title>"), std::string::npos);
+    EXPECT_NE(page.find("Dygraph"), std::string::npos);
+}
+
+TEST(Program, JsonIsOneDocumentAndNothingElse) {
+    const Folder folder;
+    const auto ran = run(folder, "respond press --json --set sa1.f_B=25Hz --set press.F_max=2N");
+    ASSERT_EQ(ran.status, 0);
+    const auto document = Json::parse(ran.out);
+    EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"of", "sa1b"}, {"set", true}}));
+    const auto listed = Json::parse(run(folder, "list --json").out);
+    EXPECT_EQ(listed["afferents"].size(), named_afferents().size());
+    for (const auto& card : receptor_cards())
+        EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) { return e["name"] == card.name; })) << card.name;
+    EXPECT_EQ(run(folder, "respond press --json --quiet").out, run(folder, "respond press --json").out);
+}
+
+TEST(Program, ListNamesEveryParameterOfEveryModel) {
+    const Folder folder;
+    const auto text = run(folder, "list").out;
+    for (const auto& cards : {receptor_cards(), neuron_cards(), stimulus_cards()})
+        for (const auto& card : cards) {
+            EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
+            for (const auto& row : card.rows) EXPECT_NE(text.find(std::string(row.sentence)), std::string::npos) << card.name << '.' << row.name;
+        }
+    EXPECT_EQ(run(folder, "list neuron").err, "corpuscle: list: nothing is called 'neuron'; did you mean 'neurons'?\n");
+    EXPECT_NE(run(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
+}
+
+TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
+    const Folder folder;
+    folder.write("bad.csv", "time_s,fz_N\n0,1\n0.01,2\n0.02,oops\n");
+    folder.write("nm.csv", "time_s,a_nm\n0,1\n0.01,2\n");
+    const struct {
+        const char* words;
+        int status;
+        const char* said;
+    } cases[] = {
+        {"respond bad.csv --out answer", 1, "bad.csv:4:6: column 'fz': 'oops' where a number should be"},
+        {"respond nm.csv --out answer", 1, "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header is wrong)"},
+        {"respond none.csv", 1, "none.csv: cannot be opened: No such file or directory"},
+        {"respond pres", 1, "unknown stimulus 'pres'; did you mean 'press'? (and there is no file 'pres')"},
+        {"respond press -a sa9", 1, "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')"},
+        {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'"},
+        {"respond press --set fa2.k=1", 2, "--set fa2.k=1: no afferent or stimulus 'fa2' takes part; did you mean 'fa1'?"},
+        {"respond press --set f_B=1", 2, "'f_B=1' is no setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
+        {"respond press --rate fast", 2, "--rate 'fast' is no quantity; write a number and a unit, such as '2 Hz'"},
+        {"respond press --traces", 2, "--traces needs --out DIR to write into"},
+        {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
+        {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
+        {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be made: Not a directory"},
+    };
+    for (const auto& c : cases) {
+        const auto ran = run(folder, c.words);
+        EXPECT_EQ(ran.status, c.status) << c.words;
+        EXPECT_EQ(ran.err, "corpuscle: " + std::string(c.said) + "\n") << c.words;
+        EXPECT_EQ(ran.out, "") << c.words;
+    }
+    EXPECT_EQ(run(folder, "").status, 2);
+    EXPECT_EQ(run(folder, "respond press --sampeld").status, 2);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
+}
+
+TEST(Program, HelpTeachesAndVersionTells) {
+    const Folder folder;
+    EXPECT_NE(run(folder, "--help").out.find("corpuscle respond press"), std::string::npos);
+    const auto help = run(folder, "respond --help");
+    EXPECT_EQ(help.status, 0);
+    for (const auto& card : stimulus_cards()) EXPECT_NE(help.out.find(std::string(card.name)), std::string::npos) << card.name;
+    for (const auto& a : named_afferents()) EXPECT_NE(help.out.find(std::string(a.name)), std::string::npos) << a.name;
+    EXPECT_EQ(run(folder, "--version").out.rfind("corpuscle ", 0), 0U);
+}
+
+TEST(Program, CtrlCEndsCleanly) {
+    const Folder folder;
+    const auto answer = folder / "answer";
+    const pid_t child = ::fork();
+    if (child == 0) {
+        std::freopen("/dev/null", "w", stderr);
+        ::execl(CORPUSCLE_PROGRAM, "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out", answer.c_str(), nullptr);
+        std::_Exit(99);
+    }
+    for (int k = 0; k < 200 && !std::filesystem::exists(answer); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(std::filesystem::exists(answer)) << "it is at work";
+    ::kill(child, SIGINT);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_TRUE(folder.names().empty()) << "nothing half-written is left";
+}
+
+TEST(Program, ThePressOnTheElectronicSkinByTheReadmesCommand) {
+    const auto path = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
+    CORPUSCLE_NEEDS(path);
+    const Folder folder;
+    const auto ran = run(folder, "respond '" + path + "' --rate 100Hz --scale 40 --out touch --report");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.err.find("were replaced by an even clock of 100 Hz"), std::string::npos) << ran.err;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"report.html", "spikes.csv", "summary.json", "touch"}));
+}
+
+}  // namespace
+}  // namespace corpuscle
