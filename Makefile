@@ -28,7 +28,7 @@ asan: setup-test
 
 fuzzers: setup-test
 	cmake --preset fuzz
-	cmake --build --preset fuzz
+	cmake --build --preset fuzz --target fuzzers
 
 fuzz: fuzzers
 	test/fuzz/run build/fuzz $(FUZZ_SECONDS)

@@ -95,7 +95,7 @@ class Recording final : public Source {
 
     Result<void> read_resampled(Frames& block) {
         if (row_number_ == 0)
-            if (const auto first = advance_to_next_row(); !first) return first.error();
+            if (const auto first = advance_to_next_row(); !first || !*first) return first ? Result<void>() : first.error();
         for (; block.count < block.capacity; ++block.count, ++next_) {
             const double t = clock_.time(next_);
             while (t_at_ < t - 1e-9 * clock_.T()) {

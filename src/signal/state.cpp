@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "signal/afferent.hpp"
@@ -10,6 +12,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "packed states are little-endian");
 constexpr std::array<char, 8> magic = {'c', 'o', 'r', 'p', 's', 't', '1', '\n'};
 constexpr std::uint64_t longest = 1U << 26;  // of format text or values: far above any afferent, far below trouble
+
+constexpr std::int64_t last_step = std::int64_t{1} << 53;  // beyond it a double no longer counts samples
 
 template <class T>
 void put(std::vector<std::byte>& out, const T* data, std::size_t count) {
@@ -51,6 +55,10 @@ Result<State> unpack(std::span<const std::byte> in) {
     s.values.resize(sizes[1]);
     take(in, s.format.data(), s.format.size());
     take(in, s.values.data(), s.values.size());
+    if (s.step < 0 || s.step > last_step)
+        return bad_input("a saved state of an afferent is damaged: it stands at sample " + std::to_string(s.step));
+    if (!std::all_of(s.values.begin(), s.values.end(), [](double x) { return std::isfinite(x); }))
+        return bad_input("a saved state of an afferent is damaged: it holds a value that is no number");
     return s;
 }
 

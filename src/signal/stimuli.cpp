@@ -27,7 +27,7 @@ Shape shape_of(std::span<const Setting> settings, std::uint64_t seed) {
 template <class... S>
 std::optional<Shape> shape_named(StimulusList<S...>, std::string_view name, std::span<const Setting> settings, std::uint64_t seed) {
     std::optional<Shape> found;
-    ((S::name == name ? (found = shape_of<S>(settings, seed), true) : false) || ...);
+    (void)((S::name == name && (found = shape_of<S>(settings, seed), true)) || ...);
     return found;
 }
 

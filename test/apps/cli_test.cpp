@@ -22,7 +22,8 @@ struct Ran {
 
 Ran run(const Folder& folder, const std::string& words) {
     const auto out = folder / ".out", err = folder / ".err";
-    const int status = std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+    const int status =
+        std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
     Ran ran{WEXITSTATUS(status), test::read_file(out), test::read_file(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);
@@ -33,7 +34,8 @@ TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
     const Folder folder;
     const auto ran = run(folder, "respond press");
     EXPECT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(ran.out.find("sa1       press    plateau           9       36.0       49.0        49.0       29.8"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("sa1       press    plateau           9       36.0       49.0        49.0       29.8"), std::string::npos)
+        << ran.out;
     EXPECT_NE(ran.out.find("Nothing was written"), std::string::npos);
     EXPECT_EQ(ran.err, "");
     EXPECT_TRUE(folder.names().empty());
@@ -43,7 +45,8 @@ TEST(Program, WritesWhatIsAskedForTheSameTwice) {
     const Folder folder;
     const std::string words = "respond press noise --seed 3 --out answer --traces --report";
     ASSERT_EQ(run(folder, words).status, 0);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "report.html", "spikes.csv", "summary.json", "traces-2.csv", "traces.csv"}));
+    EXPECT_EQ(folder.names(),
+              (std::vector<std::string>{"answer", "report.html", "spikes.csv", "summary.json", "traces-2.csv", "traces.csv"}));
     std::map<std::string, std::string> first;
     for (const auto& name : folder.names())
         if (name != "answer") first[name] = test::read_file(folder / ("answer/" + name));
@@ -80,7 +83,9 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
     const auto listed = Json::parse(run(folder, "list --json").out);
     EXPECT_EQ(listed["afferents"].size(), named_afferents().size());
     for (const auto& card : receptor_cards())
-        EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) { return e["name"] == card.name; })) << card.name;
+        EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) {
+            return e["name"] == card.name;
+        })) << card.name;
     EXPECT_EQ(run(folder, "respond press --json --quiet").out, run(folder, "respond press --json").out);
 }
 
@@ -90,7 +95,8 @@ TEST(Program, ListNamesEveryParameterOfEveryModel) {
     for (const auto& cards : {receptor_cards(), neuron_cards(), stimulus_cards()})
         for (const auto& card : cards) {
             EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
-            for (const auto& row : card.rows) EXPECT_NE(text.find(std::string(row.sentence)), std::string::npos) << card.name << '.' << row.name;
+            for (const auto& row : card.rows)
+                EXPECT_NE(text.find(std::string(row.sentence)), std::string::npos) << card.name << '.' << row.name;
         }
     EXPECT_EQ(run(folder, "list neuron").err, "corpuscle: list: nothing is called 'neuron'; did you mean 'neurons'?\n");
     EXPECT_NE(run(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
@@ -106,10 +112,13 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         const char* said;
     } cases[] = {
         {"respond bad.csv --out answer", 1, "bad.csv:4:6: column 'fz': 'oops' where a number should be"},
-        {"respond nm.csv --out answer", 1, "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header is wrong)"},
+        {"respond nm.csv --out answer", 1,
+         "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header is "
+         "wrong)"},
         {"respond none.csv", 1, "none.csv: cannot be opened: No such file or directory"},
         {"respond pres", 1, "unknown stimulus 'pres'; did you mean 'press'? (and there is no file 'pres')"},
-        {"respond press -a sa9", 1, "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')"},
+        {"respond press -a sa9", 1,
+         "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')"},
         {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'"},
         {"respond press --set fa2.k=1", 2, "--set fa2.k=1: no afferent or stimulus 'fa2' takes part; did you mean 'fa1'?"},
         {"respond press --set f_B=1", 2, "'f_B=1' is no setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
@@ -146,7 +155,8 @@ TEST(Program, CtrlCEndsCleanly) {
     const pid_t child = ::fork();
     if (child == 0) {
         std::freopen("/dev/null", "w", stderr);
-        ::execl(CORPUSCLE_PROGRAM, "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out", answer.c_str(), nullptr);
+        ::execl(CORPUSCLE_PROGRAM, "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
+                answer.c_str(), nullptr);
         std::_Exit(99);
     }
     for (int k = 0; k < 200 && !std::filesystem::exists(answer); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -194,6 +194,12 @@ TEST(Recording, WhatTheClockSaysAgainstTheRateIsTold) {
     EXPECT_EQ(read(path, {.rate = 50}).remarks.at(0), "--rate says 50 Hz, the times in 'time' say 100 Hz on the mean");
 }
 
+TEST(Recording, AHeaderAloneIsNoSampleResampledOrNot) {  // found by fuzzing
+    const Folder folder;
+    EXPECT_TRUE(read(folder.write("x.csv", "F_N\n"), {.rate = 30, .resample = 30}).force[0].empty());
+    EXPECT_TRUE(read(folder / "x.csv", {.rate = 30}).force[0].empty());
+}
+
 TEST(Recording, ResampledAtItsOwnRateIsItself) {
     const Folder folder;
     std::string text = "F_N\n";

@@ -39,7 +39,7 @@ TEST(Spike, IsOrderedByTimeThenUnit) {
 }
 
 RC_GTEST_PROP(State, PackedAndUnpackedIsTheSame, ()) {
-    const State s{*rc::gen::container<std::string>(rc::gen::inRange('a', 'z')), *rc::gen::arbitrary<std::int64_t>(),
+    const State s{*rc::gen::container<std::string>(rc::gen::inRange('a', 'z')), *rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << 53),
                   *rc::gen::arbitrary<std::vector<double>>()};
     const auto back = unpack(pack(s));
     RC_ASSERT(static_cast<bool>(back));
@@ -52,6 +52,9 @@ TEST(State, CutShortOrForeignBytesAreRefused) {
     auto longer = bytes;
     longer.push_back(std::byte{0});
     EXPECT_FALSE(unpack(longer));
+    EXPECT_FALSE(unpack(pack({"sa1b+lif-b/1", -1, {}}))) << "found by fuzzing: a step that the next block would overflow";
+    EXPECT_FALSE(unpack(pack({"sa1b+lif-b/1", std::numeric_limits<std::int64_t>::max(), {}})));
+    EXPECT_FALSE(unpack(pack({"sa1b+lif-b/1", 0, {std::nan("")}})));
     auto foreign = bytes;
     foreign[0] = std::byte{'x'};
     EXPECT_FALSE(unpack(foreign));

@@ -34,7 +34,8 @@ Ran run(const Folder& folder, const std::vector<std::string>& stimuli, const std
     const auto work = test::sure(respond(sources, plans, listeners, options));
     EXPECT_TRUE(spikes.commit());
     EXPECT_TRUE(traces.commit());
-    return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "traces.csv"), summary.document(plans, work, options, 9, {}).dump(), work};
+    return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "traces.csv"),
+            summary.document(plans, work, options, 9, {}).dump(), work};
 }
 
 TEST(Respond, FilesDoNotDependOnTheBlock) {
@@ -99,13 +100,17 @@ TEST(Respond, ARateTooLowForAnAfferentIsTold) {
     std::vector<std::unique_ptr<Source>> sources;
     sources.push_back(test::sure(make_stimulus("press", {}, 500, 0)));
     const auto fa2 = test::sure(plan_afferent("fa2", {})), sa1 = test::sure(plan_afferent("sa1", {}));
-    EXPECT_EQ(rate_warnings(sources, std::span(&fa2, 1)).at(0), "fa2 on press: the samples come at 500 Hz, but what it answers to needs 1000 Hz or more; do not trust its spikes");
+    EXPECT_EQ(rate_warnings(sources, std::span(&fa2, 1)).at(0),
+              "fa2 on press: the samples come at 500 Hz, but what it answers to needs 1000 Hz or more; do not trust its spikes");
     EXPECT_TRUE(rate_warnings(sources, std::span(&sa1, 1)).empty());
 }
 
 TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
     const Folder folder;
-    { auto f = test::sure(OutputFile::create(folder / "new/half.txt")); f.write("half"); }
+    {
+        auto f = test::sure(OutputFile::create(folder / "new/half.txt"));
+        f.write("half");
+    }
     EXPECT_TRUE(folder.names().empty()) << "neither the part nor the directory made for it";
     auto f = test::sure(OutputFile::create(folder / "whole.txt"));
     f.write("whole");
@@ -124,7 +129,8 @@ TEST(Envelope, KeepsLeastAndGreatestOfEveryBucketWhateverTheLength) {
         RC_ASSERT(e.count() == (x.size() + bucket - 1) / bucket);
         RC_ASSERT(e.count() <= 16);
         for (std::size_t b = 0; b < e.count(); ++b) {
-            const auto from = x.begin() + static_cast<std::ptrdiff_t>(b * bucket), to = x.begin() + static_cast<std::ptrdiff_t>(std::min(x.size(), (b + 1) * bucket));
+            const auto from = x.begin() + static_cast<std::ptrdiff_t>(b * bucket),
+                       to = x.begin() + static_cast<std::ptrdiff_t>(std::min(x.size(), (b + 1) * bucket));
             const auto [least, greatest] = std::minmax_element(from, to);
             const auto* kept = &e.values()[bucket == 1 ? b : 2 * b];
             RC_ASSERT(kept[0] == static_cast<float>(*least));
@@ -134,7 +140,8 @@ TEST(Envelope, KeepsLeastAndGreatestOfEveryBucketWhateverTheLength) {
 }
 
 TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
-    const std::pair<const char*, const char*> cases[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+    const std::pair<const char*, const char*> cases[] = {
+        {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
     for (const auto& [plain, coded] : cases) EXPECT_EQ(base64(plain, std::string_view(plain).size()), coded);
 }
 

@@ -1,0 +1,22 @@
+// Any text as a quantity: a finite number, or an error with a sentence; what is written is read back.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "signal/quantity.hpp"
+
+using namespace corpuscle;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    constexpr std::string_view units[] = {"", "s", "Hz", "N", "A/N", "A s/N", "V/s/A", "ohm", "F", "m/s"};
+    if (size < 1) return 0;
+    const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1), unit = units[data[0] % std::size(units)];
+    const auto value = parse_quantity(text, unit);
+    if (!value) return value.error().sentence.empty() ? std::abort() : void(), 0;
+    if (!std::isfinite(*value)) std::abort();
+    const auto back = parse_quantity(format_quantity(*value, unit), unit);
+    if (!back || std::abs(*back - *value) > 1e-3 * std::abs(*value)) std::abort();
+    (void)parse_unit(text);
+    return 0;
+}

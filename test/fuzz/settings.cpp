@@ -1,0 +1,57 @@
+// Any text as names and settings: an afferent or stimulus that runs and stays finite, or an error with a sentence.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "model/catalog.hpp"
+#include "signal/stimuli.hpp"
+
+using namespace corpuscle;
+
+namespace {
+
+/// The text's lines: the afferent, the stimulus, then settings.
+std::vector<std::string> lines_of(std::string_view text) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at <= text.size() && lines.size() < 12;) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        lines.emplace_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return lines;
+}
+
+void run(const AfferentPlan& plan, Source& source) {
+    if (plan.value("substep") > 0 && source.clock().T() / plan.value("substep") > 1e3) return;  // slow, not wrong
+    const auto afferent = make_afferent(plan, {source.clock().T(), Method::exact, false});
+    auto state = afferent->start();
+    std::vector<Spike> spikes;
+    Answer answer{spikes};
+    Frames block(1, 256);
+    for (int k = 0; k < 4; ++k) {
+        if (auto ok = source.read(block); !ok) return;
+        if (!afferent->respond({block.force[0].data(), block.count}, state, answer)) std::abort();
+    }
+    for (const auto& s : spikes)
+        if (!(s.offset > 0 && s.offset <= 1)) std::abort();
+    for (const double x : state.values)
+        if (std::isnan(x)) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto lines = lines_of({reinterpret_cast<const char*>(data), size});
+    std::vector<Wish> wishes;
+    for (std::size_t k = 2; k < lines.size(); ++k)
+        if (auto wish = parse_wish(lines[k])) wishes.push_back(std::move(*wish));
+    const auto plan = plan_afferent(lines[0], wishes);
+    if (!plan && plan.error().sentence.empty()) std::abort();
+    if (lines.size() < 2 || !is_stimulus(lines[1])) return 0;
+    const auto source = make_stimulus(lines[1], wishes, 1e3, 1);
+    if (!source && source.error().sentence.empty()) std::abort();
+    if (plan && source) run(*plan, **source);
+    return 0;
+}
