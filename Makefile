@@ -15,7 +15,7 @@ build: setup-run
 
 test: release asan
 	ctest --test-dir build/release --output-on-failure -j 2
-	ctest --test-dir build/asan --output-on-failure -j 2 -LE page
+	ctest --test-dir build/asan --output-on-failure -j 2 -LE once
 	$(MAKE) fuzz FUZZ_SECONDS=5
 
 release: setup-test

@@ -106,24 +106,36 @@ class Chain final : public Afferent {
     }
 
     template <bool Probed>
-    void run(std::span<const double> force, std::int64_t first, Values& s, Answer& answer) const {
+    void run(std::span<const double> force, std::int64_t first, Values& state, Answer& answer) const {
+        Values s = state;  // a local: kept in registers
         Current<double> i[K::outputs] = {};
-        for (std::size_t k = 0; k < force.size(); ++k) {
-            const auto step = first + static_cast<std::int64_t>(k);
-            const std::size_t seen = answer.spikes.size();
-            if (step > 0 || kernel_.steps_on_first())
-                answer.capped +=
-                    kernel_.step(s, force[k], i, [&](bool, double x) { answer.spikes.push_back({step, sampled_ ? 1.0 : x, answer.unit}); });
-            else
-                kernel_.receptor.step(s.receptor, force[k], i);
-            if (K::outputs > 1 && answer.spikes.size() > seen + 1)
-                std::sort(answer.spikes.begin() + static_cast<std::ptrdiff_t>(seen), answer.spikes.end());
-            if constexpr (Probed) {
-                double shown[K::probes];
-                kernel_.show(s, i, shown);
-                for (int p = 0; p < K::probes; ++p) answer.probes[static_cast<std::size_t>(p)][k] = shown[p];
-            }
+        std::size_t k = 0;
+        if (first == 0 && !kernel_.steps_on_first()) {
+            kernel_.receptor.step(s.receptor, force[0], i);
+            if constexpr (Probed) show(s, i, k, answer);
+            ++k;
         }
+        for (; k < force.size(); ++k) {
+            const auto fired = [&](bool, double x) {
+                answer.spikes.push_back({first + static_cast<std::int64_t>(k), sampled_ ? 1.0 : x, answer.unit});
+            };
+            [[maybe_unused]] const std::size_t seen = answer.spikes.size();
+            if (kernel_.step(s, force[k], i, fired)) ++answer.capped;
+            if constexpr (K::outputs > 1) sort_from(seen, answer.spikes);
+            if constexpr (Probed) show(s, i, k, answer);
+        }
+        state = s;
+    }
+
+    /// The spikes of several neurons in one step, put in order.
+    static void sort_from(std::size_t seen, std::vector<Spike>& spikes) {
+        if (spikes.size() > seen + 1) std::sort(spikes.begin() + static_cast<std::ptrdiff_t>(seen), spikes.end());
+    }
+
+    void show(const Values& s, const Current<double> (&i)[K::outputs], std::size_t k, Answer& answer) const {
+        double shown[K::probes];
+        kernel_.show(s, i, shown);
+        for (int p = 0; p < K::probes; ++p) answer.probes[static_cast<std::size_t>(p)][k] = shown[p];
     }
 
 public:

@@ -44,7 +44,7 @@ struct Adaptive : AdaptiveFacts {
     template <class Values>
     Adaptive(const Values& value, double dt, Method)
         : k(T(dt) / value(&Params::C_m)), E_L(value(&Params::E_L)), V_th(value(&Params::V_th)), V_reset(value(&Params::V_reset)),
-          dV_th(value(&Params::dV_th)), ref(value(&Params::t_ref) / dt), fall(T(dt) / value(&Params::tau_th)) {}
+          dV_th(value(&Params::dV_th)), ref(value(&Params::t_ref) / dt), fall(T(dt) / value(&Params::tau_th)), decay(num::exp(-fall)) {}
 
     State start() const { return {E_L, T(0.0), T(0.0)}; }
     void show(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = V_th + s.a; }
@@ -52,13 +52,15 @@ struct Adaptive : AdaptiveFacts {
     /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        T x = num::min(s.wait, T(1.0)), a = s.a * num::exp(-fall * x);  // a: the threshold's excess at x
+        T x = num::min(s.wait, T(1.0)), a = s.a;  // a: the threshold's excess at x
         s.wait = s.wait - x;
+        const auto late = x > T(0.0);
+        if (num::any(late)) a = num::select(late, a * num::exp(-fall * x), a);
         const Parabola<T> rise{i.from * k, (i.to - i.from) * k};
-        T base = s.u - rise.at(x);  // u(x) = base + rise.at(x)
-        base = base + num::positive(E_L - (base + rise.least_after(x)));
+        T base = num::max(s.u - rise.at(x), E_L - rise.least_after(x));  // u(x) = base + rise.at(x), never below E_L
         s.u = base + rise.at(T(1.0));
-        s.a = a * num::exp(-fall * (T(1.0) - x));
+        s.a = a * decay;
+        if (num::any(late)) s.a = num::select(late, a * num::exp(-fall * (T(1.0) - x)), s.a);
         auto over = (s.u > V_th + s.a) & (i.to > T(0.0));
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
             const auto gap = [&](T y) {
@@ -83,7 +85,7 @@ struct Adaptive : AdaptiveFacts {
     }
 
 private:
-    T k, E_L, V_th, V_reset, dV_th, ref, fall;
+    T k, E_L, V_th, V_reset, dV_th, ref, fall, decay;
 };
 
 }  // namespace corpuscle

@@ -52,8 +52,7 @@ struct LifB : LifBFacts {
         T x = num::min(s.wait, T(1.0));
         s.wait = s.wait - x;
         const Parabola<T> rise{(i.from - I_leak0) * k, (i.to - i.from) * k};
-        T base = s.u - rise.at(x);  // u(x) = base + rise.at(x)
-        base = base + num::positive(E_L - (base + rise.least_after(x)));
+        T base = num::max(s.u - rise.at(x), E_L - rise.least_after(x));  // u(x) = base + rise.at(x), never below E_L
         s.u = base + rise.at(T(1.0));
         auto over = s.u > V_th;
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {

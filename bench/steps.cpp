@@ -1,0 +1,54 @@
+// How many samples a second does one afferent answer on one core, without lanes?
+//
+// Method: one second of the press, or of a 30 Hz sine about 1 N, at 10 kHz in a block of 10,000 samples, over and over with
+// the state carried on; spikes go to memory. The time is the process's own; the median of 9 runs is the number. Counters say
+// the work done: samples a second, and spikes a sample (the press is rest for half its length; the sine keeps it busy).
+
+#include <benchmark/benchmark.h>
+
+#include "model/catalog.hpp"
+#include "signal/stimuli.hpp"
+
+namespace {
+
+using namespace corpuscle;
+
+std::vector<double> force_of(const std::string& stimulus) {
+    Frames block(1, 10000);
+    const auto source = make_stimulus(stimulus, {}, 10e3, 0);
+    if (!(*source)->read(block)) return {};
+    return block.force[0];
+}
+
+void answer(benchmark::State& run, const std::string& name, const std::string& stimulus, Method method) {
+    const auto afferent = make_afferent(*plan_afferent(name, {}), {1e-4, method, method == Method::backward_euler});
+    const auto force = force_of(stimulus);
+    std::vector<Spike> spikes;
+    spikes.reserve(4096);
+    auto state = afferent->start();
+    std::int64_t fired = 0;
+    for (auto _ : run) {
+        spikes.clear();
+        Answer out{spikes};
+        if (!afferent->respond(force, state, out)) return run.SkipWithError("refused");
+        fired += static_cast<std::int64_t>(spikes.size());
+        benchmark::DoNotOptimize(spikes.data());
+    }
+    const auto samples = run.iterations() * static_cast<std::int64_t>(force.size());
+    run.counters["steps"] = benchmark::Counter(static_cast<double>(samples), benchmark::Counter::kIsRate);
+    run.counters["spikes/step"] = static_cast<double>(fired) / static_cast<double>(samples);
+}
+
+const bool registered = [] {
+    for (const auto* name : {"sa1", "fa1", "sa2", "fa2", "sa1-kim", "fa1-lee", "sa1b+izhikevich", "sa1b+adex"})
+        for (const auto* stimulus : {"press", "sine"})
+            for (const auto method : {Method::exact, Method::backward_euler})
+                benchmark::RegisterBenchmark((std::string(name) + "/" + stimulus + (method == Method::exact ? "/exact" : "/backward-euler")).c_str(),
+                                             [=](benchmark::State& run) { answer(run, name, stimulus, method); })
+                    ->MinTime(0.05)
+                    ->Repetitions(9)
+                    ->ReportAggregatesOnly();
+    return true;
+}();
+
+}  // namespace

@@ -1,0 +1,24 @@
+// Block by block, as force arrives: the state is carried by the caller, and may be copied, saved and resumed.
+
+#include <cstdio>
+
+#include "model/catalog.hpp"
+
+int main() {
+    using namespace corpuscle;
+    const auto plan = plan_afferent("fa1", {});
+    if (!plan) return std::puts(plan.error().text().c_str()), 1;
+    const double T = 1e-3;  // s
+    const auto afferent = make_afferent(*plan, {T});
+
+    auto state = afferent->start();
+    std::vector<Spike> spikes;
+    Answer answer{spikes};
+    for (int block = 0; block < 20; ++block) {
+        std::vector<double> force(50, block < 10 ? 0.2 : 3.0);  // N: a step after half a second
+        if (auto ok = afferent->respond(force, state, answer); !ok) return std::puts(ok.error().text().c_str()), 1;
+        state = *unpack(pack(state));  // to disk and back, if you like
+    }
+    for (const auto& s : spikes) std::printf("%.4f s\n", Clock{1000, 1}.time(s.step, s.offset));
+    return spikes.empty();
+}
