@@ -43,8 +43,9 @@ const bool registered = [] {
     for (const auto* name : {"sa1", "fa1", "sa2", "fa2", "sa1-kim", "fa1-lee", "sa1b+izhikevich", "sa1b+adex"})
         for (const auto* stimulus : {"press", "sine"})
             for (const auto method : {Method::exact, Method::backward_euler})
-                benchmark::RegisterBenchmark((std::string(name) + "/" + stimulus + (method == Method::exact ? "/exact" : "/backward-euler")).c_str(),
-                                             [=](benchmark::State& run) { answer(run, name, stimulus, method); })
+                benchmark::RegisterBenchmark(
+                    (std::string(name) + "/" + stimulus + (method == Method::exact ? "/exact" : "/backward-euler")).c_str(),
+                    [=](benchmark::State& run) { answer(run, name, stimulus, method); })
                     ->MinTime(0.05)
                     ->Repetitions(9)
                     ->ReportAggregatesOnly();

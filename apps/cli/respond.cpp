@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "io/recording.hpp"
@@ -19,8 +20,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr double default_rate = 10e3;  // Hz, of stimuli
-constexpr std::size_t most_rows = 60;  // of the table on a terminal
+constexpr double default_rate = 10e3;          // Hz, of stimuli
+constexpr std::size_t most_rows = 60;          // of the table on a terminal
+constexpr std::size_t most_rows_in_full = 24;  // silence is shown up to here
 
 struct Job {
     std::vector<Wish> wishes;
@@ -104,17 +106,24 @@ std::string cell(const Measure& m, double x) {
     return std::isnan(x) ? "-" : m.of == spike_count ? fmt::format("{:.0f}", x) : fmt::format("{:.1f}", x);
 }
 
+/// With many rows, those of an afferent that no channel made fire say nothing.
 std::string rate_table(const Summary& summary) {
+    std::map<std::pair<std::string, std::string>, double> spikes;
+    for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[0];
+    const bool all = summary.rows().size() <= most_rows_in_full;
     std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
     for (const auto& m : measures) rows[0].push_back(m.unit.empty() ? std::string(m.title) : fmt::format("{} ({})", m.title, m.unit));
+    std::size_t more = 0;
     for (const auto& r : summary.rows()) {
-        if (rows.size() > most_rows) break;
+        if (!all && spikes[{r.afferent, r.channel}] == 0) continue;
+        if (rows.size() > most_rows && ++more) continue;
         rows.push_back({r.afferent, r.channel, r.phase});
         for (std::size_t m = 0; m < r.values.size(); ++m) rows.back().push_back(cell(measures[m], r.values[m]));
     }
     auto text = table(rows);
-    if (summary.rows().size() >= rows.size())
-        text += fmt::format("... and {} rows more; --out writes them all to summary.json\n", summary.rows().size() + 1 - rows.size());
+    if (more > 0) text += fmt::format("... and {} rows more; --out writes them all to summary.json\n", more);
+    const auto silent = std::count_if(spikes.begin(), spikes.end(), [](const auto& s) { return s.second == 0; });
+    if (!all && silent > 0) text += fmt::format("Silent, and not shown: {} of {} afferents on their channels.\n", silent, spikes.size());
     return text;
 }
 

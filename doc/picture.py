@@ -1,0 +1,39 @@
+"""Renders the README's picture from a report of the press, force and spikes only: doc/picture.py CORPUSCLE OUT.png"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+FLAGS = ("--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --hide-scrollbars --force-device-scale-factor=1.6 "
+         "--disable-background-networking --disable-component-update --disable-sync --window-size=1000,2600").split()
+
+
+def main(corpuscle, picture):
+    with tempfile.TemporaryDirectory() as folder:
+        report = pathlib.Path(folder) / "press.html"
+        subprocess.run([corpuscle, "respond", "press", "--report", report, "--quiet"], check=True)
+        options = Options()
+        options.binary_location = "/usr/bin/chromium"
+        for flag in [*FLAGS, f"--user-data-dir={folder}/profile"]:
+            options.add_argument(flag)
+        browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        try:
+            browser.get(report.as_uri())
+            browser.execute_script("""
+                const sections = [...document.querySelectorAll('#figures > section')];
+                for (const inner of sections.slice(1, -1)) inner.remove();  // currents and membranes: the report has them
+                document.querySelector('#figures').style.padding = '0 12px';""")
+            browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+            browser.find_element(By.ID, "figures").screenshot(picture)
+        finally:
+            browser.quit()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

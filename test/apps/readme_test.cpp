@@ -1,0 +1,61 @@
+// What the README shows is what runs.
+
+#include <fmt/format.h>
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+const char* const root = CORPUSCLE_ROOT;
+
+/// The lines of the README's shell blocks that call the program, without what stands behind a '#'.
+std::vector<std::string> commands() {
+    std::istringstream text(test::read_file(std::string(root) + "/README.md"));
+    std::vector<std::string> out;
+    bool shell = false;
+    for (std::string line; std::getline(text, line);) {
+        if (line.starts_with("```")) shell = line == "```sh";
+        if (shell && line.starts_with("corpuscle ")) out.push_back(line.substr(0, line.find(" #")));
+    }
+    return out;
+}
+
+TEST(Readme, EveryCommandItShowsRuns) {
+    const auto press = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
+    const test::Folder folder;
+    std::string touch = "time_s,fz\n";
+    for (int k = 0; k < 1000; ++k) touch += fmt::format("{},{}\n", k / 1e3, k < 200 ? 0 : 2000);
+    folder.write("touch.csv", touch);
+    const bool real = std::filesystem::exists(press);
+    if (real) std::filesystem::copy(press, folder / "fbg_press_S6_T16.csv");
+    const auto shown = commands();
+    ASSERT_GE(shown.size(), 6U);
+    for (const auto& command : shown) {
+        if (!real && command.find("fbg_press") != std::string::npos) continue;
+        const auto words = command.substr(std::string("corpuscle").size());
+        EXPECT_EQ(std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "'" + words + " > .out 2> .err").c_str()), 0)
+            << command << '\n' << test::read_file(folder / ".err");
+    }
+    CORPUSCLE_NEEDS(press);  // all but the real recording was run
+}
+
+TEST(Readme, ItsProgramIsTheExampleThatRuns) {
+    const auto example = test::read_file(std::string(root) + "/examples/respond.cpp"), readme = test::read_file(std::string(root) + "/README.md");
+    EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
+}
+
+TEST(Readme, EveryPageItPointsToIsThere) {
+    for (const auto* page : {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md"}) {
+        const auto text = test::read_file(std::string(root) + "/" + page);
+        ASSERT_FALSE(text.empty()) << page;
+        for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
+            const auto target = text.substr(at + 2, text.find(')', at) - at - 2);
+            if (target.starts_with("http")) continue;
+            EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(root) / std::filesystem::path(page).parent_path() / target)) << page << " points to " << target;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle
