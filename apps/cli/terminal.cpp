@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 
@@ -14,7 +15,7 @@ volatile std::sig_atomic_t stop = 0;
 bool is_number(const std::string& cell) { return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos; }
 
 std::string time_text(double seconds) {
-    const auto s = static_cast<long>(seconds + 0.5);
+    const auto s = std::lround(seconds);
     return s < 60     ? fmt::format("{} s", s)
            : s < 3600 ? fmt::format("{}:{:02} min", s / 60, s % 60)
                       : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
