@@ -2,8 +2,6 @@
 // The library's face: name an afferent, hand it force, get spikes. Errors are exceptions here, and only here.
 
 #include <cstdint>
-#include <memory>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>

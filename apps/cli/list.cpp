@@ -21,6 +21,7 @@ struct Entry {
     std::string name, made_of, sentence, source;
     std::vector<Parameter> parameters;
     std::vector<std::string> other_names;
+    std::string_view made_of_is = "made_of";  ///< what made_of is of this kind of entry, in JSON
 };
 
 struct Section {
@@ -56,8 +57,10 @@ std::vector<Entry> afferent_entries() {
 
 std::vector<Section> catalogue() {
     std::vector<Entry> measured, readable;
-    for (const auto& m : measures) measured.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}});
-    for (const auto& f : formats) readable.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}});
+    for (const auto& m : measures)
+        measured.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}, "unit"});
+    for (const auto& f : formats)
+        readable.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}, "extensions"});
     return {{"afferents", afferent_entries()},
             {"transductions", entries_of(receptor_cards())},
             {"neurons", entries_of(neuron_cards())},
@@ -76,7 +79,9 @@ Result<std::vector<Section>> chosen(const std::vector<std::string>& what) {
         known.push_back(s.name);
         for (const auto& e : s.entries) known.push_back(e.name);
     }
-    for (const auto& w : what) {
+    for (const auto& typed : what) {
+        const auto plan = plan_afferent(typed, {});
+        const std::string w = plan && typed.find('+') == std::string::npos ? plan->name : typed;  // SA1, RA ... are sa1, fa1
         if (std::find(known.begin(), known.end(), w) == known.end())
             return bad_usage(fmt::format("list: nothing is called '{}'{}", w, did_you_mean(w, known)));
         for (const auto& s : all) {
@@ -100,15 +105,14 @@ std::string text_of(const Entry& e) {
     if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
     std::vector<std::vector<std::string>> rows = {{}};
     for (const auto& p : e.parameters)
-        rows.push_back(
-            {"    " + std::string(p.row.name), format_quantity(p.row.initial, p.row.unit), range(p.row),
-             std::string(p.row.sentence) + (p.row.source.empty() || p.row.source == e.source ? "" : fmt::format(" ({})", p.row.source))});
+        rows.push_back({"    " + std::string(p.row.name), format_quantity(p.row.initial, p.row.unit), range(p.row),
+                        std::string(p.row.sentence) + (p.row.source.empty() ? "" : fmt::format(" ({})", p.row.source))});
     return text + (rows.size() > 1 ? table({rows.begin() + 1, rows.end()}) : "");
 }
 
 Json document_of(const Entry& e) {
     Json out = {{"name", e.name}, {"sentence", e.sentence}};
-    if (!e.made_of.empty()) out["of"] = e.made_of;
+    if (!e.made_of.empty()) out[std::string(e.made_of_is)] = e.made_of;
     if (!e.source.empty()) out["source"] = e.source;
     if (!e.other_names.empty()) out["also_called"] = e.other_names;
     for (const auto& p : e.parameters)

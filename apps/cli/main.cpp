@@ -43,7 +43,7 @@ void add_common(CLI::App& verb, Common& common) {
 void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     auto& verb = *app.add_subcommand("respond", "force recordings or named stimuli -> spikes, rates, report");
     verb.footer(respond_examples);
-    verb.add_option("FORCE", w.forces, "recordings and stimuli")->required();
+    verb.add_option("FORCE", w.forces, "recordings and stimuli");
     verb.add_option("--afferent,-a", w.afferents, "which afferents answer (more than one: repeat, or separate by commas)")
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -57,14 +57,18 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->capture_default_str()
         ->type_name("METHOD");
     verb.add_flag("--sampled", w.sampled, "spikes on the samples, as in the thesis; else interpolated inside the step");
-    verb.add_option("--seed", w.seed, "of everything random")->capture_default_str()->type_name("N");
+    verb.add_option("--seed", w.seed, "of everything random")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("N");
     verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
-    verb.add_option("--channel,-c", w.channels, "which channels of a recording: names, numbers, ranges (2-5)")
+    verb.add_option("--channel,-c", w.channels,
+                    "which channels of a recording: names, or numbers and ranges (2-5) that count all columns but the time")
         ->allow_extra_args(false)
         ->type_name("CHANNEL")
         ->group("Recordings");
     verb.add_option("--time", w.time, "a recording's time column by name or number, or 'none'")->type_name("COLUMN")->group("Recordings");
+    verb.add_option("--time-unit", w.time_unit, "what the time column is in, if its header does not say: s, ms, us")
+        ->type_name("UNIT")
+        ->group("Recordings");
     verb.add_option("--unit", w.unit, "what a recording holds: N, mN, gf, kgf, or raw (then say --scale)")
         ->type_name("UNIT")
         ->group("Recordings");
@@ -83,7 +87,6 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         // "--report press": the word is no page, so it is one of the forces.
         if (!w.report_file.empty() && !w.report_file.ends_with(".html")) w.forces.push_back(std::exchange(w.report_file, ""));
     });
-    verb.get_option("FORCE")->required(false);
 }
 
 void add_list(CLI::App& app, ListWords& w, Common& common) {
@@ -115,5 +118,9 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "Run 'corpuscle --help' or 'corpuscle VERB --help' for what can be said.\n");
         return 2;
     }
-    return app.got_subcommand("list") ? list(list_words, common) : respond(respond_words, common);
+    try {
+        return app.got_subcommand("list") ? list(list_words, common) : respond(respond_words, common);
+    } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory
+        return fail(bad_input(e.what()));
+    }
 }

@@ -40,7 +40,7 @@ Result<std::optional<double>> quantity(const std::optional<std::string>& text, s
 }
 
 Result<RecordingOptions> recording_options(const RespondWords& w) {
-    RecordingOptions options{w.channels, w.time, {}, {}, w.unit, {}, w.absolute};
+    RecordingOptions options{w.channels, w.time, w.time_unit, {}, {}, w.unit, {}, w.absolute};
     for (const auto& [text, unit, option, to] : {std::tuple{&w.rate, "Hz", "--rate", &options.rate},
                                                  {&w.resample, "Hz", "--resample", &options.resample},
                                                  {&w.scale, "", "--scale", &options.scale}}) {
@@ -51,15 +51,16 @@ Result<RecordingOptions> recording_options(const RespondWords& w) {
     return options;
 }
 
+/// A stimulus by name goes before a file of that name; ./press is the file.
 Result<std::unique_ptr<Source>> open_source(const std::string& force, const RecordingOptions& options, const Job& job, std::uint64_t seed) {
-    const bool file = std::filesystem::exists(force);
-    if (!file && is_stimulus(force)) return make_stimulus(force, job.wishes, options.rate.value_or(default_rate), seed);
-    if (!file && force.find_first_of("./") == std::string::npos) {
+    if (is_stimulus(force)) return make_stimulus(force, job.wishes, options.rate.value_or(default_rate), seed);
+    std::error_code status;
+    if (!std::filesystem::exists(force, status) && force.find_first_of("./") == std::string::npos && force != "-") {
         auto error = make_stimulus(force, job.wishes, default_rate, seed).error();
-        error.sentence += fmt::format(" (and there is no file '{}')", force);
+        error.sentence += fmt::format(" (and there is no file '{}')", force.substr(0, 64));
         return error;
     }
-    return open_recording(force, options);
+    return open_recording(force == "-" ? "/dev/stdin" : force, options);
 }
 
 /// Every wish must have found whom it is for.
@@ -70,6 +71,20 @@ Result<void> check_wishes(const Job& job) {
     for (const auto& w : job.wishes)
         if (!w.used)
             return bad_usage(fmt::format("--set {}: no afferent or stimulus '{}' takes part{}", w.text(), w.of, did_you_mean(w.of, names)));
+    return {};
+}
+
+/// What is said of recordings must find one.
+Result<void> check_recording_words(const RespondWords& w) {
+    if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
+    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--time", w.time.has_value()},
+                                                  {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
+                                                  {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
+                                                  {"--resample", w.resample.has_value()}};
+    for (const auto& [word, said] : words)
+        if (said)
+            return bad_usage(fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word,
+                                         w.forces[0], w.forces[0]));
     return {};
 }
 
@@ -96,6 +111,7 @@ Result<Job> prepare(const RespondWords& w) {
         job.sources.push_back(std::move(*source));
     }
     if (auto ok = check_wishes(job); !ok) return ok.error();
+    if (auto ok = check_recording_words(w); !ok) return ok.error();
     job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
     job.options.sampled = w.sampled;
     job.warnings = rate_warnings(job.sources, job.afferents);
@@ -104,6 +120,17 @@ Result<Job> prepare(const RespondWords& w) {
 
 std::string cell(const Measure& m, double x) {
     return std::isnan(x) ? "-" : m.of == spike_count ? fmt::format("{:.0f}", x) : fmt::format("{:.1f}", x);
+}
+
+/// A line an input: what was answered, so that a wrong unit or clock is seen.
+std::string inputs_table(const Summary& summary) {
+    std::string text;
+    for (const auto& i : summary.inputs())
+        text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", i.name,
+                            i.channels.size() == 1 ? "" : fmt::format("{} channels, ", i.channels.size()), i.samples,
+                            format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
+                            i.least, i.greatest);
+    return text;
 }
 
 /// With many rows, those of an afferent that no channel made fire say nothing.
@@ -141,7 +168,7 @@ class Outputs {
     }
 
     static Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
-        file->write(text);
+        if (auto ok = file->write(text); !ok) return ok;
         return file->commit();
     }
 
@@ -155,7 +182,7 @@ public:
             auto summary = create(w.out + "/summary.json");
             if (!summary) return summary.error();
             summary_file_ = std::move(*summary);
-            if (w.traces) traces_.emplace(w.out), paths_.push_back(w.out + "/traces.csv");
+            if (w.traces) traces_.emplace(w.out);
         }
         if (!w.report) return {};
         auto page = create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
@@ -174,8 +201,10 @@ public:
     Result<void> commit(const Summary& summary, const Job& job, const std::string& document, const std::string& command) {
         if (report_)
             if (auto ok = put(report_file_, report_->page(summary, job.afferents, command, job.warnings)); !ok) return ok;
-        if (traces_)
+        if (traces_) {
             if (auto ok = traces_->commit(); !ok) return ok;
+            for (const auto& path : traces_->paths()) paths_.push_back(path);
+        }
         if (spikes_) {
             if (auto ok = spikes_->commit(); !ok) return ok;
             if (auto ok = put(summary_file_, document); !ok) return ok;
@@ -189,9 +218,10 @@ public:
     }
 };
 
-void print_remarks(const Job& job) {
+/// Warnings are printed always, remarks unless it is to be quiet.
+void print_remarks(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
-        for (const auto& r : s->remarks()) fmt::print(stderr, "corpuscle: {}: {}\n", s->name(), r);
+        for (const auto& r : quiet ? std::vector<std::string>{} : s->remarks()) fmt::print(stderr, "corpuscle: {}: {}\n", s->name(), r);
     for (const auto& w : job.warnings) fmt::print(stderr, "corpuscle: warning: {}\n", w);
 }
 
@@ -200,7 +230,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (!job) return job.error();
     Outputs outputs;
     if (auto ok = outputs.open(w); !ok) return ok;
-    if (!common.quiet) print_remarks(*job);
+    print_remarks(*job, common.quiet);
 
     Summary summary;
     std::vector<Listener*> listeners = {&summary};
@@ -217,12 +247,14 @@ Result<void> run(const RespondWords& w, const Common& common) {
                         work->capped_steps, spikes_a_step));
         fmt::print(stderr, "corpuscle: warning: {}\n", job->warnings.back());
     }
-    const auto document = summary.document(job->afferents, *work, job->options, w.seed, job->warnings).dump(1) + "\n";
+    const auto document = summary.document(job->afferents, *work, job->options, w.seed, job->warnings)
+                              .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                          "\n";  // a name may hold any bytes
     if (auto ok = outputs.commit(summary, *job, document, common.command); !ok) return ok;
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)
-        fmt::print("{}{}", rate_table(summary), outputs.told());
+        fmt::print("{}{}{}", inputs_table(summary), rate_table(summary), outputs.told());
     return {};
 }
 

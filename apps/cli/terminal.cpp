@@ -35,10 +35,12 @@ int fail(const Error& error) {
 }
 
 void catch_interrupt() {
-    std::signal(SIGINT, [](int) {
-        if (stop) std::_Exit(130);
-        stop = 1;
-    });
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(signal, [](int) {
+            if (stop) std::_Exit(130);
+            stop = 1;
+        });
+    std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early (| head) is an error of writing, told as such
 }
 
 bool interrupted() { return stop != 0; }

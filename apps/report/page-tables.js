@@ -4,21 +4,20 @@
 const MOST_ROWS = 2000;  // more would only slow the browser; the numbers are in the program's own files
 
 /// Rates of the chosen channel, or of all.
-function showRates(table, inputs, input, channel) {
+function showRates(table, inputs, channel) {
     const section = document.getElementById("rates");
     section.hidden = !table || !table.rows.length;
     if (section.hidden) return;
     const all = document.getElementById("all-rows");
     const several = inputs.reduce((sum, one) => sum + one.channels.length, 0) > 1;
     document.getElementById("choose-rows").hidden = !several;
-    const fill = () => fillRates(section.querySelector(".scroll"), table, several && !all.checked ? [input.name, channel.name] : null);
+    const fill = () => fillRates(section.querySelector(".scroll"), table, several && !all.checked ? channel.name : null);
     all.onchange = fill;
     fill();
 }
 
 function fillRates(host, {columns, rows}, only) {
-    const [atInput, atChannel] = [columns.indexOf("input"), columns.indexOf("channel")];
-    const wanted = rows.filter((row) => !only || ((atInput < 0 || row[atInput] === only[0]) && (atChannel < 0 || row[atChannel] === only[1])));
+    const wanted = rows.filter((row) => !only || row[columns.indexOf("channel")] === only);
     const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number"));
     const cell = (tag, c, text) => `<${tag}${numeric[c] ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${escaped(text)}</${tag}>`;
     const line = (row, k) => `<tr${k && row[0] !== wanted[k - 1][0] ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value))).join("")}</tr>`;

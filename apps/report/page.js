@@ -25,7 +25,7 @@ function show(input, channel) {
     view.show([...forcePanels(), ...report.data.afferents.flatMap(afferentPanels), ...spikePanels()], input, keep);
     scrollTo(0, scroll);
     showChoice(input, channel);
-    showRates(report.data.table, report.data.inputs, input, channel);
+    showRates(report.data.table, report.data.inputs, channel);
 }
 
 /// All panels leave the same room at their left, enough for the raster's labels.

@@ -34,9 +34,8 @@ Json parameter_document(const Parameter& p) {
 }
 
 Json level(const AfferentPlan& plan, std::string_view name) {
-    for (const auto& p : plan.parameters)
-        if (p.row.name == name) return p.value;
-    return nullptr;
+    const auto value = plan.value(name);
+    return value ? Json(*value) : Json(nullptr);
 }
 
 Json table_document(const Summary& summary) {
@@ -79,7 +78,8 @@ std::string filled(std::string_view text, std::string_view title, std::string_vi
         out += text.substr(0, open);
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
         const auto name = text.substr(open + 2, close - open - 2);
-        out += name == "title" ? title : name == "data" ? data : asset(name);
+        const auto value = name == "title" ? title : name == "data" ? data : asset(name);
+        out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays to be seen
         text.remove_prefix(close + 2);
     }
 }
@@ -92,7 +92,8 @@ Result<void> Report::begin(const Input& input) {
                                    for (const auto& p : input.probes) n += p.size();
                                    return n;
                                }());
-    const std::size_t most = std::clamp<std::size_t>(most_points_ / traces, 1024, std::size_t{1} << 20);
+    // A trace over its share keeps pairs: two points each.
+    const std::size_t most = std::clamp<std::size_t>(most_points_ / (2 * traces * input.of), 16, std::size_t{1} << 20);
     forces_.assign(input.source.channels().size(), Envelope(most));
     probes_.clear();
     for (std::size_t u = 0; u < input.units(); ++u) probes_.emplace_back(input.probes[u % input.afferents.size()].size(), Envelope(most));

@@ -13,8 +13,8 @@ namespace corpuscle {
 /// Collects traces and spikes while the run goes on; page() fills the template with them.
 class Report final : public Listener {
 public:
-    /// Traces in all, in points, that a page may hold; with more channels each has fewer.
-    explicit Report(std::size_t most_points = std::size_t{24} << 20) : most_points_(most_points) {}
+    /// Points that all traces of a page may have together; with more channels or inputs each has fewer.
+    explicit Report(std::size_t most_points = std::size_t{32} << 20) : most_points_(most_points) {}
 
     bool wants_probes() const override { return true; }
     Result<void> begin(const Input&) override;

@@ -94,27 +94,34 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
     if (options.scale) return *options.scale;
     const std::string& unit = options.unit ? *options.unit : column.unit;
     if (unit.empty()) return 1.0;
+    constexpr std::string_view newtons[] = {"Newton", "newton", "Newtons", "newtons"};
+    if (std::find(std::begin(newtons), std::end(newtons), unit) != std::end(newtons)) return 1.0;
     const auto known = unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
     if (known && known->same_kind(*parse_unit("N"))) return known->factor;
-    if (options.unit)
-        return bad_input(
-            fmt::format("'{}' is read as {}, which is no force; say --scale S, so that what is read times S is newtons", column.name, unit),
-            {path});
-    return bad_input(
-        fmt::format(
-            "'{}' is in {}, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header is wrong)",
-            column.name, unit),
-        {path});
+    const auto what = options.unit ? fmt::format("'{}' is read as {}", column.name, unit) : fmt::format("'{}' is in {}", column.name, unit);
+    const auto why = known           ? "which is no force"
+                     : unit == "raw" ? "which needs a scale"
+                                     : "which is no unit of force known here (N, mN, gf, kgf, lbf ...)";
+    const auto else_ = options.unit ? "" : ", --unit N if the header is wrong, or --channel if it is another column that holds the force";
+    return bad_input(fmt::format("{}, {}; say --scale S, so that what is read times S is newtons{}", what, why, else_), {path});
 }
 
-Result<double> seconds_per_unit(const Column& column, const std::string& path) {
-    if (column.unit.empty()) return 1.0;
-    const auto known = parse_unit(column.unit);
-    if (!known || !known->same_kind(*parse_unit("s")))
-        return bad_input(
-            fmt::format("the time column '{}' is in '{}', which is no time; --time names another, or none", column.name, column.unit),
-            {path});
-    return known->factor;
+Result<double> seconds_per_unit(const Column& column, const RecordingOptions& options, const std::string& path) {
+    const std::string& unit = options.time_unit ? *options.time_unit : column.unit;
+    if (unit.empty()) return 1.0;
+    constexpr std::pair<std::string_view, double> words[] = {{"sec", 1},     {"secs", 1},      {"second", 1},    {"seconds", 1},
+                                                             {"msec", 1e-3}, {"msecs", 1e-3},  {"millis", 1e-3}, {"milliseconds", 1e-3},
+                                                             {"usec", 1e-6}, {"micros", 1e-6}, {"h", 3600}};
+    for (const auto& [word, factor] : words)
+        if (word == unit) return factor;
+    const auto known = parse_unit(unit);
+    if (known && known->same_kind(*parse_unit("s"))) return known->factor;
+    if (options.time_unit) return bad_usage(fmt::format("--time-unit {}: no unit of time; say s, ms, us or min", unit));
+    return bad_input(
+        fmt::format(
+            "the time column '{}' is in '{}', which is no time; --time-unit says what it is in, --time names another column, or none",
+            column.name, unit),
+        {path});
 }
 
 }  // namespace corpuscle

@@ -21,6 +21,6 @@ Result<std::optional<std::size_t>> choose_time(const Table&, const std::optional
 Result<double> newtons_per_unit(const Column&, const RecordingOptions&, const std::string& path);
 
 /// The factor from what stands in a time column to seconds.
-Result<double> seconds_per_unit(const Column&, const std::string& path);
+Result<double> seconds_per_unit(const Column&, const RecordingOptions&, const std::string& path);
 
 }  // namespace corpuscle

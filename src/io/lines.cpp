@@ -22,6 +22,7 @@ Result<Lines> Lines::open(const std::string& path) {
 Result<bool> Lines::fill() {
     constexpr std::size_t block = std::size_t{1} << 20;
     if (ended_) return false;
+    lost_ = lost_ || at_ > 0;
     buffer_.erase(0, at_);
     at_ = 0;
     if (buffer_.size() > longest) return bad_input(fmt::format("a line of more than {} MB", longest >> 20), {path_, number_ + 1});
@@ -59,9 +60,10 @@ Result<bool> Lines::next(std::string_view& line) {
 }
 
 Result<void> Lines::rewind() {
+    if (!lost_) return at_ = 0, number_ = 0, Result<void>{};  // all that was read is still here: a pipe can do this, too
     if (std::fseek(file_.get(), 0, SEEK_SET) != 0) return bad_input("this input cannot be read twice; save it to a file", {path_});
     buffer_.clear();
-    at_ = 0, number_ = 0, read_ = 0, ended_ = false;
+    at_ = 0, number_ = 0, read_ = 0, ended_ = false, lost_ = false;
     return {};
 }
 

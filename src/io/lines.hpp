@@ -17,10 +17,10 @@ class Lines {
     std::string path_;
     std::unique_ptr<std::FILE, Close> file_;
     std::string buffer_;
-    std::size_t at_ = 0;          // of the next line, in the buffer
-    long number_ = 0;             // of the last line given
-    double size_ = 0, read_ = 0;  // bytes
-    bool ended_ = false;
+    std::size_t at_ = 0;                 // of the next line, in the buffer
+    long number_ = 0;                    // of the last line given
+    double size_ = 0, read_ = 0;         // bytes
+    bool ended_ = false, lost_ = false;  // lost_: the beginning is no longer in the buffer
 
     Result<bool> fill();
 

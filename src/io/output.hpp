@@ -5,13 +5,15 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "signal/error.hpp"
 
 namespace corpuscle {
 
 class OutputFile {
-    std::string path_, part_, made_;  // made_: a directory that was not there before
+    std::string path_, part_;
+    std::vector<std::string> made_;  // directories that were not there before
     std::FILE* file_ = nullptr;
 
 public:
@@ -22,7 +24,7 @@ public:
 
     /// Makes the directories above it, too.
     static Result<OutputFile> create(const std::string& path);
-    void write(std::string_view text) { std::fwrite(text.data(), 1, text.size(), file_); }
+    Result<void> write(std::string_view text);
     /// Puts the file in its place; refuses if a byte could not be written.
     Result<void> commit();
     const std::string& path() const { return path_; }

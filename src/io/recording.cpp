@@ -47,16 +47,23 @@ class Recording final : public Source {
     Result<void> choose_channels() {
         const auto chosen = choose_columns(*table_, rows_clock_.column, options_.channels, path_);
         if (!chosen) return chosen.error();
-        bool told = false;
+        std::vector<std::string> unitless;
         for (const auto c : *chosen) {
             const auto& column = table_->columns()[c];
             const auto gain = newtons_per_unit(column, options_, path_);
             if (!gain) return gain.error();
-            if (column.unit.empty() && !options_.unit && !options_.scale && !std::exchange(told, true))
-                remarks_.push_back("no unit in the file: taken as newtons");
+            if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
+            if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
+                remarks_.push_back(
+                    fmt::format("the header says '{}' is in {}; read as {}, as --unit says", column.name, column.unit, *options_.unit));
             gains_.push_back(*gain);
-            channels_.push_back({static_cast<std::uint32_t>(channels_.size()), column.name});
+            const auto same = std::count_if(chosen->begin(), std::find(chosen->begin(), chosen->end(), c),
+                                            [&](auto other) { return table_->columns()[other].name == column.name; });
+            channels_.push_back(
+                {static_cast<std::uint32_t>(channels_.size()), same == 0 ? column.name : fmt::format("{} ({})", column.name, same + 1)});
         }
+        if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
+        if (!unitless.empty()) remarks_.push_back(fmt::format("no unit for {}: taken as newtons", fmt::join(unitless, ", ")));
         wanted_ = *chosen;
         if (rows_clock_.by_times) wanted_.push_back(*rows_clock_.column);
         rows_.resize(wanted_.size());
@@ -73,7 +80,7 @@ class Recording final : public Source {
     }
 
     double force(std::size_t channel) const {
-        const double x = rows_[channel][row_];
+        const double x = rows_[channel][row_];  // a product that overflows is refused by whoever takes the force
         return gains_[channel] * (options_.absolute ? std::abs(x) : x);
     }
 
@@ -124,6 +131,13 @@ public:
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
     double done() const override { return table_->done(); }
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> all;
+        for (std::size_t c = 0; c < channels_.size(); ++c) all.push_back({channels_[c].name + ": newtons per unit", gains_[c], "N"});
+        all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
+        if (options_.resample) all.push_back({"resampled from", rows_clock_.by_times ? 0 : rows_clock_.clock.rate(), "Hz"});
+        return all;
+    }
     std::string sentence() const override {
         return fmt::format("{} of {}, at {:g} Hz", channels_.size() == 1 ? "a channel" : fmt::format("{} channels", channels_.size()),
                            std::filesystem::path(path_).filename().string(), clock_.rate());

@@ -12,16 +12,17 @@
 namespace corpuscle {
 
 struct RecordingOptions {
-    std::vector<std::string> channels = {};  ///< names, numbers or ranges ("fbg11", "3", "2-5"); empty: all but the time
-    std::optional<std::string> time = {};    ///< the time column's name or number, or "none"; else as the file shows it
-    std::optional<double> rate = {};         ///< Hz: samples are this evenly spaced, whatever the time column says
-    std::optional<double> resample = {};     ///< Hz: interpolated to this rate by straight lines
-    std::optional<std::string> unit = {};    ///< "N", "mN", "gf", "kgf" or "raw"; else the header's
-    std::optional<double> scale = {};        ///< what is read, times this, is newtons
-    bool absolute = false;                   ///< of what is read, before all else
+    std::vector<std::string> channels = {};     ///< names, numbers or ranges ("fbg11", "3", "2-5"); empty: all but the time
+    std::optional<std::string> time = {};       ///< the time column's name or number, or "none"; else as the file shows it
+    std::optional<std::string> time_unit = {};  ///< of the time column; else the header's, else seconds
+    std::optional<double> rate = {};            ///< Hz: samples are this evenly spaced, whatever the time column says
+    std::optional<double> resample = {};        ///< Hz: interpolated to this rate by straight lines
+    std::optional<std::string> unit = {};       ///< "N", "mN", "gf", "kgf" or "raw"; else the header's
+    std::optional<double> scale = {};           ///< what is read, times this, is newtons
+    bool absolute = false;                      ///< of what is read, before all else
 };
 
-/// Opens a file in one of the formats (formats.hpp). A unit that is no force needs a scale = {}; an uneven clock needs `rate` or
+/// Opens a file in one of the formats (formats.hpp). A unit that is no force needs a scale; an uneven clock needs `rate` or
 /// `resample`. The file is read twice if it has a time column: once for its clock.
 Result<std::unique_ptr<Source>> open_recording(const std::string& path, const RecordingOptions&);
 

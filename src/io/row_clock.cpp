@@ -41,8 +41,10 @@ std::string uneven(const std::string& name, const ClockCheck& c) {
     const double mean = 1 / c.mean_step();
     return fmt::format(
         "the times in '{}' are not evenly spaced: mean rate {}, {}, samples off their place by up to {}. Say --rate {:.5g}Hz to take the "
-        "samples as evenly spaced, or --resample {:.3g}Hz to interpolate between their times",
-        name, hertz(mean), steps(c), format_quantity(c.spread(), "s"), mean, std::max(1.0, std::round(mean)));
+        "samples as evenly spaced{}",
+        name, hertz(mean), steps(c), format_quantity(c.spread(), "s"), mean,
+        c.least_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean)))
+                           : "");
 }
 
 /// The clock that `rate` gives, with what the times say against it.
@@ -68,6 +70,23 @@ Result<Clock> by_own_times(const std::string& name, const ClockCheck& times, con
     return clock_of(*options.resample, times.first());
 }
 
+/// With --rate the times need not be readable: what was wrong with them is told, and the rows count from 0 s.
+Result<RowClock> without_times(Table& table, double rate, const Error& why, RowClock& out) {
+    if (auto ok = table.rewind(); !ok) return ok.error();
+    out.remarks.push_back(fmt::format("the times were not read ({}); the rows count from 0 s", why.sentence));
+    const auto clock = clock_of(rate);
+    if (!clock) return clock.error();
+    out.clock = *clock;
+    return out;
+}
+
+/// Times without a unit are seconds; a rate that no sensor of force has is told.
+void doubt_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, std::vector<std::string>& remarks) {
+    if (column.unit.empty() && !options.time_unit && !options.rate && clock.rate() < 5)
+        remarks.push_back(fmt::format("no unit for '{}': taken as seconds, which makes {}; say --time-unit ms if they are milliseconds",
+                                      column.name, hertz(clock.rate())));
+}
+
 }  // namespace
 
 Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, const std::string& path) {
@@ -75,7 +94,14 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     const auto column = choose_time(table, options.time, path);
     if (!column) return column.error();
     if (!*column) {
-        if (!options.rate) return bad_input("there is no time column; say --rate, such as --rate 1kHz", {path});
+        if (!options.rate) {
+            std::vector<std::string> names;
+            for (const auto& c : table.columns()) names.push_back(c.name);
+            if (names.size() > 12) names.resize(12), names.push_back("...");
+            return bad_input(fmt::format("there is no time column (there are {}); name it with --time, or say --rate, such as --rate 1kHz",
+                                         fmt::join(names, ", ")),
+                             {path});
+        }
         const auto clock = clock_of(*options.rate);
         if (!clock) return clock.error();
         out.clock = *clock;
@@ -84,16 +110,17 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     out.column = *column;
     if (!options.time && table.time_is_guessed())
         out.remarks.push_back("no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
-    const auto unit = seconds_per_unit(table.columns()[*out.column], path);
-    if (!unit) return unit.error();
-    out.seconds_per_unit = *unit;
-    const auto times = check_times(table, *out.column, *unit, options.rate.has_value());
+    const auto unit = seconds_per_unit(table.columns()[*out.column], options, path);
+    const auto times = unit ? check_times(table, *out.column, *unit, options.rate.has_value()) : Result<ClockCheck>(unit.error());
+    if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
+    out.seconds_per_unit = *unit;
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.column].name;
     auto clock = options.rate ? by_rate(*options.rate, name, *times, out.remarks) : by_own_times(name, *times, options, out);
     if (!clock) return bad_input(clock.error().sentence, {path});
     out.clock = *clock;
+    doubt_seconds(table.columns()[*out.column], options, out.clock, out.remarks);
     return out;
 }
 

@@ -49,7 +49,8 @@ struct Dialect {
         }
     }
 
-    bool number(std::string_view field, double& value) const {
+    /// A finite number; `any` takes infinities and NaN, too.
+    bool number(std::string_view field, double& value, bool any = false) const {
         if (field.starts_with('+')) field.remove_prefix(1);
         char plain[64];
         if (decimal_comma && field.size() < sizeof plain && field.find(',') != std::string_view::npos) {
@@ -57,7 +58,7 @@ struct Dialect {
             field = std::string_view(plain, field.size());
         }
         const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
-        return status == std::errc{} && end == field.data() + field.size() && std::isfinite(value);
+        return status == std::errc{} && end == field.data() + field.size() && (any || std::isfinite(value));
     }
 };
 
@@ -69,10 +70,14 @@ Dialect guess(std::string_view line) {
     return {' ', false};
 }
 
+/// What may stand behind the last '_' of a heading and be a unit; not a letter that more often means something else (left_F).
 bool known_unit(std::string_view s) {
-    constexpr std::string_view words[] = {"counts", "count", "raw", "adc",  "lsb", "deg", "degC", "kg",
-                                          "g",      "Pa",    "kPa", "mmHg", "bar", "psi", "lbf"};
-    return !s.empty() && s != "1" && s != "%" && (std::find(std::begin(words), std::end(words), s) != std::end(words) || parse_unit(s));
+    constexpr std::string_view words[] = {"counts", "count",  "raw",  "adc",    "lsb",    "deg",     "degC",   "kg",
+                                          "g",      "Pa",     "kPa",  "mmHg",   "bar",    "psi",     "sec",    "seconds",
+                                          "msec",   "millis", "usec", "micros", "newton", "newtons", "Newton", "Newtons"};
+    constexpr std::string_view letters[] = {"", "1", "%", "F", "A", "S", "T"};
+    if (std::find(std::begin(letters), std::end(letters), s) != std::end(letters)) return false;
+    return std::find(std::begin(words), std::end(words), s) != std::end(words) || parse_unit(s);
 }
 
 bool names_time(std::string_view name) {
@@ -86,7 +91,8 @@ class TextTable final : public Table {
     Dialect dialect_;
     std::vector<Column> columns_;
     std::optional<std::size_t> time_;
-    bool header_ = false, skip_header_ = false;
+    bool header_ = false, commented_ = false, skip_header_ = false;
+    std::string comment_;  // the last before the data
     Fields fields_;
     std::vector<long> numbers_;  // line numbers of the last block's rows
 
@@ -94,14 +100,19 @@ class TextTable final : public Table {
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
     }
 
-    std::string called(std::size_t c) const { return header_ ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
+    std::string called(std::size_t c) const {
+        return header_ || commented_ ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1);
+    }
 
     /// The next line that holds data.
     Result<bool> next_row(std::string_view& line) {
         for (;;) {
             const auto more = lines_.next(line);
             if (!more || !*more) return more;
-            if (is_comment(line)) continue;
+            if (is_comment(line)) {
+                if (columns_.empty()) comment_ = trimmed(trimmed(line).substr(trimmed(line).empty() ? 0 : 1));
+                continue;
+            }
             if (!std::exchange(skip_header_, false)) return true;
         }
     }
@@ -114,16 +125,26 @@ class TextTable final : public Table {
         return at(fmt::format("column {}: {} where a number should be", called(c), what), column);
     }
 
-    Result<void> read_header(std::string_view line) {
+    /// The first line that is no comment: a header, or data under a commented header or none.
+    void read_header(std::string_view line) {
         dialect_ = guess(line);
-        dialect_.split(line, fields_);
+        split(line);
         double value;
-        header_ = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !dialect_.number(f, value); });
-        for (std::size_t c = 0; c < fields_.size(); ++c) columns_.push_back(header_ ? parse_heading(fields_[c]) : Column{});
-        if (header_)
-            for (std::size_t c = columns_.size(); c-- > 0;)
-                if (names_time(columns_[c].name)) time_ = c;
-        return {};
+        header_ = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !dialect_.number(f, value, true); });
+        const std::size_t columns = fields_.size();
+        if (!header_ && !comment_.empty()) {  // numpy's savetxt, and others, write the header as a comment
+            guess(comment_).split(comment_, fields_);
+            commented_ = fields_.size() == columns;
+        }
+        for (std::size_t c = 0; c < columns; ++c) columns_.push_back(header_ || commented_ ? parse_heading(fields_[c]) : Column{});
+        for (std::size_t c = columns; c-- > 0;)
+            if (names_time(columns_[c].name)) time_ = c;
+    }
+
+    /// A separator at the end of a line makes no column.
+    void split(std::string_view line) {
+        dialect_.split(line, fields_);
+        if (fields_.size() > 1 && fields_.back().empty() && (columns_.empty() || fields_.size() == columns_.size() + 1)) fields_.pop_back();
     }
 
     /// Without a header: does the first column rise by like steps over the first rows?
@@ -161,9 +182,10 @@ public:
         const auto first = next_row(line);
         if (!first) return first.error();
         if (!*first) return bad_input("no data in this file", {lines_.path()});
-        if (auto ok = read_header(line); !ok) return ok;
+        if (line.find('\0') != std::string_view::npos) return at("this is no text: it has NUL bytes (a binary file, or UTF-16?)");
+        read_header(line);
         if (auto ok = rewind(); !ok) return ok;
-        if (!header_)
+        if (!header_ && !commented_)
             if (auto ok = look_for_time(); !ok) return ok;
         name_columns();
         return {};
@@ -171,7 +193,7 @@ public:
 
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return time_; }
-    bool time_is_guessed() const override { return time_ && !header_; }
+    bool time_is_guessed() const override { return time_ && !header_ && !commented_; }
     double done() const override { return lines_.done(); }
     Place place(std::size_t row) const override { return {lines_.path(), row < numbers_.size() ? numbers_[row] : 0}; }
 
@@ -183,7 +205,7 @@ public:
             const auto more = next_row(line);
             if (!more) return more.error();
             if (!*more) break;
-            dialect_.split(line, fields_);
+            split(line);
             if (fields_.size() != columns_.size()) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_.size()));
             for (std::size_t i = 0; i < wanted.size(); ++i) {
                 const auto value = number_in(line, wanted[i]);

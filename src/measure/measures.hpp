@@ -1,6 +1,7 @@
 #pragma once
 // Spikes to numbers. A measure is one function of a train and a phase; each is a column in summary, table and report.
 
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,11 @@ struct Stretch {
     Stretch(std::span<const double> train, const Phase& phase);
     std::size_t count() const { return end - begin; }
     /// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), drawn at t[k] (3.3); the last spike of all has none.
-    double rate_at(std::size_t k) const { return 1 / (train[k + 1] - train[k]); }
+    /// Two spikes on one sample have none, either.
+    double rate_at(std::size_t k) const {
+        const double interval = train[k + 1] - train[k];
+        return interval > 0 ? 1 / interval : std::numeric_limits<double>::quiet_NaN();
+    }
 };
 
 struct Measure {

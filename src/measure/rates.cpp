@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "measure/measures.hpp"
@@ -20,7 +21,7 @@ double mean_rate(const Stretch& s) { return s.phase.to > s.phase.from ? spike_co
 double peak_rate(const Stretch& s) {
     double peak = none;
     for (std::size_t k = s.begin; k < s.end && k + 1 < s.train.size(); ++k)
-        if (!(s.rate_at(k) <= peak)) peak = s.rate_at(k);
+        if (s.rate_at(k) > peak || std::isnan(peak)) peak = s.rate_at(k);
     return peak;
 }
 
@@ -30,7 +31,8 @@ double last_rate(const Stretch& s) { return s.count() >= 2 ? s.rate_at(s.end - 2
 
 std::vector<double> instantaneous_rates(std::span<const double> train) {
     std::vector<double> rates;
-    for (std::size_t k = 0; k + 1 < train.size(); ++k) rates.push_back(1 / (train[k + 1] - train[k]));
+    const Stretch whole(train, {"", -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
+    for (std::size_t k = 0; k + 1 < train.size(); ++k) rates.push_back(whole.rate_at(k));
     return rates;
 }
 

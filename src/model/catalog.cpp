@@ -31,7 +31,7 @@ bool same_letters(std::string_view a, std::string_view b) {
 
 const NamedAfferent* afferent_named(std::string_view text) {
     for (const auto& a : named_afferents()) {
-        if (a.name == text) return &a;
+        if (same_letters(a.name, text)) return &a;
         for (const auto other : a.other_names)
             if (same_letters(other, text)) return &a;
     }
@@ -83,9 +83,9 @@ std::optional<Error> out_of_order(const AfferentPlan& plan) {
 std::vector<Card> receptor_cards() { return cards(Receptors{}); }
 std::vector<Card> neuron_cards() { return cards(Neurons{}); }
 
-double AfferentPlan::value(std::string_view parameter) const {
+std::optional<double> AfferentPlan::value(std::string_view parameter) const {
     const auto at = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.row.name == parameter; });
-    return at == parameters.end() ? 0 : at->value;
+    return at == parameters.end() ? std::nullopt : std::optional(at->value);
 }
 
 Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> wishes) {
@@ -117,14 +117,18 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
         for (auto& p : plan.parameters)
             if (p.value != p.row.initial) p.row.initial = p.value, p.row.source = named->source;  // the name's own default
     }
-    for (const std::string_view called : {std::string_view(plan.name), text}) {
-        const auto settings = settings_for(called, rows, wishes);
+    for (const auto& wish : wishes) {  // by any name it has
+        if (named ? afferent_named(wish.of) != named : wish.of != plan.name) continue;
+        const auto settings = settings_for(wish.of, rows, std::span(&wish, 1));
         if (!settings) return settings.error();
         apply(*settings, true);
-        if (plan.name == text) break;
     }
     std::optional<Error> wrong;
-    with_named(Neurons{}, plan.neuron, [&]<template <class> class N>(Model<N>) { wrong = out_of_order<N<double>>(plan); });
+    const auto check = [&]<template <class> class M>(Model<M>) {
+        if (!wrong) wrong = out_of_order<M<double>>(plan);
+    };
+    with_named(Receptors{}, plan.receptor, check);
+    with_named(Neurons{}, plan.neuron, check);
     if (wrong) return *wrong;
     with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
         if constexpr (requires { R<double>::least_rate; }) plan.least_rate = R<double>::least_rate;

@@ -2,6 +2,7 @@
 // Every transduction, every neuron, and the afferents that have a name. To add one: its include and its name here.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -60,7 +61,7 @@ struct AfferentPlan {
     std::string_view receptor, neuron, sentence, source;
     std::vector<Parameter> parameters;
     double least_rate = 0;  ///< Hz; below it the answer is not to be trusted
-    double value(std::string_view parameter) const;
+    std::optional<double> value(std::string_view parameter) const;
 };
 
 /// Reads "sa1", "SA1", "sa1b+izhikevich"; wishes name it as it was asked for or by its own name.

@@ -1,6 +1,7 @@
 #pragma once
 // A transduction joined to a neuron: the kernel, for any kind of number, and the afferent it makes with double.
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
@@ -34,9 +35,6 @@ struct Kernel {
     Neuron neuron;
     Method method;
 
-    /// The first sample: the force before it was the same. Backward Euler takes a step there, as the algorithms do; exact has no time to
-    /// cover yet.
-    bool steps_on_first() const { return method == Method::backward_euler; }
     State start(T force) const {
         State s;
         s.receptor = receptor.start(force);
@@ -51,6 +49,15 @@ struct Kernel {
         auto capped = neuron.step(s.neuron[0], i[0], fired);
         for (int k = 1; k < outputs; ++k) capped = capped | neuron.step(s.neuron[k], i[k], fired);
         return capped;
+    }
+
+    /// The first sample: the force before it was the same. Backward Euler takes a step there, as the algorithms do, and puts its
+    /// spikes on the sample: there is no time before it. Exact has no time to cover yet.
+    template <class Fired>
+    num::Mask<T> first(State& s, T force, Current<T> (&i)[outputs], Fired&& fired) const {
+        if (method == Method::backward_euler) return step(s, force, i, [&](num::Mask<T> who, T) { fired(who, T(1.0)); });
+        receptor.step(s.receptor, force, i);
+        return num::none<T>();
     }
 
     /// What the probes show, in their order: components of the current, the currents, each neuron's own.
@@ -84,7 +91,7 @@ class Chain final : public Afferent {
 
     K kernel_;
     bool sampled_;
-    std::string format_;
+    std::string name_, format_;
     std::vector<std::string> names_;
     std::vector<Probe> probes_;
 
@@ -109,18 +116,14 @@ class Chain final : public Afferent {
     void run(std::span<const double> force, std::int64_t first, Values& state, Answer& answer) const {
         Values s = state;  // a local: kept in registers
         Current<double> i[K::outputs] = {};
-        std::size_t k = 0;
-        if (first == 0 && !kernel_.steps_on_first()) {
-            kernel_.receptor.step(s.receptor, force[0], i);
-            if constexpr (Probed) show(s, i, k, answer);
-            ++k;
-        }
-        for (; k < force.size(); ++k) {
+        for (std::size_t k = 0; k < force.size(); ++k) {
             const auto fired = [&](bool, double x) {
                 answer.spikes.push_back({first + static_cast<std::int64_t>(k), sampled_ ? 1.0 : x, answer.unit});
             };
             [[maybe_unused]] const std::size_t seen = answer.spikes.size();
-            if (kernel_.step(s, force[k], i, fired)) ++answer.capped;
+            const bool capped =
+                first + static_cast<std::int64_t>(k) == 0 ? kernel_.first(s, force[k], i, fired) : kernel_.step(s, force[k], i, fired);
+            if (capped) ++answer.capped;
             if constexpr (K::outputs > 1) sort_from(seen, answer.spikes);
             if constexpr (Probed) show(s, i, k, answer);
         }
@@ -142,7 +145,8 @@ public:
     template <class RP, class NP>
     Chain(const RP& r, const NP& n, const Run& run)
         : kernel_{R<double>(Same<RP>{r}, run.dt, run.method), N<double>(Same<NP>{n}, run.dt, run.method), run.method},
-          sampled_(run.sampled), format_(std::string(R<double>::name) + "+" + std::string(N<double>::name) + "/1") {
+          sampled_(run.sampled), name_(fmt::format("{}+{}", R<double>::name, N<double>::name)),
+          format_(fmt::format("{}/1, T = {} s", name_, run.dt)) {
         name_probes();
     }
 
@@ -153,11 +157,18 @@ public:
         if (state.format != format_ || state.values.size() * sizeof(double) != sizeof(Values))
             return bad_input("a state of '" + state.format + "' was handed to '" + format_ + "'");
         if (force.empty()) return {};
+        if (const auto bad = first_not_finite(force); bad < force.size())
+            return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name_,
+                                         state.step + static_cast<std::int64_t>(bad), force[bad]));
         Values s;
         std::memcpy(&s, state.values.data(), sizeof s);
         if (state.step == 0) s = kernel_.start(force[0]);
         answer.probes.empty() ? run<false>(force, state.step, s, answer) : run<true>(force, state.step, s, answer);
         std::memcpy(state.values.data(), &s, sizeof s);
+        if (first_not_finite(state.values) < state.values.size())
+            return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "
+                                                          "gain is far too large, or the substep too long",
+                                                          name_, state.step, state.step + static_cast<std::int64_t>(force.size()))};
         state.step += static_cast<std::int64_t>(force.size());
         return {};
     }

@@ -37,8 +37,14 @@ struct Answer {
     std::int64_t capped = 0;  ///< steps whose spikes were more than the cap allows
 };
 
+/// The place of the first number that is infinite or none; the size if there is none such.
+std::size_t first_not_finite(std::span<const double>);
+
 class Afferent {
 public:
+    Afferent() = default;
+    Afferent(const Afferent&) = delete;
+    Afferent& operator=(const Afferent&) = delete;
     virtual ~Afferent() = default;
     virtual std::span<const Probe> probes() const = 0;
     /// The state before the first sample. The first sample also sets the force that went before it.

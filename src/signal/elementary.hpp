@@ -14,8 +14,8 @@ Dual cos_turns(Dual x);
 /// e^x. x beyond +-700 is taken as +-700: nothing here needs more, and no infinity can arise.
 template <class T>
 T exp(T x) {
-    x = min(max(x, T(-700.0)), T(700.0));
-    const T k = nearest(x * T(1.4426950408889634));
+    x = num::min(num::max(x, T(-700.0)), T(700.0));
+    const T k = num::nearest(x * T(1.4426950408889634));
     const T r = (x - k * T(6.93147180369123816490e-01)) - k * T(1.90821492927058770002e-10);  // ln 2 in two pieces
     // Taylor to r^13; |r| <= 0.347, so what is left out is below 4e-18. Pairs first (Estrin): short chains, not one long one.
     const T r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
@@ -23,16 +23,16 @@ T exp(T x) {
     const T low = pair(2.0, 6.0) + pair(24.0, 120.0) * r2, middle = pair(720.0, 5040.0) + pair(40320.0, 362880.0) * r2;
     const T high = pair(3628800.0, 39916800.0) + pair(479001600.0, 6227020800.0) * r2;
     const T p = T(1.0) + (r + r2 * (low + middle * r4 + high * r8));
-    return times_power_of_two(p, k);
+    return num::times_power_of_two(p, k);
 }
 
 /// Natural logarithm of a normal x > 0.
 template <class T>
 T log(T x) {
-    T m = mantissa(x), k = exponent(x);
+    T m = num::mantissa(x), k = num::exponent(x);
     const auto high = m > T(1.4142135623730951);
-    m = select(high, m * T(0.5), m);
-    k = select(high, k + T(1.0), k);
+    m = num::select(high, m * T(0.5), m);
+    k = num::select(high, k + T(1.0), k);
     const T s = (m - T(1.0)) / (m + T(1.0)), z = s * s;  // log m = 2 artanh s, |s| <= 0.172
     T p = T(1.0 / 21);
     for (const double n : {19.0, 17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0}) p = p * z + T(1.0 / n);
@@ -59,23 +59,23 @@ T cos_taylor(T y) {
 /// sin of `turns` whole turns, sin(2 pi turns), for |turns| < 2^49; exact at quarter turns.
 template <class T>
 T sin_turns(T turns) {
-    const T quarter = nearest(turns * T(4.0));
+    const T quarter = num::nearest(turns * T(4.0));
     const T y = (turns - quarter * T(0.25)) * T(6.283185307179586);
-    const T q = quarter - T(4.0) * nearest(quarter * T(0.25));  // -2 ... 2
+    const T q = quarter - T(4.0) * num::nearest(quarter * T(0.25));  // -2 ... 2
     const T s = detail::sin_taylor(y), c = detail::cos_taylor(y);
-    const T odd = select(q > T(0.0), c, -c), even = select(abs(q) > T(1.5), -s, s);
-    return select(abs(abs(q) - T(1.0)) < T(0.5), odd, even);
+    const T odd = num::select(q > T(0.0), c, -c), even = num::select(num::abs(q) > T(1.5), -s, s);
+    return num::select(num::abs(num::abs(q) - T(1.0)) < T(0.5), odd, even);
 }
 
 /// cos(2 pi turns).
 template <class T>
 T cos_turns(T turns) {
-    const T quarter = nearest(turns * T(4.0));
+    const T quarter = num::nearest(turns * T(4.0));
     const T y = (turns - quarter * T(0.25)) * T(6.283185307179586);
-    const T q = quarter - T(4.0) * nearest(quarter * T(0.25));
+    const T q = quarter - T(4.0) * num::nearest(quarter * T(0.25));
     const T s = detail::sin_taylor(y), c = detail::cos_taylor(y);
-    const T odd = select(q > T(0.0), -s, s), even = select(abs(q) > T(1.5), -c, c);
-    return select(abs(abs(q) - T(1.0)) < T(0.5), odd, even);
+    const T odd = num::select(q > T(0.0), -s, s), even = num::select(num::abs(q) > T(1.5), -c, c);
+    return num::select(num::abs(num::abs(q) - T(1.0)) < T(0.5), odd, even);
 }
 
 /// (e^x - 1) / x, also where x is small and the difference would lose its digits; 1 at x = 0.
@@ -83,8 +83,8 @@ template <class T>
 T exprel(T x) {
     T series = T(1.0 / 5040);  // to x^6: for |x| < 0.01 what is left out is below 3e-19
     for (const double f : {720.0, 120.0, 24.0, 6.0, 2.0, 1.0}) series = series * x + T(1.0 / f);
-    const auto small = abs(x) < T(0.01);
-    return select(small, series, (exp(x) - T(1.0)) / select(small, T(1.0), x));
+    const auto small = num::abs(x) < T(0.01);
+    return num::select(small, series, (num::exp(x) - T(1.0)) / num::select(small, T(1.0), x));
 }
 
 // The slopes of a dual, by the rules of calculus; its value is the double's to the last bit.

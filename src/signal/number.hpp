@@ -63,24 +63,30 @@ inline Dual sqrt(Dual x) {
 }
 inline double value(Dual x) { return x.v; }
 
+/// No lane.
+template <class T>
+Mask<T> none() {
+    return T(0.0) > T(0.0);
+}
+
 // ---- for every kind ----
 
 template <class T>
 T max(T a, T b) {
-    return select(a > b, a, b);
+    return num::select(a > b, a, b);
 }
 template <class T>
 T min(T a, T b) {
-    return select(a < b, a, b);
+    return num::select(a < b, a, b);
 }
 template <class T>
 T abs(T a) {
-    return select(a < T(0.0), -a, a);
+    return num::select(a < T(0.0), -a, a);
 }
 /// max{x, 0}, the thesis's rectifier (eq. 4).
 template <class T>
 T positive(T x) {
-    return select(x > T(0.0), x, T(0.0));
+    return num::select(x > T(0.0), x, T(0.0));
 }
 
 }  // namespace corpuscle::num

@@ -23,6 +23,13 @@ struct Phase {
     double from = 0, to = 0;
 };
 
+/// Something that a source was given: a stimulus's parameter, how a recording is read.
+struct Fact {
+    std::string name;
+    double value = 0;
+    std::string unit;
+};
+
 /// Samples of all channels over the same instants: force[channel][sample], newtons.
 struct Frames {
     explicit Frames(std::size_t channels, std::size_t capacity) : force(channels, std::vector<double>(capacity)), capacity(capacity) {}
@@ -42,6 +49,7 @@ public:
     virtual std::vector<Phase> phases() const { return {}; }
     /// What it is, in a few words.
     virtual std::string sentence() const = 0;
+    virtual std::vector<Fact> facts() const { return {}; }
     /// What the user should know of how the source was read, in sentences.
     virtual std::vector<std::string> remarks() const { return {}; }
     /// Fills the next block; count 0 is the end.

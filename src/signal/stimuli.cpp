@@ -56,12 +56,14 @@ class Sum final : public Source {
     std::string name_;
     Clock clock_;
     std::vector<Shape> shapes_;
+    std::vector<Fact> facts_;
     std::vector<Channel> channels_;
     std::int64_t samples_, next_ = 0;
 
 public:
-    Sum(std::string name, Clock clock, std::vector<Shape> shapes, std::int64_t samples)
-        : name_(std::move(name)), clock_(clock), shapes_(std::move(shapes)), channels_{{0, name_}}, samples_(samples) {}
+    Sum(std::string name, Clock clock, std::vector<Shape> shapes, std::vector<Fact> facts, std::int64_t samples)
+        : name_(std::move(name)), clock_(clock), shapes_(std::move(shapes)), facts_(std::move(facts)), channels_{{0, name_}},
+          samples_(samples) {}
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
@@ -71,9 +73,15 @@ public:
         return fmt::format("{}", fmt::join(all, "; "));
     }
     double done() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
+    std::vector<Fact> facts() const override { return facts_; }
     std::vector<Phase> phases() const override {
-        for (const auto& s : shapes_)
-            if (!s.phases.empty()) return s.phases;
+        for (const auto& s : shapes_) {
+            if (s.phases.empty()) continue;
+            auto phases = s.phases;
+            const double end = clock_.time(samples_);
+            if (end - phases.back().to > 0.5 * clock_.T()) phases.push_back({"after", phases.back().to, end});
+            return phases;
+        }
         return {};
     }
     Result<void> read(Frames& block) override {
@@ -81,7 +89,7 @@ public:
         for (std::size_t k = 0; k < block.count; ++k) {
             const double t = clock_.time(next_++);
             double force = 0;
-            for (const auto& s : shapes_) force += s.at(t);
+            for (const auto& s : shapes_) force += s.at(std::min(t, s.duration));
             block.force[0][k] = force;
         }
         return {};
@@ -101,6 +109,7 @@ Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<c
     const auto clock = clock_of(rate);
     if (!clock) return clock.error();
     std::vector<Shape> shapes;
+    std::vector<Fact> facts;
     double duration = 0;
     for (const auto name : members(text)) {
         const auto card = named(name);
@@ -111,13 +120,19 @@ Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<c
         }
         const auto settings = settings_for(name, card->rows, wishes);
         if (!settings) return settings.error();
+        for (const auto& row : card->rows) {
+            const auto set = std::find_if(settings->rbegin(), settings->rend(), [&](const Setting& s) { return s.name == row.name; });
+            facts.push_back(
+                {fmt::format("{}.{}", name, row.name), set == settings->rend() ? row.initial : set->value, std::string(row.unit)});
+        }
         shapes.push_back(*shape_named(Stimuli{}, name, *settings, seed));
         duration = std::max(duration, shapes.back().duration);
     }
     const double samples = std::round(duration * clock->rate());
     if (!(samples >= 1)) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is not one sample", text, duration, rate));
     if (samples > 1e15) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is more than 1e15 samples", text, duration, rate));
-    return std::unique_ptr<Source>(std::make_unique<Sum>(std::string(text), *clock, std::move(shapes), static_cast<std::int64_t>(samples)));
+    return std::unique_ptr<Source>(
+        std::make_unique<Sum>(std::string(text), *clock, std::move(shapes), std::move(facts), static_cast<std::int64_t>(samples)));
 }
 
 }  // namespace corpuscle

@@ -24,8 +24,9 @@ std::vector<Card> stimulus_cards();
 /// Whether the text reads as a stimulus or a sum of stimuli, "press", "press+noise".
 bool is_stimulus(std::string_view text);
 
-/// A stimulus or a sum of stimuli, sampled at `rate` (Hz). A sum is as long as its longest member and keeps the phases
-/// of the first member that has some. Wishes name a member: "noise.F_sd=50mN".
+/// A stimulus or a sum of stimuli, sampled at `rate` (Hz). A sum is as long as its longest member; a
+/// shorter one holds its last value. It keeps the phases
+/// of the first member that has some, and what comes after them. Wishes name a member: "noise.F_sd=50mN".
 Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> wishes, double rate, std::uint64_t seed);
 
 }  // namespace corpuscle

@@ -15,7 +15,7 @@ std::string field(const std::string& name) {
 
 }  // namespace
 
-SpikesFile::SpikesFile(OutputFile file) : file_(std::move(file)) { file_.write("afferent,channel,time_s\n"); }
+SpikesFile::SpikesFile(OutputFile file) : file_(std::move(file)) { (void)file_.write("afferent,channel,time_s\n"); }
 
 Result<void> SpikesFile::begin(const Input& input) {
     names_.clear();
@@ -29,8 +29,7 @@ Result<void> SpikesFile::block(const Input& input, const Answered& answered) {
     for (const auto& s : answered.spikes)
         fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[s.unit - input.first_unit],
                        input.source.clock().time(s.step, s.offset));
-    file_.write({text_.data(), text_.size()});
-    return {};
+    return file_.write({text_.data(), text_.size()});
 }
 
 Result<void> TracesFile::begin(const Input& input) {
@@ -42,7 +41,7 @@ Result<void> TracesFile::begin(const Input& input) {
         for (const auto& p : input.probes[u % input.afferents.size()])
             header += "," + field(fmt::format("{}.{}.{} [{}]", input.afferent_of(u).name, input.channel_name(input.channel_of(u)), p.name,
                                               p.unit));
-    file->write(header + "\n");
+    if (auto ok = file->write(header + "\n"); !ok) return ok;
     files_.push_back(std::move(*file));
     return {};
 }
@@ -57,8 +56,13 @@ Result<void> TracesFile::block(const Input& input, const Answered& answered) {
             for (const auto& probe : unit) fmt::format_to(out, ",{:.9g}", probe[k]);
         text_.push_back('\n');
     }
-    files_.back().write({text_.data(), text_.size()});
-    return {};
+    return files_.back().write({text_.data(), text_.size()});
+}
+
+std::vector<std::string> TracesFile::paths() const {
+    std::vector<std::string> all;
+    for (const auto& f : files_) all.push_back(f.path());
+    return all;
 }
 
 Result<void> TracesFile::commit() {

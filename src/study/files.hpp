@@ -28,6 +28,7 @@ class TracesFile final : public Listener {
     fmt::memory_buffer text_;
 
 public:
+    std::vector<std::string> paths() const;
     explicit TracesFile(std::string directory) : directory_(std::move(directory)) {}
     bool wants_probes() const override { return true; }
     Result<void> begin(const Input&) override;

@@ -6,6 +6,12 @@
 namespace corpuscle {
 namespace {
 
+/// Fewer samples at a time where many units show their probes: some 64 MB of them, whatever the number of channels.
+std::size_t block_for(const Input& input, const RespondOptions& options, bool probed) {
+    constexpr std::size_t most_values = std::size_t{1} << 23, probes = 8;
+    return probed ? std::clamp<std::size_t>(most_values / (input.units() * probes + 1), 1, options.block) : options.block;
+}
+
 /// The units of one input at work.
 class Bench {
     Input input_;
@@ -19,7 +25,7 @@ class Bench {
 
 public:
     Bench(Input input, const RespondOptions& options, bool probed)
-        : input_(std::move(input)), force_(input_.source.channels().size(), options.block) {
+        : input_(std::move(input)), force_(input_.source.channels().size(), block_for(input_, options, probed)) {
         const auto plans = input_.afferents;
         for (const auto& plan : plans) {
             afferents_.push_back(make_afferent(plan, {input_.source.clock().T(), options.method, options.sampled}));
@@ -28,7 +34,7 @@ public:
         input_.probes = probes_of_;
         for (std::size_t u = 0; u < input_.units(); ++u) {
             states_.push_back(afferents_[u % plans.size()]->start());
-            if (probed) probes_.emplace_back(probes_of_[u % plans.size()].size(), std::vector<double>(options.block));
+            if (probed) probes_.emplace_back(probes_of_[u % plans.size()].size(), std::vector<double>(force_.capacity));
         }
     }
 
@@ -41,7 +47,12 @@ public:
             for (auto& p : probes_[u]) shown.push_back(p.data());
         Answer answer{spikes_, input_.first_unit + static_cast<std::uint32_t>(u), shown, 0};
         const std::span<const double> force(force_.force[u / afferents_.size()].data(), force_.count);
-        if (auto ok = afferents_[u % afferents_.size()]->respond(force, states_[u], answer); !ok) return ok;
+        if (auto ok = afferents_[u % afferents_.size()]->respond(force, states_[u], answer); !ok) {
+            auto error = ok.error();
+            error.sentence =
+                fmt::format("{} on {}: {}", input_.afferent_of(u).name, input_.channel_name(input_.channel_of(u)), error.sentence);
+            return error;
+        }
         work.capped_steps += answer.capped;
         return {};
     }

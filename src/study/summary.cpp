@@ -1,5 +1,6 @@
 #include "study/summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -24,8 +25,11 @@ Json afferent_document(const AfferentPlan& plan) {
 Json input_document(const Summary::InputFacts& input) {
     Json phases = Json::array();
     for (const auto& p : input.phases) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
-    return {{"name", input.name},         {"samples", input.samples}, {"rate_Hz", input.clock.rate()}, {"t0_s", input.clock.t0},
-            {"channels", input.channels}, {"phases", phases},         {"remarks", input.remarks}};
+    Json facts = Json::object();
+    for (const auto& f : input.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
+    return {{"name", input.name},       {"parameters", facts},           {"force_min_N", input.least}, {"force_max_N", input.greatest},
+            {"samples", input.samples}, {"rate_Hz", input.clock.rate()}, {"t0_s", input.clock.t0},     {"channels", input.channels},
+            {"phases", phases},         {"remarks", input.remarks}};
 }
 
 Json row_document(const RateRow& row) {
@@ -38,15 +42,22 @@ Json row_document(const RateRow& row) {
 }  // namespace
 
 Result<void> Summary::begin(const Input& input) {
-    InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.remarks(), input.source.phases()};
+    InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.remarks(), input.source.facts(), INFINITY,
+                     -INFINITY,  input.source.phases()};
     for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
     inputs_.push_back(std::move(facts));
     trains_.assign(input.units(), {});
+    since_start_ = input.source.clock();
+    since_start_.t0 = 0;  // the digits of a time since 1970 would be lost to its seconds
     return {};
 }
 
 Result<void> Summary::block(const Input& input, const Answered& answered) {
-    for (const auto& s : answered.spikes) trains_[s.unit - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
+    auto& facts = inputs_.back();
+    for (const auto& channel : answered.force.force)
+        for (std::size_t k = 0; k < answered.force.count; ++k)
+            facts.least = std::min(facts.least, channel[k]), facts.greatest = std::max(facts.greatest, channel[k]);
+    for (const auto& s : answered.spikes) trains_[s.unit - input.first_unit].push_back(since_start_.time(s.step, s.offset));
     return {};
 }
 
@@ -54,7 +65,7 @@ Result<void> Summary::end(const Input& input, std::int64_t samples) {
     auto& facts = inputs_.back();
     facts.samples = samples;
     auto phases = facts.phases;
-    if (phases.empty()) phases = {{"all", facts.clock.t0, facts.clock.time(samples)}};
+    if (phases.empty()) phases = {{"all", 0, since_start_.time(samples)}};
     for (std::size_t u = 0; u < input.units(); ++u)
         for (const auto& phase : phases) {
             RateRow row{input.afferent_of(u).name, facts.channels[input.channel_of(u)], phase.name, {}};

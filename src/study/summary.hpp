@@ -23,7 +23,9 @@ public:
         Clock clock;
         std::int64_t samples = 0;
         std::vector<std::string> channels, remarks;
-        std::vector<Phase> phases;  ///< as the stimulus says them, else empty
+        std::vector<Fact> facts;
+        double least = 0, greatest = 0;  ///< force, N
+        std::vector<Phase> phases;       ///< as the stimulus says them, else empty
     };
 
     Result<void> begin(const Input&) override;
@@ -38,7 +40,8 @@ public:
 
 private:
     std::vector<InputFacts> inputs_;
-    std::vector<std::vector<double>> trains_;  // s, of the input at work
+    Clock since_start_;                        // of the input at work, its first sample at 0 s
+    std::vector<std::vector<double>> trains_;  // s, by that clock
     std::vector<RateRow> rows_;
 };
 

@@ -113,8 +113,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
     } cases[] = {
         {"respond bad.csv --out answer", 1, "bad.csv:4:6: column 'fz': 'oops' where a number should be"},
         {"respond nm.csv --out answer", 1,
-         "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header is "
-         "wrong)"},
+         "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons, --unit N if the header is "
+         "wrong, or --channel if it is another column that holds the force"},
         {"respond none.csv", 1, "none.csv: cannot be opened: No such file or directory"},
         {"respond pres", 1, "unknown stimulus 'pres'; did you mean 'press'? (and there is no file 'pres')"},
         {"respond press -a sa9", 1,
@@ -126,6 +126,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --traces", 2, "--traces needs --out DIR to write into"},
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
+        {"respond press --scale 2", 2, "--scale is for recordings, and press is a stimulus; --set press.PARAMETER=VALUE changes it"},
         {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be made: Not a directory"},
     };
     for (const auto& c : cases) {
@@ -139,6 +140,62 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
 }
 
+TEST(Program, NamesMayHoldAnyBytes) {
+    const Folder folder;
+    folder.write("l.csv",
+                 "t,Gr\xf6\xdf"  // Latin-1
+                 "e_N\n0,1\n0.01,2\n0.02,2\n");
+    const auto ran = run(folder, "respond l.csv --out answer --report --json");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_FALSE(Json::parse(ran.out).is_discarded());
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "l.csv", "report.html", "spikes.csv", "summary.json"}));
+}
+
+TEST(Program, AStimulusGoesBeforeADirectoryOfItsName) {
+    const Folder folder;
+    EXPECT_EQ(run(folder, "respond press --out press --quiet").status, 0);
+    EXPECT_EQ(run(folder, "respond press --out press --quiet").status, 0);
+}
+
+TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
+    const Folder folder;
+    const auto full = std::system(("'" CORPUSCLE_PROGRAM "' list >/dev/full 2>'" + (folder / "err") + "'").c_str());
+    EXPECT_EQ(WEXITSTATUS(full), 1);
+    EXPECT_EQ(run(folder, "respond " + std::string(5000, 'x')).status, 1);
+}
+
+TEST(Program, AStateThatIsNoLongerANumberIsToldNotHidden) {
+    const Folder folder;
+    const auto ran = run(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer");  // far too stiff for its substep
+    EXPECT_EQ(ran.status, 3);
+    EXPECT_NE(ran.err.find("sa1b+adex on press: sa1b+adex: its state left the finite numbers"), std::string::npos) << ran.err;
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Program, OtherNamesAreTakenWhereverNamesAre) {
+    const Folder folder;
+    EXPECT_EQ(run(folder, "list RA").out, run(folder, "list fa1").out);
+    const auto by_alias = Json::parse(run(folder, "respond press -a fa1 --set RA.f=3Hz --json").out);
+    EXPECT_EQ(by_alias["afferents"][0]["parameters"]["f"]["value"], 3.0);
+}
+
+TEST(Program, SummarySaysWhatWasRun) {
+    const Folder folder;
+    const auto ran = Json::parse(run(folder, "respond press --set press.F_max=2N --json").out);
+    EXPECT_EQ(ran["inputs"][0]["parameters"]["press.F_max"], (Json{{"value", 2.0}, {"unit", "N"}}));
+    EXPECT_EQ(ran["inputs"][0]["force_max_N"], 2.0);
+    folder.write("x.csv", "t,a,a\n0,1,2\n0.01,3,4\n");
+    const auto read = Json::parse(run(folder, "respond x.csv --scale 0.5 --json").out);
+    EXPECT_EQ(read["inputs"][0]["parameters"]["a: newtons per unit"]["value"], 0.5);
+    EXPECT_EQ(read["inputs"][0]["channels"], (Json{"a", "a (2)"})) << "two columns of one name stay two";
+}
+
+TEST(Program, ReadsFromAPipe) {
+    const Folder folder;
+    folder.write("x.csv", "1\n2\n3\n");
+    EXPECT_EQ(std::system(("cat '" + (folder / "x.csv") + "' | '" CORPUSCLE_PROGRAM "' respond - --rate 100Hz --quiet").c_str()), 0);
+}
+
 TEST(Program, HelpTeachesAndVersionTells) {
     const Folder folder;
     EXPECT_NE(run(folder, "--help").out.find("corpuscle respond press"), std::string::npos);
@@ -149,24 +206,28 @@ TEST(Program, HelpTeachesAndVersionTells) {
     EXPECT_EQ(run(folder, "--version").out.rfind("corpuscle ", 0), 0U);
 }
 
-TEST(Program, CtrlCEndsCleanly) {
-    const Folder folder;
-    const auto answer = folder / "answer";
-    const pid_t child = ::fork();
-    if (child == 0) {
-        std::freopen("/dev/null", "w", stderr);
-        ::execl(CORPUSCLE_PROGRAM, "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
-                answer.c_str(), nullptr);
-        std::_Exit(99);
+TEST(Program, CtrlCAndItsKinEndItCleanly) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const Folder folder;
+        const auto answer = folder / "new/deep/answer";
+        const pid_t child = ::fork();
+        if (child == 0) {
+            if (!std::freopen("/dev/null", "w", stderr)) std::_Exit(98);
+            ::execl(CORPUSCLE_PROGRAM, "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
+                    answer.c_str(), nullptr);
+            std::_Exit(99);
+        }
+        for (int k = 0; k < 200 && !std::filesystem::exists(answer + "/summary.json.part-" + std::to_string(child)); ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        EXPECT_TRUE(std::filesystem::exists(answer)) << "it is at work";
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        ::kill(child, signal);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status));
+        EXPECT_EQ(WEXITSTATUS(status), 130);
+        EXPECT_TRUE(folder.names().empty()) << "nothing half-written is left";
     }
-    for (int k = 0; k < 200 && !std::filesystem::exists(answer); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_TRUE(std::filesystem::exists(answer)) << "it is at work";
-    ::kill(child, SIGINT);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_TRUE(folder.names().empty()) << "nothing half-written is left";
 }
 
 TEST(Program, ThePressOnTheElectronicSkinByTheReadmesCommand) {

@@ -35,13 +35,15 @@ TEST(Readme, EveryCommandItShowsRuns) {
         if (!real && command.find("fbg_press") != std::string::npos) continue;
         const auto words = command.substr(std::string("corpuscle").size());
         EXPECT_EQ(std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "'" + words + " > .out 2> .err").c_str()), 0)
-            << command << '\n' << test::read_file(folder / ".err");
+            << command << '\n'
+            << test::read_file(folder / ".err");
     }
     CORPUSCLE_NEEDS(press);  // all but the real recording was run
 }
 
 TEST(Readme, ItsProgramIsTheExampleThatRuns) {
-    const auto example = test::read_file(std::string(root) + "/examples/respond.cpp"), readme = test::read_file(std::string(root) + "/README.md");
+    const auto example = test::read_file(std::string(root) + "/examples/respond.cpp"),
+               readme = test::read_file(std::string(root) + "/README.md");
     EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
 }
 
@@ -52,7 +54,8 @@ TEST(Readme, EveryPageItPointsToIsThere) {
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
             const auto target = text.substr(at + 2, text.find(')', at) - at - 2);
             if (target.starts_with("http")) continue;
-            EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(root) / std::filesystem::path(page).parent_path() / target)) << page << " points to " << target;
+            EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(root) / std::filesystem::path(page).parent_path() / target))
+                << page << " points to " << target;
         }
     }
 }

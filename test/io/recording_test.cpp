@@ -142,17 +142,72 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(said(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}),
               "x.csv: 'ch1' is read as mV, which is no force; say --scale S, so that what is read times S is newtons");
     EXPECT_EQ(said(folder, "F_nm\n1\n", {.rate = 10}),
-              "x.csv: 'F' is in nm, which is no force; say --scale S, so that what is read times S is newtons (or --unit N if the header "
-              "is wrong)");
-    EXPECT_EQ(said(folder, "F\n1\n2\n"), "x.csv: there is no time column; say --rate, such as --rate 1kHz");
+              "x.csv: 'F' is in nm, which is no force; say --scale S, so that what is read times S is newtons, --unit N if the header is "
+              "wrong, or --channel if it is another column that holds the force");
+    EXPECT_EQ(said(folder, "F\n1\n2\n"),
+              "x.csv: there is no time column (there are F); name it with --time, or say --rate, such as --rate 1kHz");
     EXPECT_EQ(said(folder, "t,F\n0,1\n2,1\n1,1\n"), "x.csv:4: time goes back, from 2 s to 1 s; --rate takes the rows as evenly spaced");
     EXPECT_EQ(said(folder, "t,F\n0,1\n"), "x.csv: one sample has no rate of its own; say --rate, such as --rate 1kHz");
     EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n"), "x.csv: the times in 't' do not advance; say --rate, such as --rate 1kHz");
-    EXPECT_EQ(said(folder, "t_N,F\n0,1\n1,1\n"), "x.csv: the time column 't' is in 'N', which is no time; --time names another, or none");
+    EXPECT_EQ(
+        said(folder, "t_N,F\n0,1\n1,1\n"),
+        "x.csv: the time column 't' is in 'N', which is no time; --time-unit says what it is in, --time names another column, or none");
     EXPECT_EQ(said(folder, "t,F\n0,1\n1,1\n", {.time = "z"}), "x.csv: no column 'z' to take as time; give its name, its number or 'none'");
     EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}), "--unit and --scale both say what is read: give one");
     EXPECT_EQ(try_read(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
     EXPECT_EQ(try_read(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
+}
+
+TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
+    const Folder folder;
+    const auto one = [&](const std::string& text, const RecordingOptions& options = {}) {
+        return read(folder.write("x.csv", text), options);
+    };
+    const auto seconds = one("Time (sec),Force (Newton)\n0,1\n0.5,2\n");
+    EXPECT_EQ(seconds.clock.rate(), 2);
+    EXPECT_EQ(seconds.force[0][1], 2);
+    EXPECT_EQ(one("time_sec,Force_N\n0,1\n0.5,2\n").clock.rate(), 2);
+    const auto commented = one("# t_s fz_mN\n0 1000\n0.1 2000\n");  // numpy.savetxt
+    EXPECT_EQ(commented.names, std::vector<std::string>{"fz"});
+    EXPECT_NEAR(commented.force[0][1], 2, 1e-12);
+    EXPECT_EQ(one("t,left_F,right_F\n0,1,2\n1,3,4\n").names, (std::vector<std::string>{"left_F", "right_F"})) << "no farads";
+    EXPECT_EQ(one("t,F_N,\n0,1,\n1,2,\n").names, std::vector<std::string>{"F"}) << "a separator at the end makes no column";
+    EXPECT_EQ(one("t,F_lbf\n0,1\n1,2\n").force[0][0], 4.4482216152605);
+    EXPECT_EQ(said(folder, "nan,1\n2,3\n4,5\n", {.rate = 100}), "x.csv:1:1: column 1: 'nan' where a number should be")
+        << "nan is no heading";
+    EXPECT_EQ(said(folder, std::string("t\0,\0F\0\n\0", 9)), "x.csv:1: this is no text: it has NUL bytes (a binary file, or UTF-16?)");
+    EXPECT_EQ(said(folder, "t,F_furlong\n0,1\n1,2\n", {.unit = "mn"}).substr(0, 91),
+              "x.csv: 'F_furlong' is read as mn, which is no unit of force known here (N, mN, gf, kgf, lbf");
+}
+
+TEST(Recording, WhatTheUserSaysAgainstTheHeaderIsTold) {
+    const Folder folder;
+    EXPECT_EQ(read(folder.write("x.csv", "t,F_N\n0,1\n0.1,2\n"), {.unit = "mN"}).remarks.at(0),
+              "the header says 'F' is in N; read as mN, as --unit says");
+}
+
+TEST(Recording, MillisecondsWithoutAUnitAreDoubtedAndTheirUnitCanBeSaid) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "timestamp,F_N\n421419,1\n421447,2\n421475,3\n");
+    EXPECT_EQ(read(path).remarks.at(0),
+              "no unit for 'timestamp': taken as seconds, which makes 0.035714 Hz; say --time-unit ms if they are milliseconds");
+    const auto said_so = read(path, {.time_unit = "ms"});
+    EXPECT_NEAR(said_so.clock.rate(), 1000.0 / 28, 1e-9);
+    EXPECT_NEAR(said_so.clock.t0, 421.419, 1e-12);
+    EXPECT_TRUE(said_so.remarks.empty());
+}
+
+TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
+    const Folder folder;
+    const auto made = read(folder.write("x.csv", "time,F_N\n2026-01-01T00:00:00,1\n2026-01-01T00:00:01,2\n"), {.rate = 1});
+    EXPECT_EQ(made.force, (Rows{{1, 2}}));
+    EXPECT_EQ(made.remarks.at(0),
+              "the times were not read (column 'time': '2026-01-01T00:00:00' where a number should be); the rows count from 0 s");
+}
+
+TEST(Recording, ARateCloseToAWholeNumberIsThatNumber) {
+    EXPECT_EQ(test::sure(clock_of(999.9128, 0, 1e-3)).rate(), 1000);
+    EXPECT_EQ(test::sure(clock_of(199.81, 0, 1e-3)).rate(), 200);
 }
 
 TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
@@ -190,7 +245,7 @@ TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
 TEST(Recording, WhatTheClockSaysAgainstTheRateIsTold) {
     const Folder folder;
     const auto path = folder.write("x.csv", "time_s,F\n0,1\n0.01,2\n0.02,3\n");
-    EXPECT_EQ(read(path).remarks.at(0), "no unit in the file: taken as newtons");
+    EXPECT_EQ(read(path).remarks.at(0), "no unit for 'F': taken as newtons");
     EXPECT_EQ(read(path, {.rate = 50}).remarks.at(0), "--rate says 50 Hz, the times in 'time' say 100 Hz on the mean");
 }
 

@@ -36,6 +36,13 @@ TEST(Measures, HaveNoValueWhereThereIsNone) {
     EXPECT_TRUE(std::isnan(mean_rate(Stretch(train, {"", 0.5, 0.5}))));
 }
 
+TEST(Measures, TwoSpikesOnOneSampleHaveNoFrequency) {
+    const std::vector<double> sampled = {0.1, 0.1, 0.2};
+    const Stretch s(sampled, {"", 0, 1});
+    EXPECT_TRUE(std::isnan(first_rate(s)));
+    EXPECT_NEAR(peak_rate(s), 10, 1e-9);
+}
+
 TEST(Measures, InstantaneousRatesAreOneFewerThanSpikes) {
     EXPECT_EQ(instantaneous_rates(train).size(), 4U);
     EXPECT_TRUE(instantaneous_rates({}).empty());

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "signal/quantity.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 
@@ -45,6 +47,7 @@ TEST(Contract, EveryRowHasASentenceAReadableUnitAndItsDefaultInRange) {
             EXPECT_FALSE(card.sentence.empty() || card.source.empty()) << card.name;
             for (const auto& row : card.rows) {
                 EXPECT_FALSE(row.sentence.empty()) << card.name << '.' << row.name;
+                EXPECT_TRUE(parse_unit(row.unit)) << card.name << '.' << row.name << ": " << row.unit;
                 EXPECT_TRUE(row.initial >= row.low && row.initial <= row.high) << card.name << '.' << row.name;
             }
         }
@@ -54,10 +57,12 @@ TEST(Contract, ValuesOutsideARowsRangeAreRefusedByName) {
     for (const auto& name : every_afferent()) {
         const auto plan = test::sure(plan_afferent(name, {}));
         for (const auto& p : plan.parameters) {
-            const Wish wish{name, std::string(p.row.name), fmt::format("{}", p.row.high * 2 + 1)};
-            const auto refused = plan_afferent(name, std::span(&wish, 1));
-            ASSERT_FALSE(refused) << wish.text();
-            EXPECT_NE(refused.error().text().find(std::string(p.row.name) + " = "), std::string::npos) << refused.error().text();
+            for (const double value : {p.row.high * 2 + 1, p.row.low - std::abs(p.row.low) - 1}) {
+                const Wish wish{name, std::string(p.row.name), fmt::format("{}", value)};
+                const auto refused = plan_afferent(name, std::span(&wish, 1));
+                ASSERT_FALSE(refused) << wish.text();
+                EXPECT_NE(refused.error().text().find(std::string(p.row.name) + " = "), std::string::npos) << refused.error().text();
+            }
         }
     }
 }
@@ -69,7 +74,10 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
         const auto method = *rc::gen::element(Method::exact, Method::backward_euler);
         const auto f = force(*rc::gen::element<std::string>("press+noise", "ramp-hold", "grating", "step+sine"),
                              {.settings = {"noise.F_mean=0"}, .rate = 2e3, .seed = 5});
-        const auto a = afferent(name, {.rate = 2e3, .method = method});
+        const auto plan = test::sure(plan_afferent(name, {}));
+        std::vector<std::string> settings;
+        if (plan.value("t_ref")) settings.push_back(fmt::format("{}.t_ref={}us", name, *rc::gen::inRange(0, 20000)));
+        const auto a = afferent(name, {.settings = settings, .rate = 2e3, .method = method});
         const auto shown = [&](const std::vector<std::size_t>& sizes) {
             std::vector<Spike> out;
             std::vector<std::vector<double>> probes(a->probes().size(), std::vector<double>(f.size()));
@@ -97,6 +105,73 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
     });
 }
 
+TEST(Contract, AForceThatIsNoNumberIsRefused) {
+    for (const auto& name : every_afferent())
+        for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+            std::vector<Spike> out;
+            Answer answer{out};
+            const auto a = afferent(name);
+            auto state = a->start();
+            std::vector<double> f(100, 1.0);
+            f[17] = bad;
+            const auto done = a->respond(f, state, answer);
+            ASSERT_FALSE(done) << name;
+            EXPECT_NE(done.error().sentence.find("the force of sample 17 is"), std::string::npos) << done.error().sentence;
+        }
+}
+
+TEST(Contract, ForcesFarTooLargeGiveSpikesOrAnErrorNeverSilence) {
+    for (const auto& name : every_afferent())
+        for (const double newtons : {100.0, 3e4, 1e9}) {
+            std::vector<Spike> out;
+            Answer answer{out};
+            const auto a = afferent(name);
+            auto state = a->start();
+            const auto f = force("step", {.settings = {"step.F_max=1000N"}});
+            std::vector<double> big;
+            for (const double x : f) big.push_back(x * newtons / 1000);
+            const auto done = a->respond(big, state, answer);
+            if (done) {
+                EXPECT_FALSE(out.empty()) << name << ' ' << newtons;
+            } else {
+                EXPECT_EQ(done.error().code, Code::not_converged);
+            }
+        }
+}
+
+TEST(Contract, NoSpikeComesBeforeTheFirstSample) {
+    for (const auto& name : every_afferent()) {
+        const auto train = spikes(*afferent(name, {.rate = 1e3, .method = Method::backward_euler}), std::vector<double>(1000, 300.0));
+        if (train.empty()) continue;
+        EXPECT_GE((Clock{1000, 1}.time(train[0].step, train[0].offset)), 0) << name;
+    }
+}
+
+/// FNV-1a over the bits of every spike.
+std::uint64_t fingerprint(const std::vector<Spike>& train) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    const auto mix = [&](std::uint64_t word) {
+        for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (word >> 8 * byte & 0xff)) * 0x100000001b3U;
+    };
+    for (const auto& s : train) mix(static_cast<std::uint64_t>(s.step)), mix(std::bit_cast<std::uint64_t>(s.offset));
+    return hash;
+}
+
+TEST(Contract, EveryMachineAndCompilerGivesTheSameBits) {
+    const std::map<std::string, std::uint64_t> right = {
+        {"sa1", 17626917867893218872U},
+        {"fa1", 9043708647719149563U},
+        {"sa2", 16345843250057407539U},
+        {"fa2", 8141956702007506657U},
+        {"sa1-kim", 15603805738671303522U},
+        {"fa1-lee", 17096642722010903437U},
+        {"sa1b+izhikevich", 4321340961122672626U},
+        {"sa1b+adex", 1791894759962590873U},
+    };
+    const auto f = force("press+noise+chirp", {.settings = {"noise.F_mean=0", "chirp.F_mean=0"}, .rate = 5e3, .seed = 11});
+    for (const auto& [name, hash] : right) EXPECT_EQ(fingerprint(spikes(*afferent(name, {.rate = 5e3}), f)), hash) << name;
+}
+
 TEST(Contract, SpikesComeInOrderInsideTheirSteps) {
     for (const auto& name : every_afferent())
         for (const auto method : {Method::exact, Method::backward_euler}) {
@@ -112,7 +187,8 @@ TEST(Contract, AStateOfAnotherAfferentIsRefused) {
     Answer answer{out};
     auto state = afferent("sa1")->start();
     const std::vector<double> f(10);
-    EXPECT_EQ(afferent("fa1")->respond(f, state, answer).error().sentence, "a state of 'sa1b+lif-b/1' was handed to 'fa1b+lif-b/1'");
+    EXPECT_EQ(afferent("fa1")->respond(f, state, answer).error().sentence,
+              "a state of 'sa1b+lif-b/1, T = 0.0001 s' was handed to 'fa1b+lif-b/1, T = 0.0001 s'");
 }
 
 TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
@@ -142,7 +218,13 @@ TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
 
 TEST(Contract, FirstSampleSetsTheForceThatWentBeforeIt) {
     for (const auto& name : every_afferent()) {
-        if (name.starts_with("sa")) continue;  // they answer to force that stands still
+        if (name.starts_with("sa")) {  // they answer to force that stands still; but not as to a step
+            const auto at_once = spikes(*afferent(name), std::vector<double>(2, 3.0)),
+                       later = spikes(*afferent(name), std::vector<double>(2000, 3.0));
+            EXPECT_TRUE(at_once.empty()) << name;
+            EXPECT_FALSE(later.empty()) << name;
+            continue;
+        }
         EXPECT_TRUE(spikes(*afferent(name), std::vector<double>(10000, 3.0)).empty()) << name << " took the first sample for a step";
     }
 }

@@ -60,6 +60,29 @@ TEST(Stimulus, ASumAddsAndLastsAsLongAsItsLongest) {
     for (std::size_t k = 0; k < press.size(); ++k) ASSERT_EQ(sum[k], press[k] + sine[k]);
 }
 
+TEST(Stimulus, AShorterMemberOfASumHoldsItsLastValue) {
+    const auto sum = force("press+chirp", {.settings = {"chirp.duration=100ms", "chirp.F_mean=0"}}), press = force("press");
+    for (std::size_t k = 0; k < sum.size(); ++k)
+        ASSERT_LE(std::abs(sum[k] - press[k]), 0.2) << "a sweep that went on would leave all bounds";
+    for (std::size_t k = 1001; k < sum.size(); ++k) ASSERT_NEAR(sum[k] - press[k], sum[1001] - press[1001], 1e-12);
+    const auto source = test::sure(make_stimulus("press+sine", test::wishes({"sine.duration=3s"}), 1e3, 0));
+    EXPECT_EQ(source->phases().back().name, "after");
+    EXPECT_EQ(source->phases().back().to, 3);
+}
+
+TEST(Stimulus, ANearlyFlatChirpKeepsItsDigits) {
+    const auto flat = force("chirp", {.settings = {"chirp.f_from=1000Hz", "chirp.f_to=1000.000002Hz", "chirp.duration=100s"}, .rate = 1e3});
+    for (std::size_t k = 0; k < flat.size(); k += 97) ASSERT_NEAR(flat[k], 1, 1e-3) << "whole turns, but for less than a thousandth";
+}
+
+TEST(Stimulus, AStepsEdgesFallOnTheirSamples) {
+    const auto f = force("step", {.settings = {"step.t_rest=0.1s", "step.t_hold=0.2s"}, .rate = 1e3});
+    EXPECT_EQ(f[99], 0);
+    EXPECT_EQ(f[100], 1);
+    EXPECT_EQ(f[299], 1);
+    EXPECT_EQ(f[300], 0);
+}
+
 TEST(Stimulus, NoiseFollowsItsSeedAndHasItsSpread) {
     const Asked a{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 1},
         b{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 2};

@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/recording.hpp"
 #include "report/envelope.hpp"
+#include "report/report.hpp"
 #include "study/files.hpp"
 #include "study/summary.hpp"
 #include "support/property.hpp"
@@ -76,10 +78,16 @@ TEST(Respond, SpikesFileIsInOrderOfTimeInputAfterInput) {
 
 TEST(Respond, TracesReadBackAsTheRecordingTheyAre) {
     const Folder folder;
-    run(folder, {"press"}, {"sa1"}, 64);
-    const auto ran = test::read_file(folder / "traces.csv");
-    EXPECT_TRUE(ran.starts_with("time_s,press_N,sa1.press.I_A [A],sa1.press.I_B [A],sa1.press.I_C [A],sa1.press.I [A],sa1.press.u [V]\n"));
-    EXPECT_EQ(std::count(ran.begin(), ran.end(), '\n'), 2001);
+    const auto ran = run(folder, {"press"}, {"sa1"}, 64);
+    EXPECT_TRUE(
+        ran.traces.starts_with("time_s,press_N,sa1.press.I_A [A],sa1.press.I_B [A],sa1.press.I_C [A],sa1.press.I [A],sa1.press.u [V]\n"));
+    RecordingOptions options;
+    options.channels = {"press"};
+    const auto back = test::sure(open_recording(folder / "traces.csv", options));
+    EXPECT_EQ(back->clock().rate(), 2000);
+    const auto read = test::force_of(*back), right = test::force("press", {.rate = 2e3});
+    ASSERT_EQ(read.size(), right.size());
+    for (std::size_t k = 0; k < right.size(); ++k) EXPECT_NEAR(read[k], right[k], 1e-8);
 }
 
 TEST(Respond, StopsWhenToldToAndSaysSo) {
@@ -109,15 +117,38 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
     const Folder folder;
     {
         auto f = test::sure(OutputFile::create(folder / "new/half.txt"));
-        f.write("half");
+        (void)f.write("half");
     }
     EXPECT_TRUE(folder.names().empty()) << "neither the part nor the directory made for it";
     auto f = test::sure(OutputFile::create(folder / "whole.txt"));
-    f.write("whole");
+    EXPECT_TRUE(f.write("whole"));
     EXPECT_TRUE(f.commit());
     EXPECT_EQ(folder.names(), std::vector<std::string>{"whole.txt"});
     EXPECT_EQ(test::read_file(folder / "whole.txt"), "whole");
     EXPECT_FALSE(OutputFile::create(folder.path()));
+}
+
+TEST(Report, KeepsItsShareHoweverManyInputsAndChannels) {
+    const auto points_of = [](int inputs) {
+        std::vector<std::unique_ptr<Source>> sources;
+        for (int k = 0; k < inputs; ++k) sources.push_back(test::sure(make_stimulus("press", {}, 20e3, 0)));
+        const auto plan = test::sure(plan_afferent("sa1", {}));
+        Report report(100'000);
+        Summary summary;
+        Listener* listeners[] = {&report, &summary};
+        (void)test::sure(respond(sources, std::span(&plan, 1), listeners, {}));
+        const auto page = report.page(summary, std::span(&plan, 1), "", {});
+        EXPECT_EQ(page.find("{{page"), std::string::npos);
+        EXPECT_EQ(page.find("{{dygraphs"), std::string::npos) << "every part of the template was filled";
+        const auto data = page.substr(page.find("id=\"data\">") + 10);
+        const auto document = nlohmann::json::parse(data.substr(0, data.find("</script>")));
+        std::size_t points = 0;
+        for (const auto& t : document["traces"]) points += t["count"].get<std::size_t>() * (t["bucket"] == 1 ? 1 : 2);
+        return points;
+    };
+    EXPECT_LE(points_of(1), 100'000U);
+    EXPECT_LE(points_of(5), 100'000U);
+    EXPECT_GE(points_of(5), 25'000U);
 }
 
 TEST(Envelope, KeepsLeastAndGreatestOfEveryBucketWhateverTheLength) {

@@ -61,16 +61,26 @@ struct Adaptive : AdaptiveFacts {
         s.u = base + rise.at(T(1.0));
         s.a = a * decay;
         if (num::any(late)) s.a = num::select(late, a * num::exp(-fall * (T(1.0) - x)), s.a);
-        auto over = (s.u > V_th + s.a) & (i.to > T(0.0));
+        // Where the current drives: all of the step, or up to or from its zero.
+        const num::Mask<T> starts = i.from > T(0.0), ends = i.to > T(0.0), turns = starts ^ ends;
+        const T zero = num::select(turns, i.from / num::select(turns, i.from - i.to, T(1.0)), T(0.0));
+        const T first = num::select(starts, T(0.0), num::select(ends, zero, T(1.0))), last = num::select(ends, T(1.0), zero);
+        const auto excess = [&](T y) { return a * num::exp(-fall * (y - x)); };
+        const auto passes = [&] {
+            num::Mask<T> above = (s.u > V_th + s.a) & ends;
+            if (num::any(turns)) above = num::select(turns & starts, base + rise.at(last) - excess(last), s.u - s.a) > V_th;
+            return above & (starts | ends) & (last > x);
+        };
+        num::Mask<T> over = passes();
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
             const auto gap = [&](T y) {
-                const T above = a * num::exp(-fall * (y - x));
+                const T above = excess(y);
                 struct {
                     T v, slope;
                 } here{base + rise.at(y) - V_th - above, rise.a + rise.b * y + fall * above};
                 return here;
             };
-            const T at = offset_from(rising_root(gap, x, T(1.0)), x);
+            const T at = offset_from(rising_root(gap, num::max(x, first), last), num::max(x, first));
             fired(over, at);
             const T free = at + ref, from = num::min(free, T(1.0));
             s.wait = num::select(over, free - from, s.wait);
@@ -79,7 +89,7 @@ struct Adaptive : AdaptiveFacts {
             x = num::select(over, from, x);
             s.u = num::select(over, num::max(base + rise.at(T(1.0)), E_L), s.u);
             s.a = num::select(over, a * num::exp(-fall * (T(1.0) - x)), s.a);
-            over = over & (s.u > V_th + s.a);
+            over = over & passes();
         }
         return over;
     }

@@ -31,7 +31,7 @@ struct AdexFacts {
          "choice: V_T + 5 Delta_T; from there to the paper's 20 mV takes under 0.1 ms"},
         {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "membrane after a spike"},
         {"gain", &Params::gain, "", 0, 1e6, "from the transduction's current to the membrane's", "choice: tens of hertz at microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep", "choice"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice"},
     };
     static constexpr Below<Params> orders[] = {
         {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
@@ -54,11 +54,14 @@ struct Adex : AdexFacts {
           count(substeps_of(dt, num::value(value(&Params::substep)))) {}
 
     State start() const {  // the exponential lifts the rest a little above E_L: Newton from there
-        T v = E_L;
-        for (int pass = 0; pass < 8; ++pass) {
+        T v = E_L, step = T(0.0);
+        for (int pass = 0; pass < 12; ++pass) {
             const T e = num::exp((v - V_T) / Delta_T);
-            v = v + (-(g_L + a) * (v - E_L) + g_L * Delta_T * e) / (g_L + a - g_L * e);
+            step = (-(g_L + a) * (v - E_L) + g_L * Delta_T * e) / (g_L + a - g_L * e);
+            v = v + step;
         }
+        // Where there is no rest, it starts at E_L.
+        v = num::select((num::abs(step) < T(1e-9)) & (v >= E_L) & (v < V_T), v, E_L);
         return {v, a * (v - E_L)};
     }
     void show(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
@@ -73,7 +76,7 @@ struct Adex : AdexFacts {
         };
         advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{V_reset, at.w + b}; }, fired);
         s = {y.v, y.w};
-        return T(0.0) > T(0.0);
+        return num::none<T>();
     }
 
 private:

@@ -24,7 +24,7 @@ struct IzhikevichFacts {
         {"d", &Params::d, "V/s", -1e3, 1e3, "jump of recovery at a spike"},
         {"V_peak", &Params::V_peak, "V", -0.03, 0.2, "top of a spike"},
         {"gain", &Params::gain, "V/s/A", 0, 1e15, "from the transduction's current to dv/dt", "choice: tens of hertz at microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep", "choice"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice"},
     };
     static constexpr Below<Params> orders[] = {
         {"c", &Params::c, "V_peak", &Params::V_peak},
@@ -56,11 +56,12 @@ struct Izhikevich : IzhikevichFacts {
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         Pair<T> y{s.v, s.w};
         const auto slopes = [this](Pair<T> at, T current) {
-            return Pair<T>{at.v * (T(4e4) * at.v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * at.v - at.w)};
+            const T v = num::min(at.v, V_peak);  // the parabola is not followed above it
+            return Pair<T>{v * (T(4e4) * v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * v - at.w)};
         };
         advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{c, at.w + d}; }, fired);
         s = {y.v, y.w};
-        return T(0.0) > T(0.0);
+        return num::none<T>();
     }
 
 private:

@@ -16,7 +16,7 @@ struct Parabola {
     /// The least of q on [x0, 1].
     T least_after(T x0) const {
         T least = num::min(at(x0), at(T(1.0)));
-        const auto turns = (a + b * x0 < T(0.0)) & (a + b > T(0.0));
+        const num::Mask<T> turns = (a + b * x0 < T(0.0)) & (a + b > T(0.0));
         if (num::any(turns)) least = num::select(turns, T(-0.5) * a * a / num::select(turns, b, T(1.0)), least);
         return least;
     }

@@ -23,7 +23,7 @@ Pair<T> runge_kutta(const Slopes& slopes, Pair<T> y, T i, T g, T h) {
     return y + (h * T(1.0 / 6)) * (k1 + T(2.0) * (k2 + k3) + k4);
 }
 
-/// Substeps of at most `longest` in a step of dt.
+/// Substeps of at most `longest` in a step of dt, but no more than a million.
 inline int substeps_of(double dt, double longest) {
     const double n = dt / longest;
     return n <= 1 ? 1 : n > 1e6 ? 1'000'000 : static_cast<int>(n) + (static_cast<int>(n) < n);
@@ -43,7 +43,7 @@ void advance(Pair<T>& y, Current<T> i, double dt, int count, T V_peak, const Slo
         fired(over, (T(static_cast<double>(k)) + x) * T(1.0 / count));
         const Pair<T> after = jump(Pair<T>{V_peak, before.w + x * (y.w - before.w)});
         const Pair<T> end = runge_kutta(slopes, after, at + g * x, g * left, h * left);
-        y.v = num::select(over, end.v, y.v);
+        y.v = num::select(over, num::min(end.v, V_peak), y.v);  // one spike a substep at the most
         y.w = num::select(over, end.w, y.w);
     }
 }

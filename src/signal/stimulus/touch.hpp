@@ -92,7 +92,10 @@ struct Step {
         const double on = p.t_rest, off = on + p.t_hold;
         return {{"rest", 0, on}, {"hold", on, off}, {"post", off, off + p.t_post}};
     }
-    double at(double t) const { return t >= p.t_rest && t < p.t_rest + p.t_hold ? p.F_max : p.F_min; }
+    double at(double t) const {
+        const double later = t + 1e-9;  // a sample on the edge is behind it, whatever the last digit of its time
+        return later >= p.t_rest && later < p.t_rest + p.t_hold ? p.F_max : p.F_min;
+    }
 };
 
 }  // namespace corpuscle

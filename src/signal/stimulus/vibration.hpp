@@ -47,7 +47,7 @@ struct Chirp {
     std::vector<Phase> phases() const { return {}; }
     double at(double t) const {
         const double pace = num::log(p.f_to / p.f_from) / p.duration;  // 1/s
-        const double turns = num::abs(pace * p.duration) < 1e-9 ? p.f_from * t : p.f_from * (num::exp(pace * t) - 1) / pace;
+        const double turns = p.f_from * t * num::exprel(pace * t);
         return p.F_mean + p.F_amp * num::sin_turns(turns);
     }
 };
