@@ -23,7 +23,7 @@ Exit status: 0 done, 1 bad input, 2 bad usage, 3 did not converge, 130 interrupt
 
 constexpr const char* respond_examples =
     R"(FORCE is a file of numbers in columns, or a stimulus by name: press, ramp-hold, step, sine, chirp, noise, grating,
-or a sum of them: press+noise. AFFERENT is a name (sa1 fa1 sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a
+or a sum of them: press+noise (a shorter one holds its last value). AFFERENT is a name (sa1 fa1 sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a
 transduction and a neuron: sa1b+izhikevich. 'corpuscle list' shows them all, with every parameter.
 
 Examples:
