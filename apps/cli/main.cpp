@@ -22,9 +22,10 @@ constexpr const char* first_steps = R"(First steps:
 Exit status: 0 done, 1 bad input, 2 bad usage, 3 did not converge, 130 interrupted.)";
 
 constexpr const char* respond_examples =
-    R"(FORCE is a file of numbers in columns, or a stimulus by name: press, ramp-hold, step, sine, chirp, noise, grating,
-or a sum of them: press+noise (a shorter one holds its last value). AFFERENT is a name (sa1 fa1 sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a
-transduction and a neuron: sa1b+izhikevich. 'corpuscle list' shows them all, with every parameter.
+    R"(FORCE is a file of numbers in columns (- for standard input), or a stimulus by name: press, ramp-hold, step, sine,
+chirp, noise, grating, or a sum of them: press+noise (a shorter one holds its last value). AFFERENT is a name (sa1 fa1
+sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a transduction and a neuron: sa1b+izhikevich. 'corpuscle list'
+shows them all, with every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
 
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
@@ -37,7 +38,7 @@ times S is newtons. Its clock is its time column (name it with --time), or --rat
 
 void add_common(CLI::App& verb, Common& common) {
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
-    verb.add_flag("--quiet,-q", common.quiet, "print no table and no progress");
+    verb.add_flag("--quiet,-q", common.quiet, "print no table, no progress and no remarks; warnings stay");
 }
 
 void add_respond(CLI::App& app, RespondWords& w, Common& common) {

@@ -9,6 +9,7 @@
 #include "io/columns.hpp"
 #include "io/formats.hpp"
 #include "io/row_clock.hpp"
+#include "signal/text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -159,8 +160,7 @@ public:
 };
 
 const Format& format_of(const std::string& path) {
-    auto extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    const auto extension = lower(std::filesystem::path(path).extension().string());
     if (!extension.empty())
         for (const auto& f : formats)
             if ((" " + std::string(f.extensions) + " ").find(" " + extension + " ") != std::string::npos) return f;

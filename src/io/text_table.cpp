@@ -6,17 +6,16 @@
 #include <cmath>
 
 #include "signal/quantity.hpp"
+#include "signal/text.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Fields = std::vector<std::string_view>;
 
-std::string_view trimmed(std::string_view s) {
-    while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
-    while (!s.empty() && (s.back() == ' ' || s.back() == '\t')) s.remove_suffix(1);
-    if (s.size() >= 2 && s.front() == '"' && s.back() == '"') s = s.substr(1, s.size() - 2);
-    return s;
+std::string_view unquoted(std::string_view s) {
+    s = trimmed(s);
+    return s.size() >= 2 && s.front() == '"' && s.back() == '"' ? s.substr(1, s.size() - 2) : s;
 }
 
 bool is_comment(std::string_view line) {
@@ -34,7 +33,7 @@ struct Dialect {
         if (separator == ' ') {
             for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
                 const auto end = line.find_first_of(" \t", at);
-                out.push_back(line.substr(at, end - at));
+                out.push_back(unquoted(line.substr(at, end - at)));
                 at = line.find_first_not_of(" \t", end);
             }
             return;
@@ -43,7 +42,7 @@ struct Dialect {
             auto end = line.find(separator, at);
             if (const auto quote = line.find_first_not_of(" \t", at); quote != std::string_view::npos && line[quote] == '"')
                 if (const auto close = line.find('"', quote + 1); close != std::string_view::npos) end = line.find(separator, close);
-            out.push_back(trimmed(line.substr(at, end - at)));
+            out.push_back(unquoted(line.substr(at, end - at)));
             if (end == std::string_view::npos) return;
             at = end + 1;
         }
@@ -81,9 +80,8 @@ bool known_unit(std::string_view s) {
 }
 
 bool names_time(std::string_view name) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    return lower == "time" || lower == "timestamp" || lower == "t" || lower == "times" || lower == "time stamp";
+    const auto word = lower(name);
+    return word == "time" || word == "timestamp" || word == "t" || word == "times" || word == "time stamp";
 }
 
 class TextTable final : public Table {

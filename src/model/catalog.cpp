@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "signal/text.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -22,11 +24,6 @@ void with_named(List list, std::string_view name, const F& f) {
 const Card* card_named(const std::vector<Card>& cards, std::string_view name) {
     const auto at = std::find_if(cards.begin(), cards.end(), [&](const Card& c) { return c.name == name; });
     return at == cards.end() ? nullptr : &*at;
-}
-
-bool same_letters(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 const NamedAfferent* afferent_named(std::string_view text) {

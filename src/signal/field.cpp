@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "signal/text.hpp"
+
 namespace corpuscle {
 namespace {
 
 std::size_t edits_between(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; };
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {

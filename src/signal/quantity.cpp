@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "signal/text.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -38,12 +40,6 @@ struct Prefix {
 };
 constexpr Prefix prefixes[] = {{"f", 1e-15}, {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"\u00b5", 1e-6}, {"\u03bc", 1e-6},
                                {"m", 1e-3},  {"k", 1e3},   {"M", 1e6},  {"G", 1e9},  {"T", 1e12}};
-
-std::string_view trimmed(std::string_view s) {
-    while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
-    while (!s.empty() && (s.back() == ' ' || s.back() == '\t')) s.remove_suffix(1);
-    return s;
-}
 
 std::optional<double> prefix_factor(std::string_view s) {
     for (const auto& p : prefixes)
