@@ -190,6 +190,17 @@ TEST(Program, SummarySaysWhatWasRun) {
     EXPECT_EQ(read["inputs"][0]["channels"], (Json{"a", "a (2)"})) << "two columns of one name stay two";
 }
 
+TEST(Program, ProgressWithTimeLeftIsDrawnToATerminalAndNowhereElse) {
+    const Folder folder;
+    const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // some seconds
+    const auto drawn = folder / "drawn";
+    ASSERT_EQ(std::system(("script -qec \"'" CORPUSCLE_PROGRAM "' " + job + "\" /dev/null > '" + drawn + "' 2>&1 < /dev/null").c_str()), 0);
+    const auto seen = test::read_file(drawn);
+    EXPECT_NE(seen.find(" s left"), std::string::npos) << seen.substr(0, 400);
+    EXPECT_NE(seen.find(" %  "), std::string::npos);
+    EXPECT_EQ(run(folder, job).err, "") << "not a terminal";
+}
+
 TEST(Program, ReadsFromAPipe) {
     const Folder folder;
     folder.write("x.csv", "1\n2\n3\n");

@@ -67,9 +67,9 @@ struct Adaptive : AdaptiveFacts {
         const T first = num::select(starts, T(0.0), num::select(ends, zero, T(1.0))), last = num::select(ends, T(1.0), zero);
         const auto excess = [&](T y) { return a * num::exp(-fall * (y - x)); };
         const auto passes = [&] {
-            num::Mask<T> above = (s.u > V_th + s.a) & ends;
-            if (num::any(turns)) above = num::select(turns & starts, base + rise.at(last) - excess(last), s.u - s.a) > V_th;
-            return above & (starts | ends) & (last > x);
+            T height = s.u - s.a;  // above the threshold at rest, where the drive ends
+            if (num::any(turns)) height = num::select(turns & starts, base + rise.at(last) - excess(last), height);
+            return (height > V_th) & (starts | ends) & (last > x);
         };
         num::Mask<T> over = passes();
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
