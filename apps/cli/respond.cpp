@@ -40,7 +40,7 @@ Result<std::optional<double>> quantity(const std::optional<std::string>& text, s
 }
 
 Result<RecordingOptions> recording_options(const RespondWords& w) {
-    RecordingOptions options{w.channels, w.time, w.time_unit, {}, {}, w.unit, {}, w.absolute};
+    RecordingOptions options{{w.dataset}, w.channels, w.time, w.time_unit, {}, {}, w.unit, {}, w.absolute};
     for (const auto& [text, unit, option, to] : {std::tuple{&w.rate, "Hz", "--rate", &options.rate},
                                                  {&w.resample, "Hz", "--resample", &options.resample},
                                                  {&w.scale, "", "--scale", &options.scale}}) {
@@ -77,7 +77,7 @@ Result<void> check_wishes(const Job& job) {
 /// What is said of recordings must find one.
 Result<void> check_recording_words(const RespondWords& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--time", w.time.has_value()},
+    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()}, {"--time", w.time.has_value()},
                                                   {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
                                                   {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
                                                   {"--resample", w.resample.has_value()}};

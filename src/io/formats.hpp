@@ -12,7 +12,7 @@ struct Format {
     std::string_view name;
     std::string_view extensions;  ///< separated by blanks
     std::string_view sentence;
-    Result<std::unique_ptr<Table>> (*open)(const std::string& path);
+    Result<std::unique_ptr<Table>> (*open)(const std::string& path, const TableOptions&);
 };
 
 inline constexpr Format formats[] = {

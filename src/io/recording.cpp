@@ -171,7 +171,7 @@ const Format& format_of(const std::string& path) {
 
 Result<std::unique_ptr<Source>> open_recording(const std::string& path, const RecordingOptions& options) {
     if (options.unit && options.scale && *options.unit != "raw") return bad_usage("--unit and --scale both say what is read: give one");
-    auto table = format_of(path).open(path);
+    auto table = format_of(path).open(path, options.table);
     if (!table) return table.error();
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);
     if (auto ok = recording->open(); !ok) return ok.error();

@@ -12,6 +12,7 @@
 namespace corpuscle {
 
 struct RecordingOptions {
+    TableOptions table = {};                    ///< which array of the file
     std::vector<std::string> channels = {};     ///< names, numbers or ranges ("fbg11", "3", "2-5"); empty: all but the time
     std::optional<std::string> time = {};       ///< the time column's name or number, or "none"; else as the file shows it
     std::optional<std::string> time_unit = {};  ///< of the time column; else the header's, else seconds

@@ -94,7 +94,8 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     const auto column = choose_time(table, options.time, path);
     if (!column) return column.error();
     if (!*column) {
-        if (!options.rate) {
+        const auto rate = options.rate ? options.rate : table.rate();
+        if (!rate) {
             std::vector<std::string> names;
             for (const auto& c : table.columns()) names.push_back(c.name);
             if (names.size() > 12) names.resize(12), names.push_back("...");
@@ -102,7 +103,7 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
                                          fmt::join(names, ", ")),
                              {path});
         }
-        const auto clock = clock_of(*options.rate);
+        const auto clock = clock_of(*rate);
         if (!clock) return clock.error();
         out.clock = *clock;
         return out;

@@ -18,10 +18,22 @@ struct Column {
 
 inline constexpr std::size_t rows_a_block = 4096;
 
+/// What a format may need to know besides the path.
+struct TableOptions {
+    std::optional<std::string> dataset = {};  ///< which of a file's arrays is meant: "/force/data" in HDF5, "force" in NPZ
+};
+
 class Table {
+protected:
+    bool gaps_allowed_ = false;
+
 public:
     virtual ~Table() = default;
     virtual const std::vector<Column>& columns() const = 0;
+    /// Rows a second, if the file says it; Hz.
+    virtual std::optional<double> rate() const { return {}; }
+    /// With gaps allowed a field that is no finite number reads as NaN; else it is an error that names its place.
+    void allow_gaps(bool allowed) { gaps_allowed_ = allowed; }
     /// Which column is the time, if the file shows it ...
     virtual std::optional<std::size_t> time_column() const = 0;
     /// ... by its name, or only by how it runs.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
@@ -118,6 +119,7 @@ class TextTable final : public Table {
     Result<double> number_in(std::string_view line, std::size_t c) const {
         double value = 0;
         if (dialect_.number(fields_[c], value)) return value;
+        if (gaps_allowed_) return std::numeric_limits<double>::quiet_NaN();
         const auto column = fields_[c].data() - line.data() + 1;
         const auto what = fields_[c].empty() ? std::string("nothing") : fmt::format("'{}'", fields_[c].substr(0, 40));
         return at(fmt::format("column {}: {} where a number should be", called(c), what), column);
@@ -232,7 +234,8 @@ Column parse_heading(std::string_view field) {
     return {std::string(field), ""};
 }
 
-Result<std::unique_ptr<Table>> open_text_table(const std::string& path) {
+Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const TableOptions& options) {
+    if (options.dataset) return bad_usage(fmt::format("--dataset {}: a file of text has only one table", *options.dataset));
     auto lines = Lines::open(path);
     if (!lines) return lines.error();
     auto table = std::make_unique<TextTable>(std::move(*lines));
