@@ -67,7 +67,7 @@ Dialect guess(std::string_view line) {
     if (has('\t')) return {'\t', true};
     if (has(';')) return {';', true};
     if (has(',')) return {',', false};
-    return {' ', false};
+    return {' ', true};
 }
 
 /// What may stand behind the last '_' of a heading and be a unit; not a letter that more often means something else (left_F).

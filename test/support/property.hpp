@@ -1,5 +1,5 @@
 #pragma once
-// Property tests: rapidcheck's bridge wants GoogleTest before it.
+// Property tests: rapidcheck's bridge wants GoogleTest before it. rc::check only returns whether the property held: EXPECT_TRUE it.
 
 #include <gtest/gtest.h>
 
