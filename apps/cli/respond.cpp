@@ -39,15 +39,55 @@ Result<std::optional<double>> quantity(const std::optional<std::string>& text, s
     return std::optional<double>(*value);
 }
 
+/// "LO..HI"
+Result<std::pair<double, double>> range_of(const std::string& text) {
+    const auto dots = text.find("..");
+    const auto low = parse_quantity(text.substr(0, dots), ""),
+               high = dots == std::string::npos ? low : parse_quantity(text.substr(dots + 2), "");
+    if (dots == std::string::npos || !low || !high || !(*low < *high))
+        return bad_usage(fmt::format("--range {}: write LO..HI with LO below HI, such as 0..4095, in what is read", text));
+    return std::pair{*low, *high};
+}
+
+/// Words that are more than one number.
+Result<void> read_words(const RespondWords& w, RecordingOptions& options) {
+    if (w.range) {
+        const auto range = range_of(*w.range);
+        if (!range) return range.error();
+        options.range = *range;
+    }
+    if (w.bad_fields)
+        options.bad_fields = *w.bad_fields == "error" ? BadFields::error : *w.bad_fields == "drop" ? BadFields::drop : BadFields::interpolate;
+    if (w.despike) {
+        const auto limit = *w.despike == "auto" ? Result<double>(1) : parse_quantity(*w.despike, "");
+        if (!limit || !(*limit > 0)) return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in what is read", *w.despike));
+        options.despike.emplace();
+        if (*w.despike != "auto") options.despike->limit = *limit;
+    }
+    for (const auto& text : w.notch) {
+        const auto f = parse_quantity(text, "Hz");
+        if (!f) return bad_usage(fmt::format("--notch {}", f.error().sentence));
+        options.notch.push_back(*f);
+    }
+    return {};
+}
+
 Result<RecordingOptions> recording_options(const RespondWords& w) {
-    RecordingOptions options{{w.dataset}, w.channels, w.time, w.time_unit, {}, {}, w.unit, {}, w.absolute};
+    RecordingOptions options{.table = {w.dataset}, .channels = w.channels, .time = w.time, .time_unit = w.time_unit, .unit = w.unit};
+    options.absolute = w.absolute;
+    options.layout = w.layout;
+    std::optional<double> offset;
     for (const auto& [text, unit, option, to] : {std::tuple{&w.rate, "Hz", "--rate", &options.rate},
                                                  {&w.resample, "Hz", "--resample", &options.resample},
-                                                 {&w.scale, "", "--scale", &options.scale}}) {
+                                                 {&w.scale, "", "--scale", &options.scale},
+                                                 {&w.offset, "", "--offset", &offset},
+                                                 {&w.lowpass, "Hz", "--lowpass", &options.lowpass}}) {
         const auto value = quantity(*text, unit, option);
         if (!value) return value.error();
         *to = *value;
     }
+    options.offset = offset.value_or(0);
+    if (auto ok = read_words(w, options); !ok) return ok.error();
     return options;
 }
 
@@ -80,7 +120,14 @@ Result<void> check_recording_words(const RespondWords& w) {
     const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()}, {"--time", w.time.has_value()},
                                                   {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
                                                   {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
-                                                  {"--resample", w.resample.has_value()}};
+                                                  {"--resample", w.resample.has_value()},
+                                                  {"--offset", w.offset.has_value()},
+                                                  {"--range", w.range.has_value()},
+                                                  {"--bad-fields", w.bad_fields.has_value()},
+                                                  {"--despike", w.despike.has_value()},
+                                                  {"--notch", !w.notch.empty()},
+                                                  {"--lowpass", w.lowpass.has_value()},
+                                                  {"--layout", !w.layout.empty()}};
     for (const auto& [word, said] : words)
         if (said)
             return bad_usage(fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word,
@@ -88,7 +135,7 @@ Result<void> check_recording_words(const RespondWords& w) {
     return {};
 }
 
-Result<Job> prepare(const RespondWords& w) {
+Result<Job> prepare(const RespondWords& w, bool quiet) {
     Job job;
     if (w.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
     for (const auto& text : w.settings) {
@@ -103,8 +150,10 @@ Result<Job> prepare(const RespondWords& w) {
             return bad_usage(fmt::format("--afferent {}: given twice", name));
         job.afferents.push_back(std::move(*plan));
     }
-    const auto options = recording_options(w);
+    auto options = recording_options(w);
     if (!options) return options.error();
+    Progress progress(quiet);
+    options->keep_on = [&](double share) { return progress.at(share), !interrupted(); };
     for (const auto& force : w.forces) {
         auto source = open_source(force, *options, job, w.seed);
         if (!source) return source.error();
@@ -225,8 +274,21 @@ void print_remarks(const Job& job, bool quiet) {
     for (const auto& w : job.warnings) fmt::print(stderr, "corpuscle: warning: {}\n", w);
 }
 
+void warn(Job& job, std::string sentence) {
+    fmt::print(stderr, "corpuscle: warning: {}\n", sentence);
+    job.warnings.push_back(std::move(sentence));
+}
+
+/// What was found of the recordings while they were read.
+void print_quality(Job& job, const Summary& summary, bool quiet) {
+    for (const auto& i : summary.inputs()) {
+        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.sentences) fmt::print(stderr, "corpuscle: {}: {}\n", i.name, s);
+        for (const auto& s : i.quality.warnings) warn(job, fmt::format("{}: {}", i.name, s));
+    }
+}
+
 Result<void> run(const RespondWords& w, const Common& common) {
-    auto job = prepare(w);
+    auto job = prepare(w, common.quiet);
     if (!job) return job.error();
     Outputs outputs;
     if (auto ok = outputs.open(w); !ok) return ok;
@@ -241,12 +303,10 @@ Result<void> run(const RespondWords& w, const Common& common) {
         return respond(job->sources, job->afferents, listeners, job->options);
     }();
     if (!work) return work.error();
-    if (work->capped_steps > 0) {
-        job->warnings.push_back(
-            fmt::format("{} steps would have held more than {} spikes and were cut short; raise the rate, or the threshold",
-                        work->capped_steps, spikes_a_step));
-        fmt::print(stderr, "corpuscle: warning: {}\n", job->warnings.back());
-    }
+    print_quality(*job, summary, common.quiet);
+    if (work->capped_steps > 0)
+        warn(*job, fmt::format("{} steps would have held more than {} spikes and were cut short; raise the rate, or the threshold",
+                               work->capped_steps, spikes_a_step));
     const auto document = summary.document(job->afferents, *work, job->options, w.seed, job->warnings)
                               .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
                           "\n";  // a name may hold any bytes

@@ -14,7 +14,9 @@ struct Common {
 
 struct RespondWords {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
+    std::vector<std::string> notch;
+    std::string layout;
     std::string method = "exact";
     bool sampled = false, absolute = false, traces = false, report = false;
     std::string out, report_file;

@@ -165,7 +165,8 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
     }
     for (const auto& w : warnings) remarks.push_back(w);
     for (const auto& i : summary.inputs())
-        for (const auto& r : i.remarks) remarks.push_back(i.name + ": " + r);
+        for (const auto* sentences : {&i.remarks, &i.quality.sentences})
+            for (const auto& r : *sentences) remarks.push_back(i.name + ": " + r);
     const Json document = {{"title", title},         {"program", fmt::format("corpuscle {}", version)},
                            {"command", command},     {"inputs", inputs_},
                            {"afferents", afferents}, {"traces", traces_},

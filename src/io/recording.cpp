@@ -2,42 +2,71 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
+#include "io/channel_path.hpp"
 #include "io/columns.hpp"
 #include "io/formats.hpp"
+#include "io/layout.hpp"
 #include "io/row_clock.hpp"
+#include "io/rows.hpp"
+#include "io/verdict.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
 namespace {
 
+constexpr std::size_t most_channels = std::size_t{1} << 17;
+
 class Recording final : public Source {
     std::unique_ptr<Table> table_;
     RecordingOptions options_;
     std::string path_, name_;
-    RowClock rows_clock_;
+    RowClock row_clock_;
     Clock clock_;
-    std::vector<std::size_t> wanted_;  // channels, then the time if rows are placed by it
     std::vector<Channel> channels_;
-    std::vector<double> gains_;
     std::vector<std::string> remarks_;
-    std::vector<std::vector<double>> rows_;  // as read
-    std::size_t row_ = 0, rows_read_ = 0;
-    std::int64_t row_number_ = 0;  // of the next row, over the whole file
+    std::unique_ptr<HumTable> hum_table_;
+    std::vector<ChannelPath> paths_;
+    SumCheck sums_;
+    std::optional<Rows> rows_;
+    std::optional<GapFiller> times_;               // if rows are placed by their own times
+    std::vector<std::vector<double>> block_;       // as read
+    std::vector<std::vector<double>> ready_;       // of each channel, newtons; then the times
+    std::size_t taken_ = 0;                        // of what is ready
+    bool ended_ = false;
+    std::int64_t row_number_ = 0;  // rows taken so far
     // when resampling: the rows before and at the instant looked for
     std::vector<double> before_, at_;
     double t_before_ = 0, t_at_ = 0;
     std::int64_t next_ = 0;
 
-    Result<void> set_clock() {
-        auto rows = find_row_clock(*table_, options_, path_);
+    Result<std::vector<Placed>> choose(std::optional<std::size_t> time) {
+        std::vector<Placed> chosen;
+        if (!options_.layout.empty()) {
+            auto layout = read_layout(options_.layout, *table_, time);
+            if (!layout) return layout.error();
+            if (!layout->metres) remarks_.push_back("the layout gives no unit of length: only the pattern of the sensors is meant");
+            if (options_.channels.empty()) return std::move(layout->sensors);
+            chosen = std::move(layout->sensors);
+        }
+        const auto columns = choose_columns(*table_, time, options_.channels, path_);
+        if (!columns) return columns.error();
+        std::vector<Placed> out;
+        for (const auto c : *columns) {
+            const auto placed = std::find_if(chosen.begin(), chosen.end(), [&](const Placed& p) { return p.column == c; });
+            out.push_back(placed == chosen.end() ? Placed{c, "", {}} : *placed);
+        }
+        return out;
+    }
+
+    Result<void> set_clock(std::optional<std::size_t> time, const std::vector<std::size_t>& columns) {
+        auto rows = find_row_clock(*table_, options_, path_, time, columns);
         if (!rows) return rows.error();
-        rows_clock_ = std::move(*rows);
-        clock_ = rows_clock_.clock;
-        remarks_ = rows_clock_.remarks;
+        row_clock_ = std::move(*rows);
+        clock_ = row_clock_.clock;
+        remarks_.insert(remarks_.end(), row_clock_.remarks.begin(), row_clock_.remarks.end());
         if (!options_.resample) return {};
         const auto even = clock_of(*options_.resample, clock_.t0);
         if (!even) return even.error();
@@ -45,59 +74,84 @@ class Recording final : public Source {
         return {};
     }
 
-    Result<void> choose_channels() {
-        const auto chosen = choose_columns(*table_, rows_clock_.column, options_.channels, path_);
-        if (!chosen) return chosen.error();
-        std::vector<std::string> unitless;
-        for (const auto c : *chosen) {
-            const auto& column = table_->columns()[c];
-            const auto gain = newtons_per_unit(column, options_, path_);
-            if (!gain) return gain.error();
-            if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
-            if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
-                remarks_.push_back(
-                    fmt::format("the header says '{}' is in {}; read as {}, as --unit says", column.name, column.unit, *options_.unit));
-            gains_.push_back(*gain);
-            const auto same = std::count_if(chosen->begin(), std::find(chosen->begin(), chosen->end(), c),
-                                            [&](auto other) { return table_->columns()[other].name == column.name; });
-            channels_.push_back(
-                {static_cast<std::uint32_t>(channels_.size()), same == 0 ? column.name : fmt::format("{} ({})", column.name, same + 1)});
-        }
-        if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
-        if (!unitless.empty()) remarks_.push_back(fmt::format("no unit for {}: taken as newtons", fmt::join(unitless, ", ")));
-        wanted_ = *chosen;
-        if (rows_clock_.by_times) wanted_.push_back(*rows_clock_.column);
-        rows_.resize(wanted_.size());
+    Result<void> add_channel(const Placed& placed, std::vector<std::string>& unitless) {
+        const auto& column = table_->columns()[placed.column];
+        const auto gain = newtons_per_unit(column, options_, path_);
+        if (!gain) return gain.error();
+        if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
+        if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
+            remarks_.push_back(
+                fmt::format("the header says '{}' is in {}; read as {}, as --unit says", column.name, column.unit, *options_.unit));
+        const auto& name = placed.name.empty() ? column.name : placed.name;
+        const auto same = std::count_if(channels_.begin(), channels_.end(), [&](const auto& c) {
+            return c.name == name || c.name.starts_with(name + " (");
+        });
+        channels_.push_back({static_cast<std::uint32_t>(channels_.size()), same == 0 ? name : fmt::format("{} ({})", name, same + 1),
+                             placed.position});
+        auto path = ChannelPath::make(options_, *gain, row_clock_.by_times ? clock_ : row_clock_.clock, !row_clock_.by_times, *hum_table_);
+        if (!path) return path.error();
+        paths_.push_back(std::move(*path));
         return {};
     }
 
-    /// Makes sure that rows_[..][row_] is the next row; false at the end.
-    Result<bool> another_row() {
-        if (row_ < rows_read_) return true;
-        const auto rows = table_->read(wanted_, rows_a_block, rows_);
-        if (!rows) return rows.error();
-        row_ = 0, rows_read_ = *rows;
-        return rows_read_ > 0;
+    Result<void> add_channels(const std::vector<Placed>& chosen) {
+        hum_table_ = std::make_unique<HumTable>(clock_);
+        std::vector<std::string> unitless;
+        for (const auto& placed : chosen)
+            if (auto ok = add_channel(placed, unitless); !ok) return ok;
+        if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
+        if (!unitless.empty()) remarks_.push_back(fmt::format("no unit for {}: taken as newtons", fmt::join(unitless, ", ")));
+        return {};
     }
 
-    double force(std::size_t channel) const {
-        const double x = rows_[channel][row_];  // a product that overflows is refused by whoever takes the force
-        return gains_[channel] * (options_.absolute ? std::abs(x) : x);
+    std::size_t ready() const {
+        std::size_t least = ready_[0].size();
+        for (const auto& r : ready_) least = std::min(least, r.size());
+        return least - taken_;
+    }
+
+    Error of_channel(std::size_t c, Error error) const {
+        error.sentence = fmt::format("'{}': {}", c < channels_.size() ? channels_[c].name : "time", error.sentence);
+        if (error.place.file.empty()) error.place = {path_};
+        return error;
+    }
+
+    /// A block of rows through all channels' paths; at the end of the file what these still hold.
+    Result<void> pull() {
+        for (auto& r : ready_) r.erase(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(taken_));
+        taken_ = 0;
+        const auto rows = rows_->next(block_);
+        if (!rows) return rows.error();
+        ended_ = *rows == 0;
+        sums_.add(block_);
+        for (std::size_t c = 0; c < paths_.size(); ++c)
+            if (auto ok = ended_ ? paths_[c].finish(ready_[c]) : paths_[c].push(block_[c], ready_[c]); !ok) return of_channel(c, ok.error());
+        if (!times_) return {};
+        for (std::size_t k = 0; k < *rows; ++k)
+            if (auto ok = times_->push(block_.back()[k], ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
+        if (ended_)
+            if (auto ok = times_->finish(ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
+        return {};
+    }
+
+    /// Makes sure of some rows; false at the end.
+    Result<bool> more() {
+        while (ready() == 0) {
+            if (ended_) return false;
+            if (auto ok = pull(); !ok) return ok.error();
+        }
+        return true;
     }
 
     Result<bool> advance_to_next_row() {
-        const auto more = another_row();
-        if (!more || !*more) return more;
+        const auto some = more();
+        if (!some || !*some) return some;
         before_ = at_, t_before_ = t_at_;
         at_.resize(channels_.size());
-        for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = force(c);
-        t_at_ = rows_clock_.by_times ? rows_.back()[row_] * rows_clock_.seconds_per_unit
-                                     : clock_.t0 + static_cast<double>(row_number_) * rows_clock_.clock.T();
-        if (rows_clock_.by_times && row_number_ > 0 && t_at_ <= t_before_) {
-            return bad_input(fmt::format("the time {:g} s stands twice; --rate takes the rows as evenly spaced", t_at_),
-                             table_->place(row_));
-        }
-        ++row_, ++row_number_;
+        for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = ready_[c][taken_];
+        t_at_ = times_ ? ready_.back()[taken_] * row_clock_.seconds_per_unit
+                       : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
+        ++taken_, ++row_number_;
         return true;
     }
 
@@ -107,13 +161,27 @@ class Recording final : public Source {
         for (; block.count < block.capacity; ++block.count, ++next_) {
             const double t = clock_.time(next_);
             while (t_at_ < t - 1e-9 * clock_.T()) {
-                const auto more = advance_to_next_row();
-                if (!more) return more.error();
-                if (!*more) return {};
+                const auto next = advance_to_next_row();
+                if (!next) return next.error();
+                if (!*next) return {};
             }
             const double x = row_number_ == 1 ? 1 : std::clamp((t - t_before_) / (t_at_ - t_before_), 0.0, 1.0);
             for (std::size_t c = 0; c < channels_.size(); ++c)
                 block.force[c][block.count] = row_number_ == 1 ? at_[c] : before_[c] + (at_[c] - before_[c]) * x;
+        }
+        return {};
+    }
+
+    Result<void> read_rows(Frames& block) {
+        while (block.count < block.capacity) {
+            const auto some = more();
+            if (!some) return some.error();
+            if (!*some) return {};
+            const auto n = std::min(ready(), block.capacity - block.count);
+            for (std::size_t c = 0; c < channels_.size(); ++c)
+                std::copy_n(ready_[c].begin() + static_cast<std::ptrdiff_t>(taken_), n,
+                            block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
+            block.count += n, taken_ += n;
         }
         return {};
     }
@@ -124,8 +192,22 @@ public:
           name_(std::filesystem::path(path_).stem().string()) {}
 
     Result<void> open() {
-        if (auto ok = set_clock(); !ok) return ok;
-        return choose_channels();
+        const auto time = choose_time(*table_, options_.time, path_);
+        if (!time) return time.error();
+        const auto chosen = choose(*time);
+        if (!chosen) return chosen.error();
+        if (chosen->size() > most_channels)
+            return bad_input(fmt::format("{} channels are more than {} at a time; --channel 1-1000 takes some of them", chosen->size(),
+                                         most_channels),
+                             {path_});
+        std::vector<std::size_t> columns;
+        for (const auto& p : *chosen) columns.push_back(p.column);
+        if (auto ok = set_clock(*time, columns); !ok) return ok;
+        if (auto ok = add_channels(*chosen); !ok) return ok;
+        if (row_clock_.by_times) times_.emplace();
+        rows_.emplace(*table_, options_, columns, row_clock_.by_times ? *time : std::nullopt);
+        ready_.resize(columns.size() + (times_ ? 1 : 0));
+        return {};
     }
 
     const std::string& name() const override { return name_; }
@@ -134,9 +216,14 @@ public:
     double done() const override { return table_->done(); }
     std::vector<Fact> facts() const override {
         std::vector<Fact> all;
-        for (std::size_t c = 0; c < channels_.size(); ++c) all.push_back({channels_[c].name + ": newtons per unit", gains_[c], "N"});
+        for (std::size_t c = 0; c < channels_.size(); ++c) all.push_back({channels_[c].name + ": newtons per unit", paths_[c].gain(), "N"});
         all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
-        if (options_.resample) all.push_back({"resampled from", rows_clock_.by_times ? 0 : rows_clock_.clock.rate(), "Hz"});
+        if (options_.offset != 0) all.push_back({"offset", options_.offset, ""});
+        if (options_.range) all.push_back({"range, low", options_.range->first, ""}), all.push_back({"range, high", options_.range->second, ""});
+        if (options_.despike) all.push_back({"despike", options_.despike->limit.value_or(0), ""});
+        for (const double f : options_.notch) all.push_back({"notch", f, "Hz"});
+        if (options_.lowpass) all.push_back({"low-pass", *options_.lowpass, "Hz"});
+        if (options_.resample) all.push_back({"resampled from", row_clock_.by_times ? 0 : row_clock_.clock.rate(), "Hz"});
         return all;
     }
     std::string sentence() const override {
@@ -144,17 +231,12 @@ public:
                            std::filesystem::path(path_).filename().string(), clock_.rate());
     }
     std::vector<std::string> remarks() const override { return remarks_; }
+    Quality quality() const override { return verdict(channels_, paths_, row_clock_, {rows_->dropped, rows_->out_of_range}, sums_); }
 
     Result<void> read(Frames& block) override {
         block.count = 0;
-        if (options_.resample) return read_resampled(block);
-        while (block.count < block.capacity) {
-            const auto more = another_row();
-            if (!more) return more.error();
-            if (!*more) return {};
-            for (std::size_t c = 0; c < channels_.size(); ++c) block.force[c][block.count] = force(c);
-            ++block.count, ++row_;
-        }
+        if (auto ok = options_.resample ? read_resampled(block) : read_rows(block); !ok) return ok;
+        for (std::size_t c = 0; c < paths_.size(); ++c) paths_[c].complete({block.force[c].data(), block.count});
         return {};
     }
 };

@@ -6,6 +6,7 @@
 
 #include "io/clock_check.hpp"
 #include "io/columns.hpp"
+#include "io/rows.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle {
@@ -17,21 +18,32 @@ std::string steps(const ClockCheck& c) {
     return fmt::format("steps from {} to {}", format_quantity(c.least_step(), "s"), format_quantity(c.longest_step(), "s"));
 }
 
-/// One pass over the time column; time may go back only where the rows' own times do not matter.
-Result<ClockCheck> check_times(Table& table, std::size_t column, double unit, bool may_go_back) {
-    ClockCheck check;
-    std::vector<std::vector<double>> block(1);
+struct Times : ClockCheck {
+    std::optional<Error> twice;  ///< where a time first stands twice
+};
+
+/// One pass over the times; they may go back only where the rows' own times do not matter.
+Result<Times> check_times(Table& table, Rows rows, double unit, const RecordingOptions& options) {
+    Times check;
+    std::vector<std::vector<double>> block;
     for (double last = 0;;) {
-        const auto rows = table.read({column}, rows_a_block, block);
-        if (!rows) return rows.error();
-        for (std::size_t k = 0; k < *rows; ++k) {
-            const double t = block[0][k] * unit;
-            if (check.count() > 0 && t < last && !may_go_back)
+        const auto count = rows.next(block);
+        if (!count) return count.error();
+        if (*count == 0) break;
+        for (std::size_t k = 0; k < *count; ++k) {
+            const double t = block.back()[k] * unit;
+            if (std::isnan(t)) {
+                check.skip();
+                continue;
+            }
+            if (check.count() > 0 && t < last && !options.rate)
                 return bad_input(fmt::format("time goes back, from {:g} s to {:g} s; --rate takes the rows as evenly spaced", last, t),
-                                 table.place(k));
+                                 rows.place(k));
+            if (check.count() > 0 && t == last && !check.twice)
+                check.twice = bad_input(fmt::format("the time {:g} s stands twice; --rate takes the rows as evenly spaced", t), rows.place(k));
             check.add(last = t);
         }
-        if (*rows < rows_a_block) break;
+        if (!options.keep_on(table.done())) return Error{Code::interrupted, "interrupted"};
     }
     if (auto ok = table.rewind(); !ok) return ok.error();
     return check;
@@ -59,11 +71,12 @@ Result<Clock> by_rate(double rate, const std::string& name, const ClockCheck& ti
 }
 
 /// The clock that the times themselves give; by_times if they are to be interpolated.
-Result<Clock> by_own_times(const std::string& name, const ClockCheck& times, const RecordingOptions& options, RowClock& out) {
+Result<Clock> by_own_times(const std::string& name, const Times& times, const RecordingOptions& options, RowClock& out) {
     if (times.count() == 1) return bad_input("one sample has no rate of its own; say --rate, such as --rate 1kHz");
     if (!(times.mean_step() > 0)) return bad_input(fmt::format("the times in '{}' do not advance; say --rate, such as --rate 1kHz", name));
     if (times.even()) return times.clock();
     if (!options.resample) return bad_input(uneven(name, times));
+    if (times.twice) return *times.twice;
     out.by_times = true;
     out.remarks.push_back(
         fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, steps(times), hertz(*options.resample)));
@@ -89,11 +102,10 @@ void doubt_seconds(const Column& column, const RecordingOptions& options, const 
 
 }  // namespace
 
-Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, const std::string& path) {
+Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, const std::string& path, std::optional<std::size_t> column,
+                                const std::vector<std::size_t>& channels) {
     RowClock out;
-    const auto column = choose_time(table, options.time, path);
-    if (!column) return column.error();
-    if (!*column) {
+    if (!column) {
         const auto rate = options.rate ? options.rate : table.rate();
         if (!rate) {
             std::vector<std::string> names;
@@ -108,18 +120,23 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
         out.clock = *clock;
         return out;
     }
-    out.column = *column;
+    out.column = column;
     if (!options.time && table.time_is_guessed())
         out.remarks.push_back("no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
     const auto unit = seconds_per_unit(table.columns()[*out.column], options, path);
-    const auto times = unit ? check_times(table, *out.column, *unit, options.rate.has_value()) : Result<ClockCheck>(unit.error());
+    const bool drop = options.bad_fields == BadFields::drop;
+    const auto times = unit ? check_times(table, Rows(table, options, drop ? channels : std::vector<std::size_t>(), column), *unit, options)
+                            : Result<Times>(unit.error());
+    if (!times && times.error().code == Code::interrupted) return times.error();
     if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
     out.seconds_per_unit = *unit;
+    if (times->gaps() * 20 < times->count()) out.gaps = times->gaps();  // more than that is how this clock runs
+    out.spread = times->spread();
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.column].name;
     auto clock = options.rate ? by_rate(*options.rate, name, *times, out.remarks) : by_own_times(name, *times, options, out);
-    if (!clock) return bad_input(clock.error().sentence, {path});
+    if (!clock) return bad_input(clock.error().sentence, clock.error().place.file.empty() ? Place{path} : clock.error().place);
     out.clock = *clock;
     doubt_seconds(table.columns()[*out.column], options, out.clock, out.remarks);
     return out;

@@ -15,10 +15,14 @@ struct RowClock {
     double seconds_per_unit = 1;        ///< of that column
     bool by_times = false;              ///< rows stand at their own uneven times; else on the clock
     Clock clock;
+    std::int64_t gaps = 0;              ///< steps longer than one and a half times the median step
+    double spread = 0;                  ///< s, from the earliest to the latest that a row comes, against an even clock
     std::vector<std::string> remarks;
 };
 
 /// Reads the table once for its times, if it has some, and rewinds it. An uneven clock needs `rate` or `resample`.
-Result<RowClock> find_row_clock(Table&, const RecordingOptions&, const std::string& path);
+/// Rows that are dropped for what stands in `channels` do not count.
+Result<RowClock> find_row_clock(Table&, const RecordingOptions&, const std::string& path, std::optional<std::size_t> time,
+                                const std::vector<std::size_t>& channels);
 
 }  // namespace corpuscle

@@ -2,72 +2,19 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "io/dialect.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
 namespace {
 
-using Fields = std::vector<std::string_view>;
-
-std::string_view unquoted(std::string_view s) {
-    s = trimmed(s);
-    return s.size() >= 2 && s.front() == '"' && s.back() == '"' ? s.substr(1, s.size() - 2) : s;
-}
-
 bool is_comment(std::string_view line) {
     const auto s = trimmed(line);
     return s.empty() || s.front() == '#' || s.front() == '%';
-}
-
-/// How the file separates its fields and writes its numbers.
-struct Dialect {
-    char separator = ',';  // ' ' stands for any run of blanks
-    bool decimal_comma = false;
-
-    void split(std::string_view line, Fields& out) const {
-        out.clear();
-        if (separator == ' ') {
-            for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
-                const auto end = line.find_first_of(" \t", at);
-                out.push_back(unquoted(line.substr(at, end - at)));
-                at = line.find_first_not_of(" \t", end);
-            }
-            return;
-        }
-        for (std::size_t at = 0;;) {
-            auto end = line.find(separator, at);
-            if (const auto quote = line.find_first_not_of(" \t", at); quote != std::string_view::npos && line[quote] == '"')
-                if (const auto close = line.find('"', quote + 1); close != std::string_view::npos) end = line.find(separator, close);
-            out.push_back(unquoted(line.substr(at, end - at)));
-            if (end == std::string_view::npos) return;
-            at = end + 1;
-        }
-    }
-
-    /// A finite number; `any` takes infinities and NaN, too.
-    bool number(std::string_view field, double& value, bool any = false) const {
-        if (field.starts_with('+')) field.remove_prefix(1);
-        char plain[64];
-        if (decimal_comma && field.size() < sizeof plain && field.find(',') != std::string_view::npos) {
-            std::replace_copy(field.begin(), field.end(), plain, ',', '.');
-            field = std::string_view(plain, field.size());
-        }
-        const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
-        return status == std::errc{} && end == field.data() + field.size() && (any || std::isfinite(value));
-    }
-};
-
-Dialect guess(std::string_view line) {
-    const auto has = [&](char c) { return line.find(c) != std::string_view::npos; };
-    if (has('\t')) return {'\t', true};
-    if (has(';')) return {';', true};
-    if (has(',')) return {',', false};
-    return {' ', true};
 }
 
 /// What may stand behind the last '_' of a heading and be a unit; not a letter that more often means something else (left_F).
@@ -94,6 +41,7 @@ class TextTable final : public Table {
     std::string comment_;  // the last before the data
     Fields fields_;
     std::vector<long> numbers_;  // line numbers of the last block's rows
+    std::vector<std::ptrdiff_t> slots_;  // of each column: its place among those wanted, or -1
 
     Error at(std::string sentence, long column = 0) const {
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
@@ -127,13 +75,13 @@ class TextTable final : public Table {
 
     /// The first line that is no comment: a header, or data under a commented header or none.
     void read_header(std::string_view line) {
-        dialect_ = guess(line);
+        dialect_ = Dialect::of(line);
         split(line);
         double value;
         header_ = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !dialect_.number(f, value, true); });
         const std::size_t columns = fields_.size();
         if (!header_ && !comment_.empty()) {  // numpy's savetxt, and others, write the header as a comment
-            guess(comment_).split(comment_, fields_);
+            Dialect::of(comment_).split(comment_, fields_);
             commented_ = fields_.size() == columns;
         }
         for (std::size_t c = 0; c < columns; ++c) columns_.push_back(header_ || commented_ ? parse_heading(fields_[c]) : Column{});
@@ -160,6 +108,49 @@ class TextTable final : public Table {
             if (even) time_ = 0;
         }
         return rewind();
+    }
+
+    void set_slots(const std::vector<std::size_t>& wanted) {
+        slots_.assign(columns_.size(), -1);
+        for (std::size_t i = 0; i < wanted.size(); ++i) slots_[wanted[i]] = static_cast<std::ptrdiff_t>(i);
+    }
+
+    /// A line as most are, read in one go; false if it needs a closer look.
+    bool read_plain_row(std::string_view line, std::size_t row, std::vector<std::vector<double>>& out) const {
+        const char *p = line.data(), *const end = p + line.size();
+        const char separator = dialect_.separator;
+        for (std::size_t c = 0; c < slots_.size(); ++c) {
+            if (c > 0) {
+                if (p == end) return false;
+                ++p;
+            }
+            if (slots_[c] < 0 && separator != ' ') {
+                while (p < end && *p != separator && *p != '"') ++p;
+                if (p < end && *p == '"') return false;
+                continue;
+            }
+            double value;
+            if (!dialect_.plain_number(p, end, value)) return false;
+            if (slots_[c] >= 0) out[static_cast<std::size_t>(slots_[c])][row] = value;
+        }
+        return p == end;
+    }
+
+    Result<void> read_row(std::string_view line, std::size_t row, const std::vector<std::size_t>& wanted,
+                          std::vector<std::vector<double>>& out) {
+        if (read_plain_row(line, row, out)) return {};
+        split(line);
+        if (fields_.size() != columns_.size()) {
+            if (!gaps_allowed_) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_.size()));
+            for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // which is which nobody knows
+            return {};
+        }
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            const auto value = number_in(line, wanted[i]);
+            if (!value) return value.error();
+            out[i][row] = *value;
+        }
+        return {};
     }
 
     void name_columns() {
@@ -200,18 +191,13 @@ public:
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
         for (auto& column : out) column.resize(rows);
         numbers_.clear();
+        set_slots(wanted);
         std::size_t row = 0;
         for (std::string_view line; row < rows; ++row) {
             const auto more = next_row(line);
             if (!more) return more.error();
             if (!*more) break;
-            split(line);
-            if (fields_.size() != columns_.size()) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_.size()));
-            for (std::size_t i = 0; i < wanted.size(); ++i) {
-                const auto value = number_in(line, wanted[i]);
-                if (!value) return value.error();
-                out[i][row] = *value;
-            }
+            if (auto ok = read_row(line, row, wanted, out); !ok) return ok.error();
             numbers_.push_back(lines_.number());
         }
         return row;

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "signal/clock.hpp"
@@ -11,10 +13,16 @@
 
 namespace corpuscle {
 
-/// One stream of force. The id and the name follow it to every output.
+/// Where a sensor sits; m, or as a layout file without a unit has it.
+struct Position {
+    double x = 0, y = 0, z = 0;
+};
+
+/// One stream of force. The id, the name and the position follow it to every output.
 struct Channel {
     std::uint32_t id = 0;
     std::string name;  ///< from the file's header or the stimulus; else ch1, ch2 ...
+    std::optional<Position> position = {};
 };
 
 /// A stretch of time with a name, [from, to) in seconds: the phases of the thesis's experiment.
@@ -28,6 +36,20 @@ struct Fact {
     std::string name;
     double value = 0;
     std::string unit;
+};
+
+/// Something measured of how well a channel was recorded.
+struct Finding {
+    std::uint32_t channel = 0;
+    std::string_view name;  ///< "hum", "strays"
+    double value = 0;
+    std::string_view unit;
+};
+
+/// How well a source was recorded: the numbers, the same in words, and what makes the answer doubtful.
+struct Quality {
+    std::vector<Finding> findings = {};
+    std::vector<std::string> sentences = {}, warnings = {};
 };
 
 /// Samples of all channels over the same instants: force[channel][sample], newtons.
@@ -52,6 +74,8 @@ public:
     virtual std::vector<Fact> facts() const { return {}; }
     /// What the user should know of how the source was read, in sentences.
     virtual std::vector<std::string> remarks() const { return {}; }
+    /// How good what has been read so far is.
+    virtual Quality quality() const { return {}; }
     /// Fills the next block; count 0 is the end.
     virtual Result<void> read(Frames&) = 0;
 };

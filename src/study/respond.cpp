@@ -6,10 +6,11 @@
 namespace corpuscle {
 namespace {
 
-/// Fewer samples at a time where many units show their probes: some 64 MB of them, whatever the number of channels.
+/// Fewer samples at a time where there are many channels, or many units that show their probes: some 64 MB of either.
 std::size_t block_for(const Input& input, const RespondOptions& options, bool probed) {
     constexpr std::size_t most_values = std::size_t{1} << 23, probes = 8;
-    return probed ? std::clamp<std::size_t>(most_values / (input.units() * probes + 1), 1, options.block) : options.block;
+    const std::size_t values = probed ? input.units() * probes : input.source.channels().size();
+    return std::clamp<std::size_t>(most_values / (values + 1), 1, options.block);
 }
 
 /// The units of one input at work.

@@ -1,5 +1,6 @@
 #include "study/summary.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,21 @@ Json afferent_document(const AfferentPlan& plan) {
     return {{"name", plan.name}, {"transduction", plan.receptor}, {"neuron", plan.neuron}, {"parameters", parameters}};
 }
 
+/// Where the sensors sit, by channel; empty if nobody said.
+Json position_document(const Summary::InputFacts& input) {
+    Json out = Json::object();
+    for (std::size_t c = 0; c < input.sensors.size(); ++c)
+        if (const auto& p = input.sensors[c].position) out[input.channels[c]] = {p->x, p->y, p->z};
+    return out;
+}
+
+Json quality_document(const Summary::InputFacts& input) {
+    Json channels = Json::object();
+    for (const auto& f : input.quality.findings)
+        channels[input.channels[f.channel]][f.unit.empty() ? std::string(f.name) : fmt::format("{}_{}", f.name, f.unit)] = number(f.value);
+    return {{"warnings", input.quality.warnings}, {"sentences", input.quality.sentences}, {"channels", channels}};
+}
+
 Json input_document(const Summary::InputFacts& input) {
     Json phases = Json::array();
     for (const auto& p : input.phases) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
@@ -29,7 +45,8 @@ Json input_document(const Summary::InputFacts& input) {
     for (const auto& f : input.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
     return {{"name", input.name},       {"parameters", facts},           {"force_min_N", input.least}, {"force_max_N", input.greatest},
             {"samples", input.samples}, {"rate_Hz", input.clock.rate()}, {"t0_s", input.clock.t0},     {"channels", input.channels},
-            {"phases", phases},         {"remarks", input.remarks}};
+            {"phases", phases},         {"remarks", input.remarks},
+            {"positions", position_document(input)}, {"quality", quality_document(input)}};
 }
 
 Json row_document(const RateRow& row) {
@@ -45,6 +62,7 @@ Result<void> Summary::begin(const Input& input) {
     InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.remarks(), input.source.facts(), INFINITY,
                      -INFINITY,  input.source.phases()};
     for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
+    facts.sensors = input.source.channels();
     inputs_.push_back(std::move(facts));
     trains_.assign(input.units(), {});
     since_start_ = input.source.clock();
@@ -64,6 +82,7 @@ Result<void> Summary::block(const Input& input, const Answered& answered) {
 Result<void> Summary::end(const Input& input, std::int64_t samples) {
     auto& facts = inputs_.back();
     facts.samples = samples;
+    facts.quality = input.source.quality();
     auto phases = facts.phases;
     if (phases.empty()) phases = {{"all", 0, since_start_.time(samples)}};
     for (std::size_t u = 0; u < input.units(); ++u)

@@ -26,6 +26,8 @@ public:
         std::vector<Fact> facts;
         double least = 0, greatest = 0;  ///< force, N
         std::vector<Phase> phases;       ///< as the stimulus says them, else empty
+        Quality quality = {};            ///< of a recording
+        std::vector<Channel> sensors = {};
     };
 
     Result<void> begin(const Input&) override;

@@ -1,0 +1,60 @@
+#pragma once
+// A channel's way from what is read to newtons: strays out, gaps filled, offset and gain, filters; looked at on the way.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/filter.hpp"
+#include "io/mend.hpp"
+#include "io/quality.hpp"
+#include "io/recording.hpp"
+
+namespace corpuscle {
+
+/// The force of a channel, by the levels that the models are fitted to (thesis 1.2: 0.2 to 4 N).
+struct Levels {
+    double least = 1e308, greatest = -1e308;
+    std::int64_t below = 0, above = 0, negative = 0, count = 0;
+    void add(std::span<const double>);
+    double share(std::int64_t n) const { return count > 0 ? static_cast<double>(n) / static_cast<double>(count) : 0; }
+};
+
+class ChannelPath {
+    std::optional<StrayFilter> strays_;
+    GapFiller gaps_;
+    double offset_, gain_;
+    std::vector<Biquad> filters_;
+    bool filter_early_;            // on the rows, which are evenly spaced; else after resampling
+    std::vector<double> mended_;   // scratch
+
+    Result<void> mend(std::span<const double> read);
+
+public:
+    /// `rows`: the clock that the filters run on.
+    static Result<ChannelPath> make(const RecordingOptions&, double gain, const Clock& filters, bool filter_early, const HumTable&);
+
+    StrayCheck stray_check;
+    SaturationCheck saturation;
+    HumCheck hum;
+    Levels levels;
+
+    double gain() const { return gain_; }
+    double offset() const { return offset_; }
+    std::int64_t strays_taken_out() const { return strays_ ? strays_->found : 0; }
+    std::int64_t filled() const { return gaps_.filled; }
+
+    /// Takes readings, appends newtons to `out`: later, if they had to wait for their neighbours.
+    Result<void> push(std::span<const double> read, std::vector<double>& out);
+    /// The last ones.
+    Result<void> finish(std::vector<double>& out);
+    /// The force as it is answered: the late filters, and what is found of it.
+    void complete(std::span<double> force);
+
+private:
+    ChannelPath(const RecordingOptions&, double gain, bool filter_early, const HumTable&);
+    void append(std::vector<double>& out);
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,42 @@
+#pragma once
+// How often numbers of which size came, in little memory: four bins an octave, from 2^-44 to 2^20.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace corpuscle {
+
+class LogHistogram {
+    static constexpr std::int64_t bins = 256, lowest = (std::int64_t{1023 - 44}) << 2;
+    std::array<std::uint32_t, bins> counts_{};
+
+    /// The exponent and the first two digits of the mantissa; 0 and less are in bin 0.
+    static std::size_t bin(double x) {
+        if (!(x > 0)) return 0;
+        const auto key = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 50) - lowest;
+        return static_cast<std::size_t>(std::clamp<std::int64_t>(key, 0, bins - 1));
+    }
+
+public:
+    void add(double x) { ++counts_[bin(x)]; }
+
+    /// The lower edge of the bin in which the median lies; 0 for bin 0.
+    double median() const {
+        std::int64_t all = 0, seen = 0;
+        for (const auto n : counts_) all += n;
+        std::size_t b = 0;
+        while (b + 1 < counts_.size() && 2 * (seen += counts_[b]) < all) ++b;
+        return b == 0 ? 0 : std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + lowest) << 50);
+    }
+
+    /// How many are above x, but for those in its bin.
+    std::int64_t above(double x) const {
+        std::int64_t count = 0;
+        for (std::size_t b = bin(x) + 1; b < counts_.size(); ++b) count += counts_[b];
+        return count;
+    }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,181 @@
+#include "io/quality.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "signal/elementary.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// All of the first 256, then every second, every fourth ...
+bool looked_at(std::int64_t chunk) {
+    const auto far = static_cast<std::uint64_t>(std::max<std::int64_t>(chunk / 128, 1));
+    return chunk % static_cast<std::int64_t>(std::bit_floor(far)) == 0;
+}
+
+/// The median of seven by thirteen exchanges.
+double median_of_seven(const double* x) {
+    double p[7];
+    std::copy_n(x, 7, p);
+    const auto order = [&](int a, int b) {
+        const double least = p[a] < p[b] ? p[a] : p[b], most = p[a] < p[b] ? p[b] : p[a];
+        p[a] = least, p[b] = most;
+    };
+    order(0, 5), order(0, 3), order(1, 6), order(2, 4), order(0, 1), order(3, 5), order(2, 6);
+    order(2, 3), order(3, 6), order(4, 5), order(1, 4), order(1, 3), order(3, 4);
+    return p[3];
+}
+
+constexpr std::int64_t chunk = 4096;
+
+}  // namespace
+
+void StrayCheck::examine(std::span<const double> more) {
+    chunk_.insert(chunk_.end(), more.begin(), more.end());
+    for (std::size_t k = 6; k < chunk_.size(); ++k) {
+        const double x = chunk_[k - 3], left = x - chunk_[k - 4], right = x - chunk_[k - 2];
+        const double off = std::abs(x - median_of_seven(&chunk_[k - 6]));
+        const double alone = left * right > 0 ? std::min({off, std::abs(left), std::abs(right)}) : 0;
+        off_.add(off);
+        alone_.add(alone);
+        if (alone > 0 && (least_alone_ == 0 || alone < least_alone_)) least_alone_ = alone;
+        ++examined_;
+    }
+    if (chunk_.size() > 6) chunk_.erase(chunk_.begin(), chunk_.end() - 6);
+}
+
+void StrayCheck::add(std::span<const double> x) {
+    while (!x.empty()) {
+        const std::int64_t number = seen_ / chunk, left = chunk - seen_ % chunk;
+        const auto now = x.first(std::min(x.size(), static_cast<std::size_t>(left)));
+        if (seen_ % chunk == 0) chunk_.clear();
+        if (looked_at(number)) examine(now);
+        for (std::size_t k = 0; k < now.size(); ++k) {
+            if ((seen_ + static_cast<std::int64_t>(k)) % stride_ != 0) continue;
+            if (kept_.size() == 128) {  // half of them, twice as far apart
+                for (std::size_t n = 0; n < 64; ++n) kept_[n] = kept_[2 * n];
+                kept_.resize(64), stride_ *= 2;
+                if ((seen_ + static_cast<std::int64_t>(k)) % stride_ != 0) continue;
+            }
+            kept_.push_back(now[k]);
+        }
+        seen_ += static_cast<std::int64_t>(now.size());
+        x = x.subspan(now.size());
+    }
+}
+
+double StrayCheck::quartiles_apart() const {
+    auto sorted = kept_;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted.empty() ? 0 : sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4];
+}
+
+std::int64_t StrayCheck::count() const {
+    return alone_.above(std::max({8 * off_.median(), quartiles_apart() / 10, 4 * least_alone_}));
+}
+
+void SaturationCheck::add(std::span<const double> x) {
+    for (const double value : x) {
+        if (value < lowest_) lowest_ = value;
+        if (value > highest_) highest_ = value, run_ = 0, runs_ = 0, at_highest_ = 0;
+        run_ = value == highest_ ? run_ + 1 : 0;
+        at_highest_ += value == highest_;
+        runs_ += run_ == 3;
+    }
+    seen_ += static_cast<std::int64_t>(x.size());
+}
+
+void SumCheck::add(const std::vector<std::vector<double>>& block) {
+    if (block.size() > most_channels) return;
+    first_.resize(block.size());
+    for (std::size_t c = 0; c < block.size(); ++c)
+        for (std::size_t k = 0; k < block[c].size() && first_[c].size() < rows; ++k) first_[c].push_back(block[c][k]);
+}
+
+/// Whether channel `c` is, row by row, what `from` to `to` add up to; to the rounding of three digits.
+bool SumCheck::is_sum(std::size_t c, std::size_t from, std::size_t to) const {
+    bool varies = false;
+    for (std::size_t k = 0; k < first_[c].size(); ++k) {
+        double sum = 0;
+        for (std::size_t n = from; n <= to; ++n) sum += first_[n][k];
+        if (!(std::abs(sum - first_[c][k]) <= 1e-3 * std::abs(sum))) return false;
+        varies = varies || first_[c][k] != first_[c][0];
+    }
+    return varies;
+}
+
+std::vector<SumCheck::Sum> SumCheck::found() const {
+    std::vector<Sum> sums;
+    for (std::size_t c = 0; c < first_.size(); ++c)
+        for (std::size_t from = 0; from < first_.size(); ++from)
+            for (std::size_t to = from + 1; to < first_.size(); ++to)
+                if ((c < from || c > to) && is_sum(c, from, to)) sums.push_back({c, from, to});
+    return sums;
+}
+
+HumTable::HumTable(const Clock& clock) {
+    fold = std::max<std::int64_t>(1, static_cast<std::int64_t>(clock.rate() / 1000));
+    const double rate = clock.rate() / static_cast<double>(fold);
+    if (rate < 2) return;
+    const auto length = static_cast<std::size_t>(rate);
+    for (std::size_t n = 0; n < length; ++n) {
+        const double at = static_cast<double>(n), window = 1 - num::cos_turns(at / static_cast<double>(length));  // Hann's, its mean 1
+        Turn turn{};
+        for (std::size_t l = 0; l < lines; ++l) {
+            const double f = mains[l / 3] + 6 * (static_cast<double>(l % 3) - 1), turns = f / rate * at;
+            turn.re[l] = window * num::cos_turns(turns - std::floor(turns));
+            turn.im[l] = window * num::sin_turns(turns - std::floor(turns));
+        }
+        second.push_back(turn);
+    }
+}
+
+void HumCheck::end_second() {
+    const auto n = static_cast<double>(table_.second.size());
+    if (looked_at(second_)) {
+        variance_ += squares_ / n - total_ / n * (total_ / n);
+        for (std::size_t l = 0; l < HumTable::lines; ++l) {  // of a line of amplitude A: A^2 / 2
+            const double re = sum_.re[l] / n, im = sum_.im[l] / n;
+            power_[l] += 2 * (re * re + im * im);
+        }
+    }
+    ++second_, at_ = 0, sum_ = {}, total_ = squares_ = 0;
+}
+
+void HumCheck::add_folded(double x) {
+    if (at_ == 0) first_ = x;
+    const double y = x - first_;
+    if (looked_at(second_)) {
+        const auto& turn = table_.second[at_];
+        for (std::size_t l = 0; l < HumTable::lines; ++l) sum_.re[l] += turn.re[l] * y, sum_.im[l] += turn.im[l] * y;
+        total_ += y, squares_ += y * y;
+    }
+    if (++at_ == table_.second.size()) end_second();
+}
+
+void HumCheck::add(std::span<const double> x) {
+    if (table_.second.empty()) return;
+    for (const double value : x) {
+        folded_ += value;
+        if (++in_fold_ < table_.fold) continue;
+        add_folded(folded_ / static_cast<double>(table_.fold));
+        folded_ = 0, in_fold_ = 0;
+    }
+}
+
+bool HumCheck::stands_out(std::size_t which) const {
+    const double* p = power_ + 3 * which;
+    return table_.sees(which) && p[1] > 4 * (p[0] + p[2]);
+}
+
+HumCheck::Hum HumCheck::found() const {
+    Hum best;
+    for (std::size_t which = 0; which < 2; ++which)
+        if (const double share = variance_ > 0 ? std::min(1.0, power_[3 * which + 1] / variance_) : 0; stands_out(which) && share > best.share)
+            best = {table_.mains[which], share};
+    return best;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,18 @@
+#pragma once
+// What was found of a recording, in words: a sentence a fault, with what to say against it; a warning where the answer is doubtful.
+
+#include <vector>
+
+#include "io/channel_path.hpp"
+#include "io/row_clock.hpp"
+#include "signal/source.hpp"
+
+namespace corpuscle {
+
+struct RowCounts {
+    std::int64_t dropped = 0, out_of_range = 0;
+};
+
+Quality verdict(const std::vector<Channel>&, const std::vector<ChannelPath>&, const RowClock&, const RowCounts&, const SumCheck&);
+
+}  // namespace corpuscle
