@@ -36,14 +36,12 @@ Result<ChannelPath> ChannelPath::make(const RecordingOptions& options, double ga
 }
 
 Result<void> ChannelPath::mend(std::span<const double> read) {
-    std::vector<double> judged;
     if (strays_) {
-        for (const double x : read) strays_->push(x, judged);
-        read = judged;
+        judged_.clear();
+        for (const double x : read) strays_->push(x, judged_);
+        read = judged_;
     }
-    for (const double x : read)
-        if (auto ok = gaps_.push(x, mended_); !ok) return ok;
-    return {};
+    return gaps_.push(read, mended_);
 }
 
 /// What was mended, in newtons; looked at before the filters smooth its faults.
@@ -65,10 +63,9 @@ Result<void> ChannelPath::push(std::span<const double> read, std::vector<double>
 }
 
 Result<void> ChannelPath::finish(std::vector<double>& out) {
-    std::vector<double> judged;
-    if (strays_) strays_->finish(judged);
-    for (const double x : judged)
-        if (auto ok = gaps_.push(x, mended_); !ok) return ok;
+    judged_.clear();
+    if (strays_) strays_->finish(judged_);
+    if (auto ok = gaps_.push(judged_, mended_); !ok) return ok;
     if (auto ok = gaps_.finish(mended_); !ok) return ok;
     append(out);
     return {};

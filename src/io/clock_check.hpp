@@ -29,7 +29,7 @@ public:
 
     std::int64_t count() const { return count_; }
     /// Steps longer than one and a half times the median step.
-    std::int64_t gaps() const { return steps_.above(1.5 * steps_.median()); }
+    std::int64_t gaps() const { return steps_.above(1.5 * steps_.median(steps_.count())); }
     double first() const { return first_.t; }
     double mean_step() const { return (last_.t - first_.t) / (last_.k - first_.k); }
     double least_step() const { return least_step_; }  ///< negative if time went back

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 
 #include "signal/text.hpp"
 
@@ -22,16 +21,6 @@ std::size_t end_of_field(std::string_view line, std::size_t at, char separator) 
         if (const auto close = line.find('"', quote + 1); close != std::string_view::npos) return line.find(separator, close);
     return line.find(separator, at);
 }
-
-constexpr int exact_powers = 22;  // 10^22 is the last that a double holds exactly
-constexpr auto powers_of_ten = [] {
-    struct {
-        double of[exact_powers + 1];
-    } table{};
-    table.of[0] = 1;
-    for (int k = 1; k <= exact_powers; ++k) table.of[k] = table.of[k - 1] * 10;
-    return table;
-}();
 
 }  // namespace
 
@@ -70,24 +59,19 @@ bool Dialect::number(std::string_view field, double& value, bool any) const {
     return status == std::errc{} && end == field.data() + field.size() && (any || std::isfinite(value));
 }
 
-bool Dialect::plain_number(const char*& p, const char* end, double& value) const {
-    while (p < end && (*p == ' ' || (separator == ' ' && *p == '\t'))) ++p;
-    const bool minus = p < end && *p == '-';
-    p += minus;
-    const char* const first = p;
+/// As plain_number, digit by digit.
+bool Dialect::longer_number(const char*& p, const char* end, double& value) const {
     std::uint64_t digits = 0;
     const auto take = [&] {
         const char* const from = p;
         while (p < end && static_cast<unsigned char>(*p - '0') < 10) digits = digits * 10 + static_cast<unsigned char>(*p++ - '0');
-        return static_cast<int>(p - from);
+        return p - from;
     };
-    const int whole = take();
-    int decimals = 0;
+    const auto whole = take();
+    std::ptrdiff_t decimals = 0;
     if (p < end && (*p == '.' || (decimal_comma && *p == ','))) ++p, decimals = take();
-    // Up to 15 digits are exact in a double, and so is one division by an exact power of ten: the nearest double, as from_chars gives it.
-    if (whole + decimals == 0 || p - first > 16 || (p < end && *p != separator && !(separator == ' ' && *p == '\t'))) return false;
-    const double size = static_cast<double>(digits) / powers_of_ten.of[decimals];
-    value = minus ? -size : size;
+    if (whole + decimals == 0 || whole + decimals > 15 || !ends_at(p, end)) return false;
+    value = static_cast<double>(digits) / powers_of_ten[decimals];
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 namespace corpuscle {
 
@@ -23,13 +24,13 @@ Result<bool> Lines::fill() {
     constexpr std::size_t block = std::size_t{1} << 20;
     if (ended_) return false;
     lost_ = lost_ || at_ > 0;
-    buffer_.erase(0, at_);
-    at_ = 0;
-    if (buffer_.size() > longest) return bad_input(fmt::format("a line of more than {} MB", longest >> 20), {path_, number_ + 1});
-    const std::size_t had = buffer_.size();
-    buffer_.resize(had + block);
-    const std::size_t got = std::fread(buffer_.data() + had, 1, block, file_.get());
-    buffer_.resize(had + got);
+    std::memmove(buffer_.data(), buffer_.data() + at_, filled_ - at_);
+    filled_ -= std::exchange(at_, 0);
+    if (filled_ > longest) return bad_input(fmt::format("a line of more than {} MB", longest >> 20), {path_, number_ + 1});
+    if (buffer_.size() < filled_ + block + behind) buffer_.resize(filled_ + block + behind);
+    const std::size_t got = std::fread(buffer_.data() + filled_, 1, block, file_.get());
+    filled_ += got;
+    std::memset(buffer_.data() + filled_, 0, behind);
     read_ += static_cast<double>(got);
     if (got < block) {
         ended_ = true;
@@ -40,20 +41,24 @@ Result<bool> Lines::fill() {
 
 Result<bool> Lines::next(std::string_view& line) {
     std::size_t searched = at_, end;
-    while ((end = buffer_.find('\n', searched)) == std::string::npos) {
-        const std::size_t pending = buffer_.size() - at_;
+    const auto found = [&] {
+        const void* const at = std::memchr(buffer_.data() + searched, '\n', filled_ - searched);
+        return at ? (end = static_cast<std::size_t>(static_cast<const char*>(at) - buffer_.data()), true) : false;
+    };
+    while (!found()) {
+        const std::size_t pending = filled_ - at_;
         const auto more = fill();
         if (!more) return more.error();
         if (*more) {
             searched = at_ + pending;
             continue;
         }
-        if (buffer_.size() == at_) return false;
-        end = buffer_.size();
+        if (filled_ == at_) return false;
+        end = filled_;
         break;
     }
     line = std::string_view(buffer_).substr(at_, end - at_);
-    at_ = std::min(end + 1, buffer_.size());
+    at_ = std::min(end + 1, filled_);
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (++number_ == 1 && line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);
     return true;
@@ -62,8 +67,7 @@ Result<bool> Lines::next(std::string_view& line) {
 Result<void> Lines::rewind() {
     if (!lost_) return at_ = 0, number_ = 0, Result<void>{};  // all that was read is still here: a pipe can do this, too
     if (std::fseek(file_.get(), 0, SEEK_SET) != 0) return bad_input("this input cannot be read twice; save it to a file", {path_});
-    buffer_.clear();
-    at_ = 0, number_ = 0, read_ = 0, ended_ = false, lost_ = false;
+    filled_ = 0, at_ = 0, number_ = 0, read_ = 0, ended_ = false, lost_ = false;
     return {};
 }
 

@@ -16,7 +16,8 @@ class Lines {
     };
     std::string path_;
     std::unique_ptr<std::FILE, Close> file_;
-    std::string buffer_;
+    std::string buffer_;                 // what was read, and `behind` bytes more
+    std::size_t filled_ = 0;             // of the buffer
     std::size_t at_ = 0;                 // of the next line, in the buffer
     long number_ = 0;                    // of the last line given
     double size_ = 0, read_ = 0;         // bytes
@@ -26,6 +27,7 @@ class Lines {
 
 public:
     static constexpr std::size_t longest = std::size_t{64} << 20;
+    static constexpr std::size_t behind = 8;  ///< bytes that may be read behind any line
 
     static Result<Lines> open(const std::string& path);
     /// The next line without its end (LF, CRLF); false at the end of the file. The view lives until the next call.
@@ -33,7 +35,7 @@ public:
     Result<void> rewind();
     long number() const { return number_; }
     const std::string& path() const { return path_; }
-    double done() const { return size_ > 0 ? std::min(1.0, (read_ - static_cast<double>(buffer_.size() - at_)) / size_) : 1; }
+    double done() const { return size_ > 0 ? std::min(1.0, (read_ - static_cast<double>(filled_ - at_)) / size_) : 1; }
 };
 
 }  // namespace corpuscle

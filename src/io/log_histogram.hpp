@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <numeric>
 
 namespace corpuscle {
 
@@ -22,10 +23,11 @@ class LogHistogram {
 public:
     void add(double x) { ++counts_[bin(x)]; }
 
-    /// The lower edge of the bin in which the median lies; 0 for bin 0.
-    double median() const {
-        std::int64_t all = 0, seen = 0;
-        for (const auto n : counts_) all += n;
+    std::int64_t count() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
+
+    /// The lower edge of the bin in which the median of `all` numbers lies, those that were not added being 0; 0 for bin 0.
+    double median(std::int64_t all) const {
+        std::int64_t seen = all - count();
         std::size_t b = 0;
         while (b + 1 < counts_.size() && 2 * (seen += counts_[b]) < all) ++b;
         return b == 0 ? 0 : std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + lowest) << 50);

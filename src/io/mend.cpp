@@ -54,6 +54,18 @@ Result<void> GapFiller::push(double x, std::vector<double>& out) {
     return {};
 }
 
+Result<void> GapFiller::push(std::span<const double> x, std::vector<double>& out) {
+    for (std::size_t k = 0; k < x.size();) {
+        std::size_t good = k;
+        while (missing_ == 0 && good < x.size() && !std::isnan(x[good])) ++good;
+        out.insert(out.end(), x.begin() + static_cast<std::ptrdiff_t>(k), x.begin() + static_cast<std::ptrdiff_t>(good));
+        if (good > k) before_ = x[good - 1];
+        if ((k = good) < x.size())
+            if (auto ok = push(x[k++], out); !ok) return ok;
+    }
+    return {};
+}
+
 Result<void> GapFiller::finish(std::vector<double>& out) {
     if (missing_ > 0 && std::isnan(before_)) return bad_input("no good reading at all");
     out.insert(out.end(), static_cast<std::size_t>(missing_), before_);

@@ -41,8 +41,10 @@ class GapFiller {
     double before_ = std::numeric_limits<double>::quiet_NaN();
     std::int64_t missing_ = 0;  // readings since `before_`
 
-public:
     Result<void> push(double x, std::vector<double>& out);
+
+public:
+    Result<void> push(std::span<const double> x, std::vector<double>& out);
     Result<void> finish(std::vector<double>& out);
     std::int64_t filled = 0;
 };

@@ -15,35 +15,54 @@ bool looked_at(std::int64_t chunk) {
     return chunk % static_cast<std::int64_t>(std::bit_floor(far)) == 0;
 }
 
-/// The median of seven by thirteen exchanges.
-double median_of_seven(const double* x) {
-    double p[7];
-    std::copy_n(x, 7, p);
-    const auto order = [&](int a, int b) {
-        const double least = p[a] < p[b] ? p[a] : p[b], most = p[a] < p[b] ? p[b] : p[a];
-        p[a] = least, p[b] = most;
+/// The median of seven by thirteen exchanges, without a branch.
+inline double median_of_seven(const double* x) {
+    double a = x[0], b = x[1], c = x[2], d = x[3], e = x[4], f = x[5], g = x[6];
+    const auto order = [](double& low, double& high) {
+        const double least = low < high ? low : high, most = low < high ? high : low;
+        low = least, high = most;
     };
-    order(0, 5), order(0, 3), order(1, 6), order(2, 4), order(0, 1), order(3, 5), order(2, 6);
-    order(2, 3), order(3, 6), order(4, 5), order(1, 4), order(1, 3), order(3, 4);
-    return p[3];
+    order(a, f), order(a, d), order(b, g), order(c, e), order(a, b), order(d, f), order(c, g);
+    order(c, d), order(d, g), order(e, f), order(b, e), order(b, d), order(d, e);
+    return d;
 }
 
-constexpr std::int64_t chunk = 4096;
+constexpr std::int64_t chunk = 4096;  // readings, between which windows do not reach
 
 }  // namespace
 
 void StrayCheck::examine(std::span<const double> more) {
     chunk_.insert(chunk_.end(), more.begin(), more.end());
-    for (std::size_t k = 6; k < chunk_.size(); ++k) {
-        const double x = chunk_[k - 3], left = x - chunk_[k - 4], right = x - chunk_[k - 2];
-        const double off = std::abs(x - median_of_seven(&chunk_[k - 6]));
-        const double alone = left * right > 0 ? std::min({off, std::abs(left), std::abs(right)}) : 0;
-        off_.add(off);
-        alone_.add(alone);
-        if (alone > 0 && (least_alone_ == 0 || alone < least_alone_)) least_alone_ = alone;
-        ++examined_;
+    const std::size_t n = chunk_.size() > 6 ? chunk_.size() - 6 : 0;
+    double off[chunk + 6], alone[chunk + 6];
+    const double* const x = chunk_.data();
+    for (std::size_t k = 0; k < n; ++k) {
+        const double middle = x[k + 3], left = middle - x[k + 2], right = middle - x[k + 4];
+        off[k] = std::abs(middle - median_of_seven(x + k));
+        const double nearer = std::abs(left) < std::abs(right) ? std::abs(left) : std::abs(right);
+        const double least = nearer < off[k] ? nearer : off[k];
+        alone[k] = left * right > 0 ? least : 0;
     }
-    if (chunk_.size() > 6) chunk_.erase(chunk_.begin(), chunk_.end() - 6);
+    for (std::size_t k = 0; k < n; ++k) {
+        if (off[k] > 0) off_.add(off[k]);
+        if (!(alone[k] > 0)) continue;
+        alone_.add(alone[k]);
+        if (least_alone_ == 0 || alone[k] < least_alone_) least_alone_ = alone[k];
+    }
+    examined_ += static_cast<std::int64_t>(n);
+    if (n > 0) chunk_.erase(chunk_.begin(), chunk_.end() - 6);
+}
+
+/// Every so-manieth reading; when they are 128, every second of them goes.
+void StrayCheck::keep(std::span<const double> x) {
+    for (std::int64_t k = next_kept_ - seen_; k < static_cast<std::int64_t>(x.size()); k = next_kept_ - seen_) {
+        kept_.push_back(x[static_cast<std::size_t>(k)]);
+        next_kept_ += stride_;
+        if (kept_.size() < 128) continue;
+        for (std::size_t n = 0; n < 64; ++n) kept_[n] = kept_[2 * n];
+        kept_.resize(64), stride_ *= 2;
+        next_kept_ = 64 * stride_;
+    }
 }
 
 void StrayCheck::add(std::span<const double> x) {
@@ -52,15 +71,7 @@ void StrayCheck::add(std::span<const double> x) {
         const auto now = x.first(std::min(x.size(), static_cast<std::size_t>(left)));
         if (seen_ % chunk == 0) chunk_.clear();
         if (looked_at(number)) examine(now);
-        for (std::size_t k = 0; k < now.size(); ++k) {
-            if ((seen_ + static_cast<std::int64_t>(k)) % stride_ != 0) continue;
-            if (kept_.size() == 128) {  // half of them, twice as far apart
-                for (std::size_t n = 0; n < 64; ++n) kept_[n] = kept_[2 * n];
-                kept_.resize(64), stride_ *= 2;
-                if ((seen_ + static_cast<std::int64_t>(k)) % stride_ != 0) continue;
-            }
-            kept_.push_back(now[k]);
-        }
+        keep(now);
         seen_ += static_cast<std::int64_t>(now.size());
         x = x.subspan(now.size());
     }
@@ -73,7 +84,7 @@ double StrayCheck::quartiles_apart() const {
 }
 
 std::int64_t StrayCheck::count() const {
-    return alone_.above(std::max({8 * off_.median(), quartiles_apart() / 10, 4 * least_alone_}));
+    return alone_.above(std::max({8 * off_.median(examined_), quartiles_apart() / 10, 4 * least_alone_}));
 }
 
 void SaturationCheck::add(std::span<const double> x) {
@@ -156,7 +167,7 @@ void HumCheck::add_folded(double x) {
 }
 
 void HumCheck::add(std::span<const double> x) {
-    if (table_.second.empty()) return;
+    if (!table_.sees(0) && !table_.sees(1)) return;
     for (const double value : x) {
         folded_ += value;
         if (++in_fold_ < table_.fold) continue;

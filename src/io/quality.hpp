@@ -20,9 +20,10 @@ class StrayCheck {
     LogHistogram alone_;         // the least of the three distances
     double least_alone_ = 0;     // the smallest but 0: what the sensor can tell apart
     std::vector<double> kept_;   // readings ever further apart, for the quartiles
-    std::int64_t seen_ = 0, examined_ = 0, stride_ = 1;
+    std::int64_t seen_ = 0, examined_ = 0, stride_ = 1, next_kept_ = 0;
 
     void examine(std::span<const double>);
+    void keep(std::span<const double>);
     double quartiles_apart() const;
 
 public:

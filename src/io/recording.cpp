@@ -127,8 +127,7 @@ class Recording final : public Source {
         for (std::size_t c = 0; c < paths_.size(); ++c)
             if (auto ok = ended_ ? paths_[c].finish(ready_[c]) : paths_[c].push(block_[c], ready_[c]); !ok) return of_channel(c, ok.error());
         if (!times_) return {};
-        for (std::size_t k = 0; k < *rows; ++k)
-            if (auto ok = times_->push(block_.back()[k], ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
+        if (auto ok = times_->push({block_.back().data(), *rows}, ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
         if (ended_)
             if (auto ok = times_->finish(ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
         return {};

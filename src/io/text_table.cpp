@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "io/dialect.hpp"
@@ -42,6 +43,7 @@ class TextTable final : public Table {
     Fields fields_;
     std::vector<long> numbers_;  // line numbers of the last block's rows
     std::vector<std::ptrdiff_t> slots_;  // of each column: its place among those wanted, or -1
+    std::size_t wanted_end_ = 0;         // behind the last column wanted
 
     Error at(std::string sentence, long column = 0) const {
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
@@ -113,6 +115,14 @@ class TextTable final : public Table {
     void set_slots(const std::vector<std::size_t>& wanted) {
         slots_.assign(columns_.size(), -1);
         for (std::size_t i = 0; i < wanted.size(); ++i) slots_[wanted[i]] = static_cast<std::ptrdiff_t>(i);
+        wanted_end_ = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end()) + 1;
+    }
+
+    /// Whether what is left of a line holds so many fields, none of them in quotes or empty at the end.
+    bool ends_after(const char* p, const char* end, std::size_t fields) const {
+        const auto left = static_cast<std::size_t>(end - p);
+        return left > 0 && end[-1] != dialect_.separator && !std::memchr(p, '"', left) &&
+               static_cast<std::size_t>(std::count(p, end, dialect_.separator)) + 1 == fields;
     }
 
     /// A line as most are, read in one go; false if it needs a closer look.
@@ -124,6 +134,7 @@ class TextTable final : public Table {
                 if (p == end) return false;
                 ++p;
             }
+            if (c == wanted_end_ && separator != ' ') return ends_after(p, end, slots_.size() - c);
             if (slots_[c] < 0 && separator != ' ') {
                 while (p < end && *p != separator && *p != '"') ++p;
                 if (p < end && *p == '"') return false;
