@@ -78,7 +78,9 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->group("Recordings");
     verb.add_option("--scale", w.scale, "what is read, times S, is newtons")->type_name("S")->group("Recordings");
     verb.add_flag("--abs", w.absolute, "take the absolute value of what is read")->group("Recordings");
-    verb.add_option("--offset", w.offset, "what is read where there is no force; taken off before --scale")->type_name("X")->group("Recordings");
+    verb.add_option("--offset", w.offset, "what is read where there is no force; taken off before --scale")
+        ->type_name("X")
+        ->group("Recordings");
     verb.add_option("--range", w.range, "what can be read at all; readings outside are bad")->type_name("LO..HI")->group("Recordings");
     verb.add_option("--bad-fields", w.bad_fields,
                     "what becomes of fields that are no numbers, and of readings out of --range: error (else of fields), drop the row, "
@@ -94,7 +96,9 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("FREQUENCY")
         ->group("Recordings");
-    verb.add_option("--lowpass", w.lowpass, "filter out what is faster (Butterworth, second order)")->type_name("FREQUENCY")->group("Recordings");
+    verb.add_option("--lowpass", w.lowpass, "filter out what is faster (Butterworth, second order)")
+        ->type_name("FREQUENCY")
+        ->group("Recordings");
     verb.add_option("--layout", w.layout, "a table that names the sensors and says where they sit: channel,name,x_mm,y_mm")
         ->type_name("FILE")
         ->group("Recordings");

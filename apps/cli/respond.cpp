@@ -57,10 +57,13 @@ Result<void> read_words(const RespondWords& w, RecordingOptions& options) {
         options.range = *range;
     }
     if (w.bad_fields)
-        options.bad_fields = *w.bad_fields == "error" ? BadFields::error : *w.bad_fields == "drop" ? BadFields::drop : BadFields::interpolate;
+        options.bad_fields = *w.bad_fields == "error"  ? BadFields::error
+                             : *w.bad_fields == "drop" ? BadFields::drop
+                                                       : BadFields::interpolate;
     if (w.despike) {
         const auto limit = *w.despike == "auto" ? Result<double>(1) : parse_quantity(*w.despike, "");
-        if (!limit || !(*limit > 0)) return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in what is read", *w.despike));
+        if (!limit || !(*limit > 0))
+            return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in what is read", *w.despike));
         options.despike.emplace();
         if (*w.despike != "auto") options.despike->limit = *limit;
     }
@@ -117,9 +120,13 @@ Result<void> check_wishes(const Job& job) {
 /// What is said of recordings must find one.
 Result<void> check_recording_words(const RespondWords& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()}, {"--time", w.time.has_value()},
-                                                  {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
-                                                  {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
+    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},
+                                                  {"--dataset", w.dataset.has_value()},
+                                                  {"--time", w.time.has_value()},
+                                                  {"--time-unit", w.time_unit.has_value()},
+                                                  {"--unit", w.unit.has_value()},
+                                                  {"--scale", w.scale.has_value()},
+                                                  {"--abs", w.absolute},
                                                   {"--resample", w.resample.has_value()},
                                                   {"--offset", w.offset.has_value()},
                                                   {"--range", w.range.has_value()},

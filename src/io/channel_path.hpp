@@ -26,7 +26,7 @@ class ChannelPath {
     GapFiller gaps_;
     double offset_, gain_;
     std::vector<Biquad> filters_;
-    bool filter_early_;            // on the rows, which are evenly spaced; else after resampling
+    bool filter_early_;                    // on the rows, which are evenly spaced; else after resampling
     std::vector<double> judged_, mended_;  // scratch
 
     Result<void> mend(std::span<const double> read);

@@ -39,7 +39,8 @@ inline constexpr double powers_of_ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7,
 
 /// Eight characters at once, for the shortest numbers are the most: digits as bytes 0 to 9, the first in the lowest.
 struct EightCharacters {
-    std::uint64_t digits, others;  ///< others: the high bit of each byte that is no digit; right up to the first, and to a second behind a point
+    std::uint64_t digits,
+        others;  ///< others: the high bit of each byte that is no digit; right up to the first, and to a second behind a point
 
     explicit EightCharacters(const char* p) {
         std::memcpy(&digits, p, 8);

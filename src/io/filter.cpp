@@ -10,8 +10,8 @@ namespace {
 
 Result<void> check(double f, const Clock& clock, const char* option) {
     if (f > 0 && f < clock.rate() / 2) return {};
-    return bad_input(fmt::format("{} {:g}Hz: at {:g} samples a second it must lie between 0 and {:g} Hz", option, f, clock.rate(),
-                                 clock.rate() / 2));
+    return bad_input(
+        fmt::format("{} {:g}Hz: at {:g} samples a second it must lie between 0 and {:g} Hz", option, f, clock.rate(), clock.rate() / 2));
 }
 
 }  // namespace

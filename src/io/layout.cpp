@@ -30,7 +30,7 @@ class Reader {
     Fields fields_;
     std::string_view line_;
 
-    Error at(std::string sentence, std::size_t field = 0) const {
+    Error at(std::string sentence, std::size_t field = std::string::npos) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
     }
@@ -48,7 +48,8 @@ class Reader {
         if (heading.unit.empty()) return headings_.unitless = true, Result<void>{};
         const auto unit = parse_unit(heading.unit);
         if (!unit || !unit->same_kind(*parse_unit("m")))
-            return at(fmt::format("'{}' is in '{}', which is no length; say m, cm, mm or um, or no unit", heading.name, heading.unit), field);
+            return at(fmt::format("'{}' is in '{}', which is no length; say m, cm, mm or um, or no unit", heading.name, heading.unit),
+                      field);
         headings_.metres[axis] = unit->factor;
         return {};
     }

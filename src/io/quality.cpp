@@ -184,7 +184,8 @@ bool HumCheck::stands_out(std::size_t which) const {
 HumCheck::Hum HumCheck::found() const {
     Hum best;
     for (std::size_t which = 0; which < 2; ++which)
-        if (const double share = variance_ > 0 ? std::min(1.0, power_[3 * which + 1] / variance_) : 0; stands_out(which) && share > best.share)
+        if (const double share = variance_ > 0 ? std::min(1.0, power_[3 * which + 1] / variance_) : 0;
+            stands_out(which) && share > best.share)
             best = {table_.mains[which], share};
     return best;
 }

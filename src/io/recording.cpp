@@ -31,10 +31,10 @@ class Recording final : public Source {
     std::vector<ChannelPath> paths_;
     SumCheck sums_;
     std::optional<Rows> rows_;
-    std::optional<GapFiller> times_;               // if rows are placed by their own times
-    std::vector<std::vector<double>> block_;       // as read
-    std::vector<std::vector<double>> ready_;       // of each channel, newtons; then the times
-    std::size_t taken_ = 0;                        // of what is ready
+    std::optional<GapFiller> times_;          // if rows are placed by their own times
+    std::vector<std::vector<double>> block_;  // as read
+    std::vector<std::vector<double>> ready_;  // of each channel, newtons; then the times
+    std::size_t taken_ = 0;                   // of what is ready
     bool ended_ = false;
     std::int64_t row_number_ = 0;  // rows taken so far
     // when resampling: the rows before and at the instant looked for
@@ -83,11 +83,10 @@ class Recording final : public Source {
             remarks_.push_back(
                 fmt::format("the header says '{}' is in {}; read as {}, as --unit says", column.name, column.unit, *options_.unit));
         const auto& name = placed.name.empty() ? column.name : placed.name;
-        const auto same = std::count_if(channels_.begin(), channels_.end(), [&](const auto& c) {
-            return c.name == name || c.name.starts_with(name + " (");
-        });
-        channels_.push_back({static_cast<std::uint32_t>(channels_.size()), same == 0 ? name : fmt::format("{} ({})", name, same + 1),
-                             placed.position});
+        const auto same = std::count_if(channels_.begin(), channels_.end(),
+                                        [&](const auto& c) { return c.name == name || c.name.starts_with(name + " ("); });
+        channels_.push_back(
+            {static_cast<std::uint32_t>(channels_.size()), same == 0 ? name : fmt::format("{} ({})", name, same + 1), placed.position});
         auto path = ChannelPath::make(options_, *gain, row_clock_.by_times ? clock_ : row_clock_.clock, !row_clock_.by_times, *hum_table_);
         if (!path) return path.error();
         paths_.push_back(std::move(*path));
@@ -125,7 +124,8 @@ class Recording final : public Source {
         ended_ = *rows == 0;
         sums_.add(block_);
         for (std::size_t c = 0; c < paths_.size(); ++c)
-            if (auto ok = ended_ ? paths_[c].finish(ready_[c]) : paths_[c].push(block_[c], ready_[c]); !ok) return of_channel(c, ok.error());
+            if (auto ok = ended_ ? paths_[c].finish(ready_[c]) : paths_[c].push(block_[c], ready_[c]); !ok)
+                return of_channel(c, ok.error());
         if (!times_) return {};
         if (auto ok = times_->push({block_.back().data(), *rows}, ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
         if (ended_)
@@ -196,9 +196,9 @@ public:
         const auto chosen = choose(*time);
         if (!chosen) return chosen.error();
         if (chosen->size() > most_channels)
-            return bad_input(fmt::format("{} channels are more than {} at a time; --channel 1-1000 takes some of them", chosen->size(),
-                                         most_channels),
-                             {path_});
+            return bad_input(
+                fmt::format("{} channels are more than {} at a time; --channel 1-1000 takes some of them", chosen->size(), most_channels),
+                {path_});
         std::vector<std::size_t> columns;
         for (const auto& p : *chosen) columns.push_back(p.column);
         if (auto ok = set_clock(*time, columns); !ok) return ok;
@@ -218,7 +218,8 @@ public:
         for (std::size_t c = 0; c < channels_.size(); ++c) all.push_back({channels_[c].name + ": newtons per unit", paths_[c].gain(), "N"});
         all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
         if (options_.offset != 0) all.push_back({"offset", options_.offset, ""});
-        if (options_.range) all.push_back({"range, low", options_.range->first, ""}), all.push_back({"range, high", options_.range->second, ""});
+        if (options_.range)
+            all.push_back({"range, low", options_.range->first, ""}), all.push_back({"range, high", options_.range->second, ""});
         if (options_.despike) all.push_back({"despike", options_.despike->limit.value_or(0), ""});
         for (const double f : options_.notch) all.push_back({"notch", f, "Hz"});
         if (options_.lowpass) all.push_back({"low-pass", *options_.lowpass, "Hz"});

@@ -40,7 +40,8 @@ Result<Times> check_times(Table& table, Rows rows, double unit, const RecordingO
                 return bad_input(fmt::format("time goes back, from {:g} s to {:g} s; --rate takes the rows as evenly spaced", last, t),
                                  rows.place(k));
             if (check.count() > 0 && t == last && !check.twice)
-                check.twice = bad_input(fmt::format("the time {:g} s stands twice; --rate takes the rows as evenly spaced", t), rows.place(k));
+                check.twice =
+                    bad_input(fmt::format("the time {:g} s stands twice; --rate takes the rows as evenly spaced", t), rows.place(k));
             check.add(last = t);
         }
         if (!options.keep_on(table.done())) return Error{Code::interrupted, "interrupted"};

@@ -41,7 +41,7 @@ class TextTable final : public Table {
     bool header_ = false, commented_ = false, skip_header_ = false;
     std::string comment_;  // the last before the data
     Fields fields_;
-    std::vector<long> numbers_;  // line numbers of the last block's rows
+    std::vector<long> numbers_;          // line numbers of the last block's rows
     std::vector<std::ptrdiff_t> slots_;  // of each column: its place among those wanted, or -1
     std::size_t wanted_end_ = 0;         // behind the last column wanted
 

@@ -41,9 +41,10 @@ class Writer {
             c.channels.push_back(k);
         }
         if (!c.channels.empty())
-            c.names = paths_.size() == 1       ? "the force"
-                      : c.channels.size() == 1 ? fmt::format("'{}'", channels_[c.worst].name)
-                                               : fmt::format("'{}' (the worst of {} such channels)", channels_[c.worst].name, c.channels.size());
+            c.names = paths_.size() == 1 ? "the force"
+                      : c.channels.size() == 1
+                          ? fmt::format("'{}'", channels_[c.worst].name)
+                          : fmt::format("'{}' (the worst of {} such channels)", channels_[c.worst].name, c.channels.size());
         return c;
     }
 
@@ -58,9 +59,10 @@ class Writer {
         if (c.channels.empty()) return;
         const auto& worst = paths_[c.worst];
         say(stray_share(worst) > strays_worth_a_warning,
-            fmt::format("{}: {} of {} readings ({}) stand alone, far from those before and after, as torn readings do (and there may be more "
-                        "in a row); --range LO..HI and --despike LIMIT take them out",
-                        c.names, worst.stray_check.count(), worst.stray_check.examined(), percent(stray_share(worst))));
+            fmt::format(
+                "{}: {} of {} readings ({}) stand alone, far from those before and after, as torn readings do (and there may be more "
+                "in a row); --range LO..HI and --despike LIMIT take them out",
+                c.names, worst.stray_check.count(), worst.stray_check.examined(), percent(stray_share(worst))));
     }
 
     void hum() {
@@ -87,7 +89,9 @@ class Writer {
         const auto code = [](const ChannelPath& p) {
             const double raw = p.saturation.highest() / p.gain() + p.offset(), next = std::round(raw) + 1;
             const bool power = next >= 256 && next <= 0x1p32 && std::exp2(std::round(std::log2(next))) == next;
-            return power && std::abs(raw - (next - 1)) < 1e-6 * next && p.saturation.share() * static_cast<double>(p.levels.count) >= 3 ? next : 0;
+            return power && std::abs(raw - (next - 1)) < 1e-6 * next && p.saturation.share() * static_cast<double>(p.levels.count) >= 3
+                       ? next
+                       : 0;
         };
         const auto c = concerned(code);
         if (c.channels.empty()) return;
@@ -113,13 +117,16 @@ class Writer {
         if (!low.channels.empty() && low.channels.size() == paths_.size())
             say(false, fmt::format("no force reaches 0.2 N, the least the models are fitted to (up to {:.3g} N); is the unit right?",
                                    paths_[low.worst].levels.greatest));
-        const auto turned = concerned([](const auto& p) { return p.levels.least < -0.2 && -p.levels.least > p.levels.greatest ? -p.levels.least : 0; });
+        const auto turned =
+            concerned([](const auto& p) { return p.levels.least < -0.2 && -p.levels.least > p.levels.greatest ? -p.levels.least : 0; });
         if (!turned.channels.empty())
-            say(true, fmt::format("{}: mostly negative, down to {:.4g} N, and a press is positive here; --abs, or --scale with a minus, turns it",
-                                  turned.names, paths_[turned.worst].levels.least));
+            say(true,
+                fmt::format("{}: mostly negative, down to {:.4g} N, and a press is positive here; --abs, or --scale with a minus, turns it",
+                            turned.names, paths_[turned.worst].levels.least));
         const auto still = concerned([](const auto& p) { return p.levels.greatest == p.levels.least ? 1 : 0; });
         if (!still.channels.empty() && paths_.size() > 1)
-            say(false, fmt::format("{} {} the same value throughout", still.channels.size() == 1 ? still.names : fmt::format("{} channels", still.channels.size()),
+            say(false, fmt::format("{} {} the same value throughout",
+                                   still.channels.size() == 1 ? still.names : fmt::format("{} channels", still.channels.size()),
                                    still.channels.size() == 1 ? "has" : "have"));
     }
 
@@ -128,7 +135,8 @@ class Writer {
         for (const auto& p : paths_) strays += p.strays_taken_out(), filled += p.filled();
         if (rows.dropped > 0) say(false, fmt::format("{} rows with a bad field were left out", rows.dropped));
         if (filled > 0)
-            say(false, fmt::format("{} readings were filled in by straight lines ({} outside --range, {} strays)", filled, rows.out_of_range, strays));
+            say(false, fmt::format("{} readings were filled in by straight lines ({} outside --range, {} strays)", filled,
+                                   rows.out_of_range, strays));
         std::int64_t readings = 0;
         for (const auto& p : paths_) readings += p.levels.count;
         if (filled * 2 > readings) say(true, "more than half of the readings were filled in: what is left says little");
@@ -156,8 +164,7 @@ class Writer {
     }
 
 public:
-    Writer(const std::vector<Channel>& channels, const std::vector<ChannelPath>& paths)
-        : channels_(channels), paths_(paths) {}
+    Writer(const std::vector<Channel>& channels, const std::vector<ChannelPath>& paths) : channels_(channels), paths_(paths) {}
 
     Quality write(const RowClock& rows, const RowCounts& counts, const SumCheck& check) {
         clock(rows);

@@ -43,10 +43,18 @@ Json input_document(const Summary::InputFacts& input) {
     for (const auto& p : input.phases) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
     Json facts = Json::object();
     for (const auto& f : input.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
-    return {{"name", input.name},       {"parameters", facts},           {"force_min_N", input.least}, {"force_max_N", input.greatest},
-            {"samples", input.samples}, {"rate_Hz", input.clock.rate()}, {"t0_s", input.clock.t0},     {"channels", input.channels},
-            {"phases", phases},         {"remarks", input.remarks},
-            {"positions", position_document(input)}, {"quality", quality_document(input)}};
+    return {{"name", input.name},
+            {"parameters", facts},
+            {"force_min_N", input.least},
+            {"force_max_N", input.greatest},
+            {"samples", input.samples},
+            {"rate_Hz", input.clock.rate()},
+            {"t0_s", input.clock.t0},
+            {"channels", input.channels},
+            {"phases", phases},
+            {"remarks", input.remarks},
+            {"positions", position_document(input)},
+            {"quality", quality_document(input)}};
 }
 
 Json row_document(const RateRow& row) {

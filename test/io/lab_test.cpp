@@ -1,0 +1,210 @@
+// Recordings as laboratories log them: bad fields, torn readings, hum, offsets, layouts; and what is said of them.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "io/dialect.hpp"
+#include "io/recording.hpp"
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using Rows = std::vector<std::vector<double>>;
+
+struct Read {
+    Rows force;
+    std::vector<Channel> channels;
+    Quality quality;
+    Clock clock;
+    std::vector<std::string> remarks;
+};
+
+Result<Read> try_read(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
+    auto source = open_recording(path, options);
+    if (!source) return source.error();
+    Read out{{}, (*source)->channels(), {}, (*source)->clock(), {}};
+    out.force.resize(out.channels.size());
+    for (Frames frames(out.channels.size(), block);;) {
+        if (auto ok = (*source)->read(frames); !ok) return ok.error();
+        if (frames.count == 0) break;
+        for (std::size_t c = 0; c < out.force.size(); ++c)
+            out.force[c].insert(out.force[c].end(), frames.force[c].begin(),
+                                frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
+    }
+    out.quality = (*source)->quality();
+    out.remarks = (*source)->remarks();
+    return out;
+}
+
+Read read(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
+    return test::sure(try_read(path, options, block));
+}
+
+std::string said(const Folder& folder, const std::string& text, const RecordingOptions& options) {
+    const auto path = folder.write("x.csv", text);
+    const auto made = try_read(path, options);
+    auto sentence = made ? "read" : made.error().text();
+    if (const auto at = sentence.find(path); at != std::string::npos) sentence.replace(at, path.size(), "x.csv");
+    return sentence;
+}
+
+bool mentions(const std::vector<std::string>& sentences, const std::string& words) {
+    return std::any_of(sentences.begin(), sentences.end(), [&](const auto& s) { return s.find(words) != std::string::npos; });
+}
+
+double finding(const Read& r, std::string_view name, std::uint32_t channel = 0) {
+    for (const auto& f : r.quality.findings)
+        if (f.name == name && f.channel == channel) return f.value;
+    return -1;
+}
+
+TEST(BadFields, AreErrorsUnlessSaidOtherwise) {
+    const Folder folder;
+    const std::string text = "F_N\n1\n2\nNaN\n4\n";
+    EXPECT_EQ(said(folder, text, {.rate = 10}), "x.csv:4:1: column 'F': 'NaN' where a number should be");
+    EXPECT_EQ(read(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::interpolate}).force, (Rows{{1, 2, 3, 4}}));
+    EXPECT_EQ(read(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::drop}).force, (Rows{{1, 2, 4}}));
+}
+
+TEST(BadFields, OneBadFieldDropsItsRowInEveryChannel) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "a_N,b_N\n1,2\n3,x\n5,6\n7\n9,10\n");
+    EXPECT_EQ(read(path, {.rate = 10, .bad_fields = BadFields::drop}).force, (Rows{{1, 5, 9}, {2, 6, 10}}));
+    EXPECT_EQ(read(path, {.rate = 10, .bad_fields = BadFields::interpolate}).force, (Rows{{1, 3, 5, 7, 9}, {2, 4, 6, 8, 10}}));
+}
+
+TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "t_s,F_N\n0,0\n1,1\n2,bad\n3,bad\n4,bad\n5,5\n6,6\n");
+    const auto refused = try_read(path, {.bad_fields = BadFields::drop});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().sentence.find("not evenly spaced"), std::string::npos);
+    EXPECT_EQ(read(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (Rows{{0, 1, 2, 3, 4, 5, 6}}));
+}
+
+TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "t_s,F_N\n0,0\n1,1\n?,2\n3,3\n4,4\n");
+    const auto r = read(path, {.bad_fields = BadFields::interpolate});
+    EXPECT_EQ(r.force, (Rows{{0, 1, 2, 3, 4}}));
+    EXPECT_EQ(r.clock.rate(), 1);
+}
+
+TEST(Range, ReadingsOutsideAreBadAndFilledInUnlessSaidOtherwise) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "F_N\n1\n999\n3\n4\n");
+    EXPECT_EQ(read(path, {.rate = 10, .range = std::pair{0.0, 10.0}}).force, (Rows{{1, 2, 3, 4}}));
+    EXPECT_EQ(read(path, {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::drop}).force, (Rows{{1, 3, 4}}));
+    EXPECT_EQ(said(folder, "F_N\n1\n999\n3\n", {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::error}),
+              "x.csv:3: 'F': 999 is outside --range 0..10");
+}
+
+TEST(Offset, IsTakenOffBeforeTheScaleAndTheSignBeforeBoth) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "F\n-512\n-612\n512\n");
+    RecordingOptions options{.rate = 10, .scale = 0.01, .absolute = true};
+    options.offset = 512;
+    EXPECT_EQ(read(path, options).force, (Rows{{0, 1, 0}}));
+}
+
+TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
+    const Folder folder;
+    std::string text = "t_s,F_N\n";
+    for (int k = 0; k < 3000; ++k)
+        text += fmt::format("{:.3f},{}\n", k * 0.004, k % 41 == 0 ? "x" : fmt::format("{:.4f}", k % 29 == 0 ? 900.0 : 2 + std::sin(0.05 * k)));
+    const auto path = folder.write("x.csv", text);
+    RecordingOptions options;
+    options.bad_fields = BadFields::interpolate;
+    options.despike = {{5.0}};
+    options.notch = {50};
+    options.lowpass = 30;
+    const auto whole = read(path, options, 100'000);
+    ASSERT_EQ(whole.force[0].size(), 3000U);
+    for (const std::size_t block : {1, 7, 4096}) EXPECT_EQ(read(path, options, block).force, whole.force);
+    for (std::size_t k = 200; k < 3000; ++k) EXPECT_NEAR(whole.force[0][k], 2 + std::sin(0.05 * static_cast<double>(k)), 0.25);
+    options.resample = 100;
+    const auto slower = read(path, options, 4096);
+    EXPECT_EQ(read(path, options, 3).force, slower.force);
+    EXPECT_NEAR(slower.force[0][100], whole.force[0][250], 1e-9);
+}
+
+TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "time_s,a_N,b_N,total_N\n0,1,2,3\n1,1,2,3\n");
+    const auto layout = folder.write("layout.csv", "# where they sit\nchannel,name,x_mm,y_mm\n2,heel,10,-20\na,toe,0.5,1\n");
+    const auto r = read(path, {.layout = layout});
+    ASSERT_EQ(r.channels.size(), 2U);
+    EXPECT_EQ(r.channels[0].name, "heel");
+    EXPECT_EQ(r.force, (Rows{{2, 2}, {1, 1}}));
+    EXPECT_DOUBLE_EQ(r.channels[0].position->x, 0.01);
+    EXPECT_DOUBLE_EQ(r.channels[1].position->y, 0.001);
+    const auto one = read(path, {.channels = {"b"}, .layout = layout});
+    EXPECT_EQ(one.channels[0].name, "heel");
+}
+
+TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "time_s,a_N,b_N\n0,1,2\n1,1,2\n");
+    const auto wrong = [&](const std::string& text) {
+        const auto layout = folder.write("l.csv", text);
+        auto sentence = try_read(path, {.layout = layout}).error().text();
+        return sentence.substr(sentence.find("l.csv"));
+    };
+    EXPECT_EQ(wrong("sensor,x,y\nc,1,2\n"), "l.csv:2:1: no channel 'c'; did you mean 'a'?; there are 2: a, b");
+    EXPECT_EQ(wrong("sensor,x,y\na,1,2\n1,3,4\n"), "l.csv:3:1: channel '1' stands here twice");
+    EXPECT_EQ(wrong("sensor,x,y\na,1,east\n"), "l.csv:2:5: 'east' where a coordinate should be");
+    EXPECT_EQ(wrong("sensor,x_N\na,1\n"), "l.csv:1:8: 'x' is in 'N', which is no length; say m, cm, mm or um, or no unit");
+    EXPECT_EQ(wrong("who,x\na,1\n"), "l.csv:1: a layout's header needs a column 'channel' (and may have name, x, y, z); this one has: who, x");
+    EXPECT_EQ(wrong("sensor,x\na\n"), "l.csv:2: 1 columns where 2 should be");
+    EXPECT_EQ(wrong("sensor,x\n"), "l.csv: the layout names no sensor");
+}
+
+TEST(Verdict, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
+    const Folder folder;
+    std::string good = "t_s,F_N\n", heavy = good, negative = good, weak = good, full = "t_s,F\n";
+    for (int k = 0; k < 2000; ++k) {
+        const double F = 1 + std::sin(0.01 * k), t = k * 0.01;
+        good += fmt::format("{:.2f},{:.4f}\n", t, F);
+        heavy += fmt::format("{:.2f},{:.4f}\n", t, 100 * F);
+        negative += fmt::format("{:.2f},{:.4f}\n", t, -F);
+        weak += fmt::format("{:.2f},{:.4f}\n", t, F / 100);
+        full += fmt::format("{:.2f},{}\n", t, std::min(4095, k % 500 * 20));
+    }
+    const auto quality = [&](const std::string& text, const RecordingOptions& options = {}) {
+        return read(folder.write("x.csv", text), options, 500).quality;
+    };
+    EXPECT_TRUE(quality(good).warnings.empty());
+    EXPECT_TRUE(quality(good).sentences.empty());
+    EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, where the models are fitted to 0.2 to 4 N"));
+    EXPECT_TRUE(mentions(quality(negative).warnings, "a press is positive here"));
+    EXPECT_TRUE(mentions(quality(weak).sentences, "no force reaches 0.2 N"));
+    EXPECT_NEAR(finding(read(folder.write("x.csv", good), {}), "below_0.2N"), 0.205, 0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
+    EXPECT_TRUE(mentions(quality(full, {.scale = 1e-3}).warnings, "reads 4095, the highest a 12-bit converter can say"));
+}
+
+TEST(Dialect, PlainNumbersAreThoseThatFromCharsReads) {
+    EXPECT_TRUE(rc::check("every number as text, in every dialect", [] {
+        const auto dialect = *rc::gen::element(Dialect{',', false}, Dialect{';', true}, Dialect{' ', true}, Dialect{'\t', true});
+        const auto digits = *rc::gen::inRange(0, 17);
+        const double value = static_cast<double>(*rc::gen::inRange<std::int64_t>(-1'000'000'000'000, 1'000'000'000'000)) / 1e4;
+        auto text = *rc::gen::element(fmt::format("{:.{}f}", value, digits % 5), fmt::format("{:.{}g}", value, digits + 1),
+                                      fmt::format("{:.{}f}", value / 1e8, digits), fmt::format("{}.", digits), fmt::format(".{}", digits),
+                                      std::string("-"), std::string("."), std::string(""), std::string("1e5"), std::string("0x10"));
+        const std::size_t size = text.size();
+        text += *rc::gen::element<std::string>("", std::string(1, dialect.separator), "x", "9", "\n") + std::string(16, '\0');
+        const char *p = text.data(), *const end = text.data() + size;
+        double plain, careful;
+        if (!dialect.plain_number(p, end, plain)) return;
+        RC_ASSERT(p == end);
+        RC_ASSERT(dialect.number({text.data(), size}, careful));
+        RC_ASSERT(plain == careful && std::signbit(plain) == std::signbit(careful));
+    }));
+}
+
+}  // namespace
+}  // namespace corpuscle
