@@ -26,6 +26,16 @@ function fillRates(host, {columns, rows}, only) {
     if (wanted.length > MOST_ROWS) element(host, "p", "note", `the first ${MOST_ROWS} of ${wanted.length} rows`);
 }
 
+/// What was found of the recordings: the sentences, the worst first, and the numbers behind them.
+function showQuality({sentences, columns, rows}) {
+    const section = document.getElementById("quality");
+    section.hidden = !rows.length;
+    if (section.hidden) return;
+    section.querySelector("ul").innerHTML = sentences.map(({text, grave}) => `<li${grave ? ' class="grave"' : ""}>${escaped(text)}</li>`).join("") ||
+        "<li>Nothing that would mislead was found.</li>";
+    fillRates(section.querySelector(".scroll"), {columns, rows}, null);
+}
+
 function showParameters(afferents) {
     const section = document.getElementById("parameters");
     const told = afferents.map((one, index) => ({...one, index})).filter((one) => one.parameters && one.parameters.length);

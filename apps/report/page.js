@@ -185,6 +185,7 @@ window.corpuscle = {
 
 showHeading(report.data);
 showParameters(report.data.afferents);
+showQuality(report.data.quality);
 showVersions(report.data.versions);
 connect();
 show(report.data.inputs[0], liveliest(report.data.inputs[0]));

@@ -49,6 +49,25 @@ Json table_document(const Summary& summary) {
     return {{"columns", columns}, {"rows", rows}};
 }
 
+/// What was found of the recordings, in words, and a row a channel in numbers; no rows for stimuli.
+Json quality_document(const Summary& summary) {
+    Json sentences = Json::array(), columns = {"channel"}, rows = Json::array();
+    const bool several = summary.inputs().size() > 1;
+    for (const auto& i : summary.inputs()) {
+        const auto tell = [&](const std::vector<std::string>& told, bool grave) {
+            for (const auto& s : told) sentences.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", grave}});
+        };
+        tell(i.quality.warnings, true);
+        tell(i.quality.sentences, false);
+        for (const auto& f : i.quality.findings) {
+            if (rows.empty() || rows.back()[0] != i.channels[f.channel]) rows.push_back(Json::array({i.channels[f.channel]}));
+            if (rows.size() == 1) columns.push_back(f.unit.empty() ? std::string(f.name) : fmt::format("{} ({})", f.name, f.unit));
+            rows.back().push_back(std::isfinite(f.value) ? Json(f.value) : Json(nullptr));
+        }
+    }
+    return {{"sentences", sentences}, {"columns", columns}, {"rows", rows}};
+}
+
 std::string_view asset(std::string_view name) {
     for (const auto& a : assets)
         if (a.name == name) return {a.begin, static_cast<std::size_t>(a.end - a.begin)};
@@ -165,13 +184,18 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
     }
     for (const auto& w : warnings) remarks.push_back(w);
     for (const auto& i : summary.inputs())
-        for (const auto* sentences : {&i.remarks, &i.quality.sentences})
-            for (const auto& r : *sentences) remarks.push_back(i.name + ": " + r);
-    const Json document = {{"title", title},         {"program", fmt::format("corpuscle {}", version)},
-                           {"command", command},     {"inputs", inputs_},
-                           {"afferents", afferents}, {"traces", traces_},
-                           {"spikes", spikes_},      {"table", table_document(summary)},
-                           {"remarks", remarks},     {"versions", {{"corpuscle", version}, {"compiler", compiler}}}};
+        for (const auto& r : i.remarks) remarks.push_back(i.name + ": " + r);
+    const Json document = {{"title", title},
+                           {"program", fmt::format("corpuscle {}", version)},
+                           {"command", command},
+                           {"inputs", inputs_},
+                           {"afferents", afferents},
+                           {"traces", traces_},
+                           {"spikes", spikes_},
+                           {"table", table_document(summary)},
+                           {"quality", quality_document(summary)},
+                           {"remarks", remarks},
+                           {"versions", {{"corpuscle", version}, {"compiler", compiler}}}};
     return filled(asset("page.html"), escaped(title), safe_json(document));
 }
 

@@ -54,9 +54,10 @@ TEST(StrayCheck, TakesTheLastDigitOfAQuietSensorForWhatItIs) {
 
 TEST(StrayCheck, CountsAsThePlainRuleDoes) {
     EXPECT_TRUE(rc::check("medians by sorting, every distance kept", [] {
-        const auto x = *rc::gen::container<std::vector<double>>(400, rc::gen::map(rc::gen::inRange(-4096, 4096), [](int v) {
-            return v % 16 == 0 ? v * 32.0 : v % 16 * 1.0;  // powers of two and small ones: clear of the histogram's edges
-        }));
+        const auto x = *rc::gen::container<std::vector<double>>(
+            400, rc::gen::map(rc::gen::inRange(-4096, 4096), [](int v) {
+                return v % 16 == 0 ? v * 32.0 : v % 16 * 1.0;  // powers of two and small ones: clear of the histogram's edges
+            }));
         std::vector<double> off, alone, sorted;
         double least = 0;
         for (std::size_t k = 3; k + 3 < x.size(); ++k) {
@@ -72,9 +73,7 @@ TEST(StrayCheck, CountsAsThePlainRuleDoes) {
         // the limit lies between the two that the bins' edges allow, a fifth apart
         std::sort(off.begin(), off.end());
         const double middle = off[(off.size() - 1) / 2];
-        const auto above = [&](double limit) {
-            return std::count_if(alone.begin(), alone.end(), [&](double a) { return a > limit; });
-        };
+        const auto above = [&](double limit) { return std::count_if(alone.begin(), alone.end(), [&](double a) { return a > limit; }); };
         sorted = x;
         std::sort(sorted.begin(), sorted.end());
         const double spread = sorted.back() - sorted.front();
