@@ -77,9 +77,13 @@ Result<void> check_wishes(const Job& job) {
 /// What is said of recordings must find one.
 Result<void> check_recording_words(const RespondWords& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()}, {"--time", w.time.has_value()},
-                                                  {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
-                                                  {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
+    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},
+                                                  {"--dataset", w.dataset.has_value()},
+                                                  {"--time", w.time.has_value()},
+                                                  {"--time-unit", w.time_unit.has_value()},
+                                                  {"--unit", w.unit.has_value()},
+                                                  {"--scale", w.scale.has_value()},
+                                                  {"--abs", w.absolute},
                                                   {"--resample", w.resample.has_value()}};
     for (const auto& [word, said] : words)
         if (said)
@@ -118,9 +122,7 @@ Result<Job> prepare(const RespondWords& w) {
     return job;
 }
 
-std::string cell(const Measure& m, double x) {
-    return std::isnan(x) ? "-" : m.of == spike_count ? fmt::format("{:.0f}", x) : fmt::format("{:.1f}", x);
-}
+std::string cell(const Measure& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
 
 /// A line an input: what was answered, so that a wrong unit or clock is seen.
 std::string inputs_table(const Summary& summary) {
@@ -139,13 +141,14 @@ std::string rate_table(const Summary& summary) {
     for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[0];
     const bool all = summary.rows().size() <= most_rows_in_full;
     std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
-    for (const auto& m : measures) rows[0].push_back(m.unit.empty() ? std::string(m.title) : fmt::format("{} ({})", m.title, m.unit));
+    const auto columns = summary.columns();
+    for (const auto c : columns) rows[0].push_back(heading(measures[c]));
     std::size_t more = 0;
     for (const auto& r : summary.rows()) {
         if (!all && spikes[{r.afferent, r.channel}] == 0) continue;
         if (rows.size() > most_rows && ++more) continue;
         rows.push_back({r.afferent, r.channel, r.phase});
-        for (std::size_t m = 0; m < r.values.size(); ++m) rows.back().push_back(cell(measures[m], r.values[m]));
+        for (const auto c : columns) rows.back().push_back(cell(measures[c], r.values[c]));
     }
     auto text = table(rows);
     if (more > 0) text += fmt::format("... and {} rows more; --out writes them all to summary.json\n", more);
