@@ -12,7 +12,10 @@
 #include "report/report.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
-#include "study/files.hpp"
+#include "study/bins_file.hpp"
+#include "study/clicks_file.hpp"
+#include "study/npz_file.hpp"
+#include "study/stale.hpp"
 #include "study/summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -159,36 +162,62 @@ std::string rate_table(const Summary& summary) {
 
 /// The files of one run: made before it, put in their places after it.
 class Outputs {
-    std::optional<SpikesFile> spikes_;
-    std::optional<TracesFile> traces_;
+    std::string directory_;
+    std::vector<std::unique_ptr<WrittenFile>> files_;
     std::optional<Report> report_;
     std::optional<OutputFile> summary_file_, report_file_;
-    std::vector<std::string> paths_;
-
-    Result<OutputFile> create(const std::string& path) {
-        paths_.push_back(path);
-        return OutputFile::create(path);
-    }
+    std::vector<std::string> removed_;
 
     static Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
         if (auto ok = file->write(text); !ok) return ok;
         return file->commit();
     }
 
+    template <class F, class... A>
+    Result<void> add(const char* name, A... how) {
+        auto file = OutputFile::create(directory_ + "/" + name);
+        if (!file) return file.error();
+        files_.push_back(std::make_unique<F>(std::move(*file), how...));
+        return {};
+    }
+
+    Result<void> open_directory(const RespondWords& w, std::optional<double> bin) {
+        if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
+        if (w.npz)
+            if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
+        if (bin)
+            if (auto ok = add<BinsFile>("psth.csv", *bin); !ok) return ok;
+        if (w.wav) files_.push_back(std::make_unique<ClicksFile>(directory_));
+        if (w.traces) files_.push_back(std::make_unique<TracesFile>(directory_));
+        auto summary = OutputFile::create(directory_ + "/summary.json");
+        if (!summary) return summary.error();
+        summary_file_ = std::move(*summary);
+        return {};
+    }
+
+    std::vector<std::string> paths() const {
+        std::vector<std::string> all;
+        for (const auto& file : files_)
+            for (auto& path : file->paths()) all.push_back(std::move(path));
+        if (summary_file_) all.push_back(summary_file_->path());
+        if (report_file_) all.push_back(report_file_->path());
+        return all;
+    }
+
 public:
     Result<void> open(const RespondWords& w) {
-        if (w.traces && w.out.empty()) return bad_usage("--traces needs --out DIR to write into");
-        if (!w.out.empty()) {
-            auto spikes = create(w.out + "/spikes.csv");
-            if (!spikes) return spikes.error();
-            spikes_.emplace(std::move(*spikes));
-            auto summary = create(w.out + "/summary.json");
-            if (!summary) return summary.error();
-            summary_file_ = std::move(*summary);
-            if (w.traces) traces_.emplace(w.out);
-        }
+        const std::pair<const char*, bool> words[] = {
+            {"--traces", w.traces}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
+        for (const auto& [word, said] : words)
+            if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
+        const auto bin = quantity(w.bin, "s", "--bin");
+        if (!bin) return bin.error();
+        if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
+        directory_ = w.out;
+        if (!w.out.empty())
+            if (auto ok = open_directory(w, *bin); !ok) return ok;
         if (!w.report) return {};
-        auto page = create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
+        auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
         if (!page) return page.error();
         report_file_ = std::move(*page);
         report_.emplace();
@@ -196,28 +225,34 @@ public:
     }
 
     void listen(std::vector<Listener*>& listeners) {
-        if (spikes_) listeners.push_back(&*spikes_);
-        if (traces_) listeners.push_back(&*traces_);
+        for (auto& file : files_) listeners.push_back(&*file);
         if (report_) listeners.push_back(&*report_);
+    }
+
+    /// What is written into the directory, by name.
+    std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        for (const auto& path : paths())
+            if (!directory_.empty() && path.starts_with(directory_ + "/") && path.find('/', directory_.size() + 1) == path.npos)
+                all.push_back(std::filesystem::path(path).filename().string());
+        return all;
     }
 
     Result<void> commit(const Summary& summary, const Job& job, const std::string& document, const std::string& command) {
         if (report_)
             if (auto ok = put(report_file_, report_->page(summary, job.afferents, command, job.warnings)); !ok) return ok;
-        if (traces_) {
-            if (auto ok = traces_->commit(); !ok) return ok;
-            for (const auto& path : traces_->paths()) paths_.push_back(path);
-        }
-        if (spikes_) {
-            if (auto ok = spikes_->commit(); !ok) return ok;
-            if (auto ok = put(summary_file_, document); !ok) return ok;
-        }
-        return {};
+        for (auto& file : files_)
+            if (auto ok = file->commit(); !ok) return ok;
+        if (!summary_file_) return {};
+        removed_ = remove_stale(directory_, names());
+        return put(summary_file_, document);
     }
 
     std::string told() const {
-        return paths_.empty() ? "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n"
-                              : fmt::format("Written: {}\n", fmt::join(paths_, ", "));
+        const auto all = paths();
+        if (all.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
+        const auto gone = removed_.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed_, ", "));
+        return fmt::format("Written: {}\n{}", fmt::join(all, ", "), gone);
     }
 };
 
@@ -250,9 +285,9 @@ Result<void> run(const RespondWords& w, const Common& common) {
                         work->capped_steps, spikes_a_step));
         fmt::print(stderr, "corpuscle: warning: {}\n", job->warnings.back());
     }
-    const auto document = summary.document(job->afferents, *work, job->options, w.seed, job->warnings)
-                              .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-                          "\n";  // a name may hold any bytes
+    auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
+    answer["files"] = outputs.names();
+    const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes
     if (auto ok = outputs.commit(summary, *job, document, common.command); !ok) return ok;
     if (common.json)
         fmt::print("{}", document);

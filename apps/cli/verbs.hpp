@@ -14,11 +14,17 @@ struct Common {
 
 struct RespondWords {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, bin;
     std::string method = "exact";
-    bool sampled = false, absolute = false, traces = false, report = false;
+    bool sampled = false, absolute = false, traces = false, report = false, npz = false, wav = false;
     std::string out, report_file;
     std::uint64_t seed = 0;
+};
+
+struct CompareWords {
+    std::vector<std::string> files, pairs;
+    bool by_order = false;
+    std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
 
 struct ListWords {
@@ -26,6 +32,7 @@ struct ListWords {
 };
 
 int respond(const RespondWords&, const Common&);
+int compare(const CompareWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle
