@@ -84,6 +84,7 @@ std::string text(const CompareOptions& options, const std::vector<Difference>& a
 Result<void> run(const CompareWords& w, const Common& common) {
     const auto options = options_of(w);
     if (!options) return options.error();
+    if (w.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
     if (w.files.size() == 1 && w.pairs.empty())
         return bad_usage(fmt::format("compare {}: with what? Name a second file, or two trains of this one: --pair sa1=fa1", w.files[0]));
     const auto a = read_spikes(w.files.front());

@@ -17,6 +17,7 @@ constexpr const char* first_steps = R"(First steps:
   corpuscle respond press                                the thesis's experiment through SA-I and FA-I
   corpuscle respond press --report press.html            ... and a page to look at
   corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
+  corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
   corpuscle list                                         every afferent, stimulus and parameter
 
 Exit status: 0 done, 1 bad input, 2 bad usage, 3 did not converge, 130 interrupted.)";
@@ -118,7 +119,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
 void add_compare(CLI::App& app, CompareWords& w, Common& common) {
     auto& verb = *app.add_subcommand("compare", "two files of spikes -> what matches, how far apart, what is missing or extra");
     verb.footer(compare_examples);
-    verb.add_option("A B", w.files, "files of spikes: CSV or NPZ; one file is compared with itself, with --pair")->expected(1, 2);
+    verb.add_option("FILES", w.files, "A and B, files of spikes: CSV or NPZ; or one file, with --pair")->expected(1, 2)->type_name("A [B]");
     verb.add_option("--pair,-p", w.pairs, "what is called A-NAME in the first file is B-NAME in the second (repeat for more)")
         ->allow_extra_args(false)
         ->type_name("A-NAME=B-NAME");

@@ -22,7 +22,7 @@ std::string csv_field(const std::string& name);
 /// Every train of a file, in the order of their names, numbers in them by value. An NPZ is recognised by its first bytes: ours,
 /// or any that SpikeInterface writes (a unit's segments after the first are its channels "segment 2" ...). Anything else is a table of
 /// text with a row a spike: a column of times (time_s, t [ms] ...; seconds if it does not say) and, to tell trains apart, columns
-/// called afferent or unit, and channel. A train without spikes stands only in an NPZ of ours.
+/// called afferent or unit, and channel; only a lone column of times needs none. A train without spikes stands only in an NPZ of ours.
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path);
 
 }  // namespace corpuscle

@@ -81,18 +81,19 @@ class TextSpikes {
             const auto name = lower(heading.name);
             if (!time_ && (name == "time" || name == "times" || name == "t" || name == "timestamp" || name == "spike_time")) {
                 const auto seconds = seconds_per_unit(heading, {}, lines_.path());
-                if (!seconds) return seconds.error();
+                if (!seconds) return at(fmt::format("'{}' is no unit of time; write s, ms, us or min", heading.unit), fields_[c].column);
                 time_ = c, seconds_ = *seconds;
             }
             if (name == "afferent" || (name == "unit" && !afferent_)) afferent_ = c;
             if (name == "channel") channel_ = c;
         }
-        if (time_) return {};
+        if (time_ && (afferent_ || channel_ || columns_ == 1)) return {};
         std::vector<std::string> names;
         for (const auto& f : fields_) names.push_back("'" + f.text.substr(0, 40) + "'");
         if (names.size() > 12) names.resize(12), names.push_back("...");
-        return at(fmt::format("no column of spike times; one is to be called time_s (or time, t [ms] ...); there are {}",
-                              fmt::join(names, ", ")));
+        const auto wanted = time_ ? "that says whose each spike is; one is to be called unit, afferent or channel"
+                                  : "of spike times; one is to be called time_s (or time, t [ms] ...)";
+        return at(fmt::format("no column {}; there are {}", wanted, fmt::join(names, ", ")));
     }
 
     Result<void> add_row() {
