@@ -17,6 +17,7 @@ constexpr const char* first_steps = R"(First steps:
   corpuscle respond press                                the thesis's experiment through SA-I and FA-I
   corpuscle respond press --report press.html            ... and a page to look at
   corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
+  corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
   corpuscle list                                         every afferent, stimulus and parameter
 
 Exit status: 0 done, 1 bad input, 2 bad usage, 3 did not converge, 130 interrupted.)";
@@ -35,6 +36,23 @@ Examples:
 
 A recording's unit stands in its header (fz_N, "fz [mN]"); say --unit if it does not, or --scale S if what is read
 times S is newtons. Its clock is its time column (name it with --time), or --rate.)";
+
+constexpr const char* compare_examples =
+    R"(A is the reference: a spike of A without a match in B is missing, one of B without a match in A is extra. Files are
+spikes.csv or spikes.npz of 'corpuscle respond', or any CSV with a header that has a column time_s and, to tell trains
+apart, a column unit (or afferent, channel). Trains that are called the same are compared. A NAME is that of an afferent
+or unit, that of a channel, or both: sa1,fz.
+
+Examples:
+  corpuscle compare yesterday/spikes.csv today/spikes.csv
+  corpuscle compare a/spikes.csv b/spikes.csv --pair sa1=sa1-kim      one afferent with another, on every channel
+  corpuscle compare a/spikes.csv b/spikes.csv --pair fz=fz_abs        one channel with another, every afferent
+  corpuscle compare a/spikes.csv --pair sa1=sa1-kim                   two trains of one file
+  corpuscle compare recorded.csv answer/spikes.npz --pair 11=sa1,fz --window 2ms --json
+
+Matched are the spikes that the Victor-Purpura distance moves at a cost of 2 a window: closest first, none crossed. That
+distance at --cost is the least sum of 1 a spike removed or added and --cost a second moved; a spike = that over all spikes,
+0 to 1. The van Rossum distance is scaled so that one extra spike counts 1.)";
 
 void add_common(CLI::App& verb, Common& common) {
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
@@ -105,6 +123,11 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     verb.add_option("--resample", w.resample, "interpolate a recording to this rate")->type_name("FREQUENCY")->group("Recordings");
     verb.add_option("--out,-o", w.out, "write spikes.csv and summary.json into this directory")->type_name("DIR")->group("Output");
     verb.add_flag("--traces", w.traces, "write traces.csv there, too: force, currents, membranes")->group("Output");
+    verb.add_option("--bin", w.bin, "write psth.csv there, too: spikes and rate in even bins of this length")
+        ->type_name("TIME")
+        ->group("Output");
+    verb.add_flag("--npz", w.npz, "write spikes.npz there, too: exact times for NumPy and SpikeInterface")->group("Output");
+    verb.add_flag("--wav", w.wav, "write spikes.wav there, too: a click a spike, to listen to")->group("Output");
     auto* report = verb.add_option("--report", w.report_file, "write a page to look at (report.html, in --out's directory if there is one)")
                        ->expected(0, 1)
                        ->type_name("[FILE.html]")
@@ -115,6 +138,22 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         // "--report press": the word is no page, so it is one of the forces.
         if (!w.report_file.empty() && !w.report_file.ends_with(".html")) w.forces.push_back(std::exchange(w.report_file, ""));
     });
+}
+
+void add_compare(CLI::App& app, CompareWords& w, Common& common) {
+    auto& verb = *app.add_subcommand("compare", "two files of spikes -> what matches, how far apart, what is missing or extra");
+    verb.footer(compare_examples);
+    verb.add_option("FILES", w.files, "A and B, files of spikes: CSV or NPZ; or one file, with --pair")->expected(1, 2)->type_name("A [B]");
+    verb.add_option("--pair,-p", w.pairs, "what is called A-NAME in the first file is B-NAME in the second (repeat for more)")
+        ->allow_extra_args(false)
+        ->type_name("A-NAME=B-NAME");
+    verb.add_flag("--by-order", w.by_order, "whatever they are called: the first train of A with the first of B, and so on");
+    verb.add_option("--window", w.window, "spikes closer than this may match")->capture_default_str()->type_name("TIME");
+    verb.add_option("--cost", w.cost, "of the Victor-Purpura distance: of moving a spike, per second")
+        ->capture_default_str()
+        ->type_name("FREQUENCY");
+    verb.add_option("--tau", w.tau, "time constant of the van Rossum distance")->capture_default_str()->type_name("TIME");
+    add_common(verb, common);
 }
 
 void add_list(CLI::App& app, ListWords& w, Common& common) {
@@ -130,6 +169,7 @@ int main(int argc, char** argv) {
     Common common;
     common.command = quoted(argc, argv);
     RespondWords respond_words;
+    CompareWords compare_words;
     ListWords list_words;
 
     CLI::App app(about, "corpuscle");
@@ -137,6 +177,7 @@ int main(int argc, char** argv) {
     app.footer(first_steps);
     app.require_subcommand(1);
     add_respond(app, respond_words, common);
+    add_compare(app, compare_words, common);
     add_list(app, list_words, common);
     try {
         app.parse(argc, argv);
@@ -147,7 +188,9 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        return app.got_subcommand("list") ? list(list_words, common) : respond(respond_words, common);
+        return app.got_subcommand("list")      ? list(list_words, common)
+               : app.got_subcommand("compare") ? compare(compare_words, common)
+                                               : respond(respond_words, common);
     } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory
         return fail(bad_input(e.what()));
     }

@@ -12,7 +12,10 @@
 #include "report/report.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
-#include "study/files.hpp"
+#include "study/bins_file.hpp"
+#include "study/clicks_file.hpp"
+#include "study/npz_file.hpp"
+#include "study/stale.hpp"
 #include "study/summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -174,9 +177,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     return job;
 }
 
-std::string cell(const Measure& m, double x) {
-    return std::isnan(x) ? "-" : m.of == spike_count ? fmt::format("{:.0f}", x) : fmt::format("{:.1f}", x);
-}
+std::string cell(const Measure& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
 
 /// A line an input: what was answered, so that a wrong unit or clock is seen.
 std::string inputs_table(const Summary& summary) {
@@ -195,13 +196,14 @@ std::string rate_table(const Summary& summary) {
     for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[0];
     const bool all = summary.rows().size() <= most_rows_in_full;
     std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
-    for (const auto& m : measures) rows[0].push_back(m.unit.empty() ? std::string(m.title) : fmt::format("{} ({})", m.title, m.unit));
+    const auto columns = summary.columns();
+    for (const auto c : columns) rows[0].push_back(heading(measures[c]));
     std::size_t more = 0;
     for (const auto& r : summary.rows()) {
         if (!all && spikes[{r.afferent, r.channel}] == 0) continue;
         if (rows.size() > most_rows && ++more) continue;
         rows.push_back({r.afferent, r.channel, r.phase});
-        for (std::size_t m = 0; m < r.values.size(); ++m) rows.back().push_back(cell(measures[m], r.values[m]));
+        for (const auto c : columns) rows.back().push_back(cell(measures[c], r.values[c]));
     }
     auto text = table(rows);
     if (more > 0) text += fmt::format("... and {} rows more; --out writes them all to summary.json\n", more);
@@ -212,36 +214,62 @@ std::string rate_table(const Summary& summary) {
 
 /// The files of one run: made before it, put in their places after it.
 class Outputs {
-    std::optional<SpikesFile> spikes_;
-    std::optional<TracesFile> traces_;
+    std::string directory_;
+    std::vector<std::unique_ptr<WrittenFile>> files_;
     std::optional<Report> report_;
     std::optional<OutputFile> summary_file_, report_file_;
-    std::vector<std::string> paths_;
-
-    Result<OutputFile> create(const std::string& path) {
-        paths_.push_back(path);
-        return OutputFile::create(path);
-    }
+    std::vector<std::string> removed_;
 
     static Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
         if (auto ok = file->write(text); !ok) return ok;
         return file->commit();
     }
 
+    template <class F, class... A>
+    Result<void> add(const char* name, A... how) {
+        auto file = OutputFile::create(directory_ + "/" + name);
+        if (!file) return file.error();
+        files_.push_back(std::make_unique<F>(std::move(*file), how...));
+        return {};
+    }
+
+    Result<void> open_directory(const RespondWords& w, std::optional<double> bin) {
+        if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
+        if (w.npz)
+            if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
+        if (bin)
+            if (auto ok = add<BinsFile>("psth.csv", *bin); !ok) return ok;
+        if (w.wav) files_.push_back(std::make_unique<ClicksFile>(directory_));
+        if (w.traces) files_.push_back(std::make_unique<TracesFile>(directory_));
+        auto summary = OutputFile::create(directory_ + "/summary.json");
+        if (!summary) return summary.error();
+        summary_file_ = std::move(*summary);
+        return {};
+    }
+
+    std::vector<std::string> paths() const {
+        std::vector<std::string> all;
+        for (const auto& file : files_)
+            for (auto& path : file->paths()) all.push_back(std::move(path));
+        if (summary_file_) all.push_back(summary_file_->path());
+        if (report_file_) all.push_back(report_file_->path());
+        return all;
+    }
+
 public:
     Result<void> open(const RespondWords& w) {
-        if (w.traces && w.out.empty()) return bad_usage("--traces needs --out DIR to write into");
-        if (!w.out.empty()) {
-            auto spikes = create(w.out + "/spikes.csv");
-            if (!spikes) return spikes.error();
-            spikes_.emplace(std::move(*spikes));
-            auto summary = create(w.out + "/summary.json");
-            if (!summary) return summary.error();
-            summary_file_ = std::move(*summary);
-            if (w.traces) traces_.emplace(w.out);
-        }
+        const std::pair<const char*, bool> words[] = {
+            {"--traces", w.traces}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
+        for (const auto& [word, said] : words)
+            if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
+        const auto bin = quantity(w.bin, "s", "--bin");
+        if (!bin) return bin.error();
+        if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
+        directory_ = w.out;
+        if (!w.out.empty())
+            if (auto ok = open_directory(w, *bin); !ok) return ok;
         if (!w.report) return {};
-        auto page = create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
+        auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
         if (!page) return page.error();
         report_file_ = std::move(*page);
         report_.emplace();
@@ -249,28 +277,34 @@ public:
     }
 
     void listen(std::vector<Listener*>& listeners) {
-        if (spikes_) listeners.push_back(&*spikes_);
-        if (traces_) listeners.push_back(&*traces_);
+        for (auto& file : files_) listeners.push_back(&*file);
         if (report_) listeners.push_back(&*report_);
+    }
+
+    /// What is written into the directory, by name.
+    std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        for (const auto& path : paths())
+            if (!directory_.empty() && path.starts_with(directory_ + "/") && path.find('/', directory_.size() + 1) == path.npos)
+                all.push_back(std::filesystem::path(path).filename().string());
+        return all;
     }
 
     Result<void> commit(const Summary& summary, const Job& job, const std::string& document, const std::string& command) {
         if (report_)
             if (auto ok = put(report_file_, report_->page(summary, job.afferents, command, job.warnings)); !ok) return ok;
-        if (traces_) {
-            if (auto ok = traces_->commit(); !ok) return ok;
-            for (const auto& path : traces_->paths()) paths_.push_back(path);
-        }
-        if (spikes_) {
-            if (auto ok = spikes_->commit(); !ok) return ok;
-            if (auto ok = put(summary_file_, document); !ok) return ok;
-        }
-        return {};
+        for (auto& file : files_)
+            if (auto ok = file->commit(); !ok) return ok;
+        if (!summary_file_) return {};
+        removed_ = remove_stale(directory_, names());
+        return put(summary_file_, document);
     }
 
     std::string told() const {
-        return paths_.empty() ? "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n"
-                              : fmt::format("Written: {}\n", fmt::join(paths_, ", "));
+        const auto all = paths();
+        if (all.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
+        const auto gone = removed_.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed_, ", "));
+        return fmt::format("Written: {}\n{}", fmt::join(all, ", "), gone);
     }
 };
 
@@ -314,9 +348,9 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (work->capped_steps > 0)
         warn(*job, fmt::format("{} steps would have held more than {} spikes and were cut short; raise the rate, or the threshold",
                                work->capped_steps, spikes_a_step));
-    const auto document = summary.document(job->afferents, *work, job->options, w.seed, job->warnings)
-                              .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-                          "\n";  // a name may hold any bytes
+    auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
+    answer["files"] = outputs.names();
+    const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes
     if (auto ok = outputs.commit(summary, *job, document, common.command); !ok) return ok;
     if (common.json)
         fmt::print("{}", document);

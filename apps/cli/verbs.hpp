@@ -14,13 +14,19 @@ struct Common {
 
 struct RespondWords {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, bin;
     std::vector<std::string> notch;
     std::string layout;
     std::string method = "exact";
-    bool sampled = false, absolute = false, traces = false, report = false;
+    bool sampled = false, absolute = false, traces = false, report = false, npz = false, wav = false;
     std::string out, report_file;
     std::uint64_t seed = 0;
+};
+
+struct CompareWords {
+    std::vector<std::string> files, pairs;
+    bool by_order = false;
+    std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
 
 struct ListWords {
@@ -28,6 +34,7 @@ struct ListWords {
 };
 
 int respond(const RespondWords&, const Common&);
+int compare(const CompareWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle

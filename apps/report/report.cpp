@@ -40,10 +40,11 @@ Json level(const AfferentPlan& plan, std::string_view name) {
 
 Json table_document(const Summary& summary) {
     Json columns = {"afferent", "channel", "phase"}, rows = Json::array();
-    for (const auto& m : measures) columns.push_back(m.unit.empty() ? std::string(m.title) : fmt::format("{} ({})", m.title, m.unit));
+    const auto told = summary.columns();
+    for (const auto m : told) columns.push_back(heading(measures[m]));
     for (const auto& r : summary.rows()) {
         Json row = {r.afferent, r.channel, r.phase};
-        for (const double x : r.values) row.push_back(std::isfinite(x) ? Json(x) : Json(nullptr));
+        for (const auto m : told) row.push_back(std::isfinite(r.values[m]) ? Json(r.values[m]) : Json(nullptr));
         rows.push_back(std::move(row));
     }
     return {{"columns", columns}, {"rows", rows}};

@@ -28,6 +28,8 @@ public:
     /// Puts the file in its place; refuses if a byte could not be written.
     Result<void> commit();
     const std::string& path() const { return path_; }
+    /// For a library that writes into a file that is open.
+    std::FILE* stream() { return file_; }
 };
 
 }  // namespace corpuscle

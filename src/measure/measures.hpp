@@ -1,51 +1,61 @@
 #pragma once
-// Spikes to numbers. A measure is one function of a train and a phase; each is a column in summary, table and report.
+// Spikes to numbers. A new measure: its struct in a file here, and its name in the list; it is then a column in summary, table and
+// report. Measures take spikes as they come and keep a few numbers each, however long the train.
 
-#include <limits>
 #include <span>
-#include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "signal/source.hpp"
+#include "measure/adaptation.hpp"
+#include "measure/latency.hpp"
+#include "measure/locking.hpp"
+#include "measure/rates.hpp"
+#include "measure/regularity.hpp"
 
 namespace corpuscle {
 
-/// A train of spike times (s, in order) and the phase that is measured, [phase.from, phase.to).
-struct Stretch {
-    std::span<const double> train;
-    std::size_t begin, end;  ///< of the phase's spikes in the train
-    Phase phase;
+template <class... M>
+struct MeasureList {
+    using Held = std::tuple<M...>;
+    static constexpr Measure rows[] = {M::row...};
+};
+using Measures = MeasureList<SpikeCount, MeanRate, PeakRate, FirstRate, LastRate, Latency, AdaptationRatio, IntervalVariation,
+                             VectorStrength, Entrainment>;
 
-    Stretch(std::span<const double> train, const Phase& phase);
-    std::size_t count() const { return end - begin; }
-    /// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), drawn at t[k] (3.3); the last spike of all has none.
-    /// Two spikes on one sample have none, either.
-    double rate_at(std::size_t k) const {
-        const double interval = train[k + 1] - train[k];
-        return interval > 0 ? 1 / interval : std::numeric_limits<double>::quiet_NaN();
+inline constexpr auto& measures = Measures::rows;
+
+/// Every measure of every train in every stretch.
+class Tally {
+    struct Train {
+        std::vector<Measures::Held> in;  // each stretch
+        std::size_t at = 0;              // the stretch of the last spike, or the one after it
+        double last = no_value;          // s; none if that spike was in no stretch
+    };
+    std::vector<Stretch> stretches_;
+    std::vector<Train> trains_;
+
+public:
+    /// The stretches are in order of time and do not overlap.
+    explicit Tally(std::vector<Stretch> stretches = {}, std::size_t trains = 0);
+    /// The next spike of a train, at t (s).
+    void spike(std::size_t train, double t);
+    /// An end that was not known is here.
+    void end(double t);
+    /// A value for each of `measures`.
+    std::vector<double> values(std::size_t train, std::size_t stretch) const;
+    template <class M>
+    double value(std::size_t train, std::size_t stretch) const {
+        return std::get<M>(trains_[train].in[stretch]).value(stretches_[stretch]);
     }
 };
 
-struct Measure {
-    std::string_view name;   ///< in files: "peak_rate"
-    std::string_view title;  ///< for people: "peak rate"
-    std::string_view unit, sentence;
-    double (*of)(const Stretch&);  ///< NaN where it has no meaning
-};
-
-double spike_count(const Stretch&);
-double mean_rate(const Stretch&);
-double peak_rate(const Stretch&);
-double first_rate(const Stretch&);
-double last_rate(const Stretch&);
-
-inline constexpr Measure measures[] = {
-    {"spikes", "spikes", "", "spikes in the phase", spike_count},
-    {"mean_rate", "mean", "Hz", "spikes in the phase over its length", mean_rate},
-    {"peak_rate", "peak", "Hz", "highest instantaneous frequency at a spike of the phase", peak_rate},
-    {"first_rate", "first", "Hz", "instantaneous frequency at the phase's first spike", first_rate},
-    {"last_rate", "last", "Hz", "last instantaneous frequency between two spikes of the phase", last_rate},
-};
+/// One measure of a train that is at hand whole: measure<PeakRate>(train, {0.25, 0.375}).
+template <class M>
+double measure(std::span<const double> train, const Stretch& stretch) {
+    Tally tally({stretch}, 1);
+    for (const double t : train) tally.spike(0, t);
+    return tally.value<M>(0, 0);
+}
 
 /// The instantaneous frequencies of a train, one fewer than its spikes; Hz.
 std::vector<double> instantaneous_rates(std::span<const double> train);

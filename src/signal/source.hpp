@@ -69,6 +69,8 @@ public:
     /// How much of it has been read, 0 to 1; for progress.
     virtual double done() const = 0;
     virtual std::vector<Phase> phases() const { return {}; }
+    /// How often it repeats itself, Hz; 0 if it does not.
+    virtual double cycle() const { return 0; }
     /// What it is, in a few words.
     virtual std::string sentence() const = 0;
     virtual std::vector<Fact> facts() const { return {}; }

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace corpuscle {
 namespace {
 
 /// One member of a sum, its type forgotten.
 struct Shape {
-    double duration = 0;
+    double duration = 0, cycle = 0;
     std::vector<Phase> phases;
     std::function<double(double)> at;
 };
@@ -21,7 +22,9 @@ Shape shape_of(std::span<const Setting> settings, std::uint64_t seed) {
     S s;
     s.p = with<typename S::Params>(S::fields, settings);
     if constexpr (requires { s.seed; }) s.seed = seed;
-    return {s.duration(), s.phases(), [s](double t) { return s.at(t); }};
+    double cycle = 0;
+    if constexpr (requires { s.cycle(); }) cycle = s.cycle();
+    return {s.duration(), cycle, s.phases(), [s](double t) { return s.at(t); }};
 }
 
 template <class... S>
@@ -83,6 +86,13 @@ public:
             return phases;
         }
         return {};
+    }
+    /// Of the one member that has a cycle; two have none in common.
+    double cycle() const override {
+        double found = 0;
+        for (const auto& s : shapes_)
+            if (s.cycle > 0 && std::exchange(found, s.cycle) > 0) return 0;
+        return found;
     }
     Result<void> read(Frames& block) override {
         block.count = std::min<std::size_t>(block.capacity, static_cast<std::size_t>(samples_ - next_));

@@ -2,25 +2,25 @@
 
 #include <iterator>
 
-namespace corpuscle {
-namespace {
+#include "io/spikes.hpp"
 
-/// A name as a field of a CSV file.
-std::string field(const std::string& name) {
-    if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-    std::string quoted = "\"";
-    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
+namespace corpuscle {
+
+std::vector<std::string> unit_names(const Input& input) {
+    std::vector<std::string> names;
+    for (std::size_t u = 0; u < input.units(); ++u)
+        names.push_back(csv_field(input.afferent_of(u).name) + "," + csv_field(input.channel_name(input.channel_of(u))));
+    return names;
 }
 
-}  // namespace
+std::string numbered(const std::string& directory, std::string_view name, std::string_view extension, std::size_t index) {
+    return fmt::format("{}/{}{}{}", directory, name, index == 0 ? "" : fmt::format("-{}", index + 1), extension);
+}
 
 SpikesFile::SpikesFile(OutputFile file) : file_(std::move(file)) { (void)file_.write("afferent,channel,time_s\n"); }
 
 Result<void> SpikesFile::begin(const Input& input) {
-    names_.clear();
-    for (std::size_t u = 0; u < input.units(); ++u)
-        names_.push_back(field(input.afferent_of(u).name) + "," + field(input.channel_name(input.channel_of(u))));
+    names_ = unit_names(input);
     return {};
 }
 
@@ -33,14 +33,14 @@ Result<void> SpikesFile::block(const Input& input, const Answered& answered) {
 }
 
 Result<void> TracesFile::begin(const Input& input) {
-    auto file = OutputFile::create(directory_ + (input.index == 0 ? "/traces.csv" : fmt::format("/traces-{}.csv", input.index + 1)));
+    auto file = OutputFile::create(numbered(directory_, "traces", ".csv", input.index));
     if (!file) return file.error();
     std::string header = "time_s";
-    for (std::size_t c = 0; c < input.source.channels().size(); ++c) header += "," + field(input.channel_name(c) + "_N");
+    for (std::size_t c = 0; c < input.source.channels().size(); ++c) header += "," + csv_field(input.channel_name(c) + "_N");
     for (std::size_t u = 0; u < input.units(); ++u)
         for (const auto& p : input.probes[u % input.afferents.size()])
-            header += "," + field(fmt::format("{}.{}.{} [{}]", input.afferent_of(u).name, input.channel_name(input.channel_of(u)), p.name,
-                                              p.unit));
+            header += "," + csv_field(fmt::format("{}.{}.{} [{}]", input.afferent_of(u).name, input.channel_name(input.channel_of(u)),
+                                                  p.name, p.unit));
     if (auto ok = file->write(header + "\n"); !ok) return ok;
     files_.push_back(std::move(*file));
     return {};

@@ -8,8 +8,21 @@
 
 namespace corpuscle {
 
+/// Writes files that are put in their places at the end.
+class WrittenFile : public Listener {
+public:
+    virtual std::vector<std::string> paths() const = 0;
+    virtual Result<void> commit() = 0;
+};
+
+/// "sa1,press" of each unit of an input, as the fields of a CSV file.
+std::vector<std::string> unit_names(const Input&);
+
+/// DIR/traces.csv for the first input, DIR/traces-2.csv for the second.
+std::string numbered(const std::string& directory, std::string_view name, std::string_view extension, std::size_t index);
+
 /// spikes.csv: afferent,channel,time_s; in order of time, input after input. Times to the nanosecond.
-class SpikesFile final : public Listener {
+class SpikesFile final : public WrittenFile {
     OutputFile file_;
     std::vector<std::string> names_;  // "sa1,press" of each unit of the input at work
     fmt::memory_buffer text_;
@@ -18,22 +31,23 @@ public:
     explicit SpikesFile(OutputFile file);
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const Answered&) override;
-    Result<void> commit() { return file_.commit(); }
+    std::vector<std::string> paths() const override { return {file_.path()}; }
+    Result<void> commit() override { return file_.commit(); }
 };
 
 /// traces.csv: time_s, each channel's force, each afferent's probes on it; a row a sample. A second input makes traces-2.csv ...
-class TracesFile final : public Listener {
+class TracesFile final : public WrittenFile {
     std::string directory_;
     std::vector<OutputFile> files_;
     fmt::memory_buffer text_;
 
 public:
-    std::vector<std::string> paths() const;
     explicit TracesFile(std::string directory) : directory_(std::move(directory)) {}
     bool wants_probes() const override { return true; }
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const Answered&) override;
-    Result<void> commit();
+    std::vector<std::string> paths() const override;
+    Result<void> commit() override;
 };
 
 }  // namespace corpuscle

@@ -60,11 +60,13 @@ Json input_document(const Summary::InputFacts& input) {
 Json row_document(const RateRow& row) {
     Json out = {{"afferent", row.afferent}, {"channel", row.channel}, {"phase", row.phase}};
     for (std::size_t m = 0; m < std::size(measures); ++m)
-        out[key_of(measures[m])] = measures[m].of == spike_count ? Json(static_cast<std::int64_t>(row.values[m])) : number(row.values[m]);
+        out[key_of(measures[m])] = measures[m].decimals == 0 ? Json(static_cast<std::int64_t>(row.values[m])) : number(row.values[m]);
     return out;
 }
 
 }  // namespace
+
+std::string heading(const Measure& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
 Result<void> Summary::begin(const Input& input) {
     InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.remarks(), input.source.facts(), INFINITY,
@@ -72,9 +74,12 @@ Result<void> Summary::begin(const Input& input) {
     for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
     facts.sensors = input.source.channels();
     inputs_.push_back(std::move(facts));
-    trains_.assign(input.units(), {});
     since_start_ = input.source.clock();
     since_start_.t0 = 0;  // the digits of a time since 1970 would be lost to its seconds
+    std::vector<Stretch> stretches;
+    for (const auto& p : inputs_.back().phases) stretches.push_back({p.from, p.to, input.source.cycle()});
+    if (stretches.empty()) stretches.push_back({.cycle = input.source.cycle()});
+    tally_ = Tally(std::move(stretches), input.units());
     return {};
 }
 
@@ -83,7 +88,7 @@ Result<void> Summary::block(const Input& input, const Answered& answered) {
     for (const auto& channel : answered.force.force)
         for (std::size_t k = 0; k < answered.force.count; ++k)
             facts.least = std::min(facts.least, channel[k]), facts.greatest = std::max(facts.greatest, channel[k]);
-    for (const auto& s : answered.spikes) trains_[s.unit - input.first_unit].push_back(since_start_.time(s.step, s.offset));
+    for (const auto& s : answered.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
     return {};
 }
 
@@ -91,15 +96,19 @@ Result<void> Summary::end(const Input& input, std::int64_t samples) {
     auto& facts = inputs_.back();
     facts.samples = samples;
     facts.quality = input.source.quality();
-    auto phases = facts.phases;
-    if (phases.empty()) phases = {{"all", 0, since_start_.time(samples)}};
+    tally_.end(since_start_.time(samples));
     for (std::size_t u = 0; u < input.units(); ++u)
-        for (const auto& phase : phases) {
-            RateRow row{input.afferent_of(u).name, facts.channels[input.channel_of(u)], phase.name, {}};
-            for (const auto& m : measures) row.values.push_back(m.of(Stretch(trains_[u], phase)));
-            rows_.push_back(std::move(row));
-        }
+        for (std::size_t p = 0; p < std::max<std::size_t>(facts.phases.size(), 1); ++p)
+            rows_.push_back({input.afferent_of(u).name, facts.channels[input.channel_of(u)],
+                             facts.phases.empty() ? "all" : facts.phases[p].name, tally_.values(u, p)});
     return {};
+}
+
+std::vector<std::size_t> Summary::columns() const {
+    std::vector<std::size_t> told;
+    for (std::size_t m = 0; m < std::size(measures); ++m)
+        if (std::any_of(rows_.begin(), rows_.end(), [m](const RateRow& r) { return std::isfinite(r.values[m]); })) told.push_back(m);
+    return told;
 }
 
 Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work, const RespondOptions& options, std::uint64_t seed,

@@ -16,6 +16,9 @@ struct RateRow {
     std::vector<double> values;
 };
 
+/// A measure as the heading of a column: "peak (Hz)".
+std::string heading(const Measure&);
+
 class Summary final : public Listener {
 public:
     struct InputFacts {
@@ -36,14 +39,16 @@ public:
 
     const std::vector<RateRow>& rows() const { return rows_; }
     const std::vector<InputFacts>& inputs() const { return inputs_; }
+    /// The measures (by number) that have a value in some row: the columns of a table.
+    std::vector<std::size_t> columns() const;
     /// The summary as a document; the same input and options give the same bytes.
     nlohmann::ordered_json document(std::span<const AfferentPlan>, const Work&, const RespondOptions&, std::uint64_t seed,
                                     const std::vector<std::string>& warnings) const;
 
 private:
     std::vector<InputFacts> inputs_;
-    Clock since_start_;                        // of the input at work, its first sample at 0 s
-    std::vector<std::vector<double>> trains_;  // s, by that clock
+    Clock since_start_;  // of the input at work, its first sample at 0 s
+    Tally tally_;        // by that clock
     std::vector<RateRow> rows_;
 };
 

@@ -62,6 +62,53 @@ TEST(Program, WritesWhatIsAskedForTheSameTwice) {
     EXPECT_EQ(first["spikes.csv"].substr(0, 45), "afferent,channel,time_s\nsa1,press,0.319558712");
 }
 
+TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
+    const Folder folder;
+    ASSERT_EQ(run(folder, "respond press noise --out answer --traces --npz --wav --bin 10ms").status, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "psth.csv", "spikes-2.wav", "spikes.csv", "spikes.npz", "spikes.wav",
+                                                        "summary.json", "traces-2.csv", "traces.csv"}));
+    folder.write("answer/notes.txt", "mine");
+    const auto ran = run(folder, "respond press --out answer --npz");
+    EXPECT_NE(ran.out.find("Removed, of an earlier run: psth.csv, spikes.wav, spikes-2.wav, traces.csv, traces-2.csv\n"), std::string::npos)
+        << ran.out;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "notes.txt", "spikes.csv", "spikes.npz", "summary.json"}));
+}
+
+TEST(Program, CompareTellsWhatMatches) {
+    const Folder folder;
+    ASSERT_EQ(run(folder, "respond press --afferent sa1,fa1,sa1-kim --npz --out a").status, 0);
+    ASSERT_EQ(run(folder, "respond press --set sa1.f_B=20.1Hz --out b").status, 0);
+    const auto same = Json::parse(run(folder, "compare a/spikes.npz a/spikes.csv --json").out);
+    EXPECT_EQ(same["total"]["spikes_a"], 39);
+    EXPECT_EQ(same["total"]["matched"], 39);
+    EXPECT_LE(same["total"]["largest_s"], 0.51e-9) << "CSV is rounded to the nanosecond";
+    const auto text = run(folder, "compare a/spikes.csv b/spikes.csv");
+    EXPECT_EQ(text.status, 0) << text.err;
+    EXPECT_NE(text.out.find("sa1-kim,press  -            16     0        0       16      0             -         -           16.00"),
+              std::string::npos)
+        << text.out;
+    EXPECT_NE(text.out.find("Matched within 5 ms; Victor-Purpura at 100 a second; van Rossum with 10 ms."), std::string::npos);
+    const auto two = Json::parse(run(folder, "compare a/spikes.csv --pair sa1=sa1-kim --window 1s --json").out);
+    EXPECT_EQ(two["pairs"].size(), 1U);
+    EXPECT_EQ(two["pairs"][0]["b"], "sa1-kim,press");
+    EXPECT_EQ(two["total"]["extra"], 1);
+    const auto other = run(folder, "compare a/spikes.csv b/spikes.csv --pair sa1=sa2");
+    EXPECT_EQ(other.status, 2);
+    EXPECT_EQ(other.err, "corpuscle: --pair sa1=sa2: no train of the second file is called 'sa2'; there are fa1,press; sa1,press\n");
+}
+
+TEST(Program, CompareReadsTheSpikesOfTheElectronicSkin) {
+    const auto motor = test::shared("fbg_eskin_press/motor_spikes_S6_T16.csv"), snn = test::shared("fbg_eskin_press/snn_spikes_S6_T16.csv");
+    CORPUSCLE_NEEDS(motor);
+    const Folder folder;
+    const auto itself = Json::parse(run(folder, "compare '" + motor + "' '" + motor + "' --json").out);
+    EXPECT_EQ(itself["total"]["matched"], 1305);
+    EXPECT_EQ(itself["total"]["victor_purpura"], 0.0);
+    const auto other = run(folder, "compare '" + motor + "' '" + snn + "'");
+    EXPECT_EQ(other.status, 2);
+    EXPECT_NE(other.err.find("no train is called the same in both files: 6; 11; 16 | 243; "), std::string::npos) << other.err;
+}
+
 TEST(Program, ReportAloneGoesWhereItIsToldOrHere) {
     const Folder folder;
     EXPECT_EQ(run(folder, "respond press --report").status, 0);
@@ -127,6 +174,15 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
         {"respond press --scale 2", 2, "--scale is for recordings, and press is a stimulus; --set press.PARAMETER=VALUE changes it"},
+        {"respond press --wav", 2, "--wav needs --out DIR to write into"},
+        {"respond press --bin 0s --out answer", 2, "--bin 0s: a bin is longer than nothing, such as 10ms"},
+        {"respond press --bin 5Hz --out answer", 2, "--bin '5Hz' is a frequency; s is wanted, such as '2 s'"},
+        {"compare", 2, "compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'"},
+        {"compare bad.csv", 2, "compare bad.csv: with what? Name a second file, or two trains of this one: --pair sa1=fa1"},
+        {"compare bad.csv none.csv", 1,
+         "bad.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel; there are 'time_s', 'fz_N'"},
+        {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be longer than nothing"},
+        {"compare bad.csv none.csv --cost=-1", 2, "--cost -1: must be 0 or more"},
         {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be made: Not a directory"},
     };
     for (const auto& c : cases) {

@@ -131,8 +131,8 @@ TEST(Thesis, GoldenCasesAreMet) {
         }
         for (const auto& [name, facts] : g["stats"]["phases"].items()) {
             const auto& ends = golden["conventions"]["phases_s"][name];
-            const Stretch s(right, {name, ends[0], ends[1]});
-            EXPECT_EQ(spike_count(s), facts["count"].get<double>());
+            const Stretch s{ends[0], ends[1]};
+            EXPECT_EQ(measure<SpikeCount>(right, s), facts["count"].get<double>());
             const auto same = [](double made, const nlohmann::json& value) {
                 if (value.is_null()) {
                     EXPECT_TRUE(std::isnan(made));
@@ -140,8 +140,8 @@ TEST(Thesis, GoldenCasesAreMet) {
                     EXPECT_NEAR(made, value.get<double>(), 1e-9);
                 }
             };
-            same(mean_rate(s), facts["mean_rate_Hz"]), same(peak_rate(s), facts["peak_inst_Hz"]);
-            same(first_rate(s), facts["first_inst_Hz"]), same(last_rate(s), facts["last_inst_inside_Hz"]);
+            same(measure<MeanRate>(right, s), facts["mean_rate_Hz"]), same(measure<PeakRate>(right, s), facts["peak_inst_Hz"]);
+            same(measure<FirstRate>(right, s), facts["first_inst_Hz"]), same(measure<LastRate>(right, s), facts["last_inst_inside_Hz"]);
         }
     }
 }
@@ -178,18 +178,19 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
 
 TEST(Thesis, DefaultPressHasTheDescribedPattern) {
     const auto sa1 = train("sa1"), fa1 = train("fa1");
-    const auto of = [](const std::vector<double>& t, double from, double to) { return Stretch(t, {"", from, to}); };
-    EXPECT_NEAR(peak_rate(of(sa1, 0, 1)), 76.0, 0.5);
-    EXPECT_NEAR(first_rate(of(sa1, 0.375, 0.625)), 49, 0.5);
-    EXPECT_NEAR(last_rate(of(sa1, 0.375, 0.625)), 30, 0.5);
-    EXPECT_EQ(of(sa1, 0.625, 0.75).count(), 1U);
-    EXPECT_EQ(of(sa1, 0.75, 1).count(), 0U);
-    const auto plateau = of(sa1, 0.375, 0.625);
-    for (std::size_t k = plateau.begin + 1; k + 1 < plateau.end; ++k)
-        EXPECT_LT(sa1[k] - sa1[k - 1], sa1[k + 1] - sa1[k]) << "the plateau slows down steadily";
-    EXPECT_NEAR(peak_rate(of(fa1, 0.25, 0.5)), 50.5, 0.05);
-    EXPECT_NEAR(peak_rate(of(fa1, 0.625, 1)), 35.7, 0.05);
-    EXPECT_EQ(of(fa1, 0.43, 0.69).count(), 0U);
+    const Stretch plateau{0.375, 0.625};
+    EXPECT_NEAR(measure<PeakRate>(sa1, {0, 1}), 76.0, 0.5);
+    EXPECT_NEAR(measure<FirstRate>(sa1, plateau), 49, 0.5);
+    EXPECT_NEAR(measure<LastRate>(sa1, plateau), 30, 0.5);
+    EXPECT_EQ(measure<SpikeCount>(sa1, {0.625, 0.75}), 1);
+    EXPECT_EQ(measure<SpikeCount>(sa1, {0.75, 1}), 0);
+    for (std::size_t k = 1; k + 1 < sa1.size(); ++k)
+        if (sa1[k - 1] >= plateau.from && sa1[k + 1] < plateau.to) {
+            EXPECT_LT(sa1[k] - sa1[k - 1], sa1[k + 1] - sa1[k]) << "the plateau slows down steadily";
+        }
+    EXPECT_NEAR(measure<PeakRate>(fa1, {0.25, 0.5}), 50.5, 0.05);
+    EXPECT_NEAR(measure<PeakRate>(fa1, {0.625, 1}), 35.7, 0.05);
+    EXPECT_EQ(measure<SpikeCount>(fa1, {0.43, 0.69}), 0);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct Sine {
     Params p;
     double duration() const { return p.duration; }
     std::vector<Phase> phases() const { return {}; }
+    double cycle() const { return p.f; }
     double at(double t) const { return p.F_mean + p.F_amp * num::sin_turns(p.f * t); }
 };
 
@@ -95,6 +96,7 @@ struct Grating {
     Params p;
     double duration() const { return p.duration; }
     std::vector<Phase> phases() const { return {}; }
+    double cycle() const { return p.speed / p.period; }
     double at(double t) const {
         const double ridge = 0.5 * (1 + num::cos_turns(p.speed * t / p.period));
         return p.F_contact + p.F_ridge * (ridge * ridge - 0.375);

@@ -1,0 +1,120 @@
+// corpuscle compare: two files of spikes, train by train.
+
+#include "study/compare.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "signal/quantity.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<CompareOptions> options_of(const CompareWords& w) {
+    CompareOptions options{.pairs = w.pairs, .by_order = w.by_order};
+    for (const auto& [text, unit, word, to] : {std::tuple{&w.window, "s", "--window", &options.window},
+                                               {&w.cost, "Hz", "--cost", &options.cost},
+                                               {&w.tau, "s", "--tau", &options.tau}}) {
+        const auto value = parse_quantity(*text, unit);
+        if (!value) return bad_usage(fmt::format("{} {}", word, value.error().sentence));
+        if (!(*value > 0) && !(to == &options.cost && *value == 0))
+            return bad_usage(fmt::format("{} {}: must be {}", word, *text, to == &options.cost ? "0 or more" : "longer than nothing"));
+        *to = *value;
+    }
+    return options;
+}
+
+Json document_of(const Difference& d) {
+    const auto seconds = [&](double x) { return d.matched > 0 ? Json(x) : Json(nullptr); };
+    return {{"spikes_a", d.in_a},
+            {"spikes_b", d.in_b},
+            {"matched", d.matched},
+            {"missing", d.missing()},
+            {"extra", d.extra()},
+            {"largest_s", seconds(d.largest)},
+            {"rms_s", seconds(d.rms())},
+            {"victor_purpura", d.victor_purpura},
+            {"victor_purpura_per_spike", d.per_spike()},
+            {"van_rossum", d.van_rossum()}};
+}
+
+std::string document(const CompareOptions& options, const std::vector<Difference>& all, const Difference& total) {
+    Json out = {{"window_s", options.window}, {"cost_Hz", options.cost}, {"tau_s", options.tau}};
+    out["pairs"] = Json::array();
+    for (const auto& d : all) {
+        Json row = {{"a", d.a}, {"b", d.b}};
+        row.update(document_of(d));
+        out["pairs"].push_back(std::move(row));
+    }
+    out["total"] = document_of(total);
+    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> line_of(const Difference& d, const std::string& a, const std::string& b) {
+    const auto milliseconds = [&](double x) { return d.matched > 0 ? fmt::format("{:.3f}", 1e3 * x) : "-"; };
+    return {a,
+            b,
+            fmt::format("{}", d.in_a),
+            fmt::format("{}", d.in_b),
+            fmt::format("{}", d.matched),
+            fmt::format("{}", d.missing()),
+            fmt::format("{}", d.extra()),
+            milliseconds(d.largest),
+            milliseconds(d.rms()),
+            fmt::format("{:.2f}", d.victor_purpura),
+            fmt::format("{:.3f}", d.per_spike()),
+            fmt::format("{:.2f}", d.van_rossum())};
+}
+
+std::string text(const CompareOptions& options, const std::vector<Difference>& all, const Difference& total) {
+    std::vector<std::vector<std::string>> rows = {
+        {"A", "B", "in A", "in B", "matched", "missing", "extra", "largest (ms)", "RMS (ms)", "Victor-Purpura", "a spike", "van Rossum"}};
+    const auto shown = [](const std::string& name) { return name.empty() ? "-" : name; };
+    for (const auto& d : all) rows.push_back(line_of(d, shown(d.a), shown(d.b)));
+    if (all.size() > 1) rows.push_back(line_of(total, "total", ""));
+    return table(rows) + fmt::format("Matched within {}; Victor-Purpura at {:g} a second; van Rossum with {}.\n",
+                                     format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
+}
+
+Result<void> run(const CompareWords& w, const Common& common) {
+    const auto options = options_of(w);
+    if (!options) return options.error();
+    if (w.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
+    if (w.files.size() == 1 && w.pairs.empty())
+        return bad_usage(fmt::format("compare {}: with what? Name a second file, or two trains of this one: --pair sa1=fa1", w.files[0]));
+    const auto a = read_spikes(w.files.front());
+    if (!a) return a.error();
+    const auto b = w.files.size() == 1 ? a : read_spikes(w.files.back());
+    if (!b) return b.error();
+    const auto pairs = pair_trains(*a, *b, *options);
+    if (!pairs) return pairs.error();
+    std::vector<Difference> all;
+    Difference total;
+    for (const auto& p : *pairs) {
+        if (interrupted()) return Error{Code::interrupted, "interrupted"};
+        const auto difference = compare(p, *options);
+        if (!difference) return difference.error();
+        all.push_back(*difference);
+        total.add(*difference);
+    }
+    if (common.json)
+        fmt::print("{}", document(*options, all, total));
+    else if (!common.quiet)
+        fmt::print("{}", text(*options, all, total));
+    return {};
+}
+
+}  // namespace
+
+int compare(const CompareWords& words, const Common& common) {
+    catch_interrupt();
+    const auto done = run(words, common);
+    return done ? 0 : fail(done.error());
+}
+
+}  // namespace corpuscle

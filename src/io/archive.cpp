@@ -1,0 +1,139 @@
+#include "io/archive.hpp"
+
+#include <fmt/format.h>
+#include <zip.h>
+#include <algorithm>
+#include <array>
+
+namespace corpuscle {
+namespace {
+
+constexpr std::uint16_t first_of_1980 = 1 << 5 | 1;  // day and month: the earliest date that zip knows
+
+struct CloseFile {
+    void operator()(zip_file_t* f) const { zip_fclose(f); }
+};
+
+class MemberBytes final : public Bytes {
+    std::shared_ptr<zip> zip_;
+    std::uint64_t index_, size_, at_ = 0;
+    std::string name_;
+    std::unique_ptr<zip_file_t, CloseFile> file_;
+
+    Error broken(zip_error_t* why) const { return bad_input(fmt::format("cannot be unpacked: {}", zip_error_strerror(why)), {name_}); }
+
+    Result<void> skip(std::uint64_t count) {
+        for (std::array<std::byte, 1 << 16> passed; count > 0;) {
+            const auto piece = std::min<std::uint64_t>(count, passed.size());
+            if (auto ok = read(std::span(passed).first(static_cast<std::size_t>(piece))); !ok) return ok;
+            count -= piece;
+        }
+        return {};
+    }
+
+public:
+    MemberBytes(std::shared_ptr<zip> archive, std::uint64_t index, std::uint64_t size, std::string name)
+        : zip_(std::move(archive)), index_(index), size_(size), name_(std::move(name)) {}
+
+    Result<void> open() {
+        file_.reset();
+        file_.reset(zip_fopen_index(zip_.get(), index_, 0));
+        at_ = 0;
+        return file_ ? Result<void>() : broken(zip_get_error(zip_.get()));
+    }
+
+    const std::string& name() const override { return name_; }
+    std::uint64_t size() const override { return size_; }
+
+    Result<void> read(std::span<std::byte> out) override {
+        while (!out.empty()) {
+            const auto got = zip_fread(file_.get(), out.data(), out.size());
+            if (got < 0) return broken(zip_file_get_error(file_.get()));
+            if (got == 0) return bad_input("ends too early", {name_});
+            at_ += static_cast<std::uint64_t>(got);
+            out = out.subspan(static_cast<std::size_t>(got));
+        }
+        std::byte beyond;  // the checksum is looked at by whoever reads on
+        if (at_ == size_ && zip_fread(file_.get(), &beyond, 1) < 0) return broken(zip_file_get_error(file_.get()));
+        return {};
+    }
+
+    Result<void> seek(std::uint64_t at) override {
+        if (at == at_) return {};
+        if (zip_fseek(file_.get(), static_cast<zip_int64_t>(at), SEEK_SET) == 0) return at_ = at, Result<void>{};  // what is stored
+        if (at < at_)
+            if (auto ok = open(); !ok) return ok;
+        return skip(at - at_);
+    }
+};
+
+}  // namespace
+
+Result<Archive> Archive::open(const std::string& path) {
+    if (auto file = open_bytes(path); !file) return file.error();
+    int code = 0;
+    Archive archive;
+    archive.path_ = path;
+    archive.zip_ = std::shared_ptr<zip>(zip_open(path.c_str(), ZIP_RDONLY, &code), [](zip* z) { z ? zip_discard(z) : void(); });
+    if (!archive.zip_) {
+        zip_error_t error;
+        zip_error_init_with_code(&error, code);
+        const auto why = bad_input(fmt::format("this is no zip archive that can be read: {}", zip_error_strerror(&error)), {path});
+        zip_error_fini(&error);
+        return why;
+    }
+    const auto count = zip_get_num_entries(archive.zip_.get(), 0);
+    for (zip_int64_t k = 0; k < count; ++k) {
+        zip_stat_t about;
+        if (zip_stat_index(archive.zip_.get(), static_cast<zip_uint64_t>(k), 0, &about) != 0 || !(about.valid & ZIP_STAT_SIZE))
+            return bad_input(fmt::format("member {} of the archive cannot be read", k + 1), {path});
+        archive.members_.push_back({about.name, about.size});
+    }
+    return archive;
+}
+
+Result<std::unique_ptr<Bytes>> Archive::bytes(std::size_t member, std::string name) const {
+    auto bytes = std::make_unique<MemberBytes>(zip_, member, members_[member].size, std::move(name));
+    if (auto ok = bytes->open(); !ok) return ok.error();
+    return std::unique_ptr<Bytes>(std::move(bytes));
+}
+
+Result<std::string> make_archive(const std::vector<Packed>& members) {
+    zip_error_t error;
+    zip_error_init(&error);
+    const auto failed = [](zip_error_t* why) {
+        auto told = bad_input(fmt::format("no archive can be made: {}", zip_error_strerror(why)));
+        zip_error_fini(why);
+        return told;
+    };
+    zip_source_t* whole = zip_source_buffer_create(nullptr, 0, 0, &error);
+    zip* archive = whole ? zip_open_from_source(whole, ZIP_CREATE | ZIP_TRUNCATE, &error) : nullptr;
+    if (!archive) return zip_source_free(whole), failed(&error);
+    zip_source_keep(whole);
+    const auto drop = [&] {
+        auto why = bad_input(fmt::format("no archive can be made: {}", zip_strerror(archive)));
+        zip_discard(archive), zip_source_free(whole);
+        return why;
+    };
+    for (const auto& m : members) {
+        zip_source_t* bytes = zip_source_buffer(archive, m.bytes.data(), m.bytes.size(), 0);
+        const auto at = bytes ? zip_file_add(archive, m.name.c_str(), bytes, ZIP_FL_ENC_UTF_8) : -1;
+        if (at < 0) return zip_source_free(bytes), drop();
+        const auto index = static_cast<zip_uint64_t>(at);
+        if (zip_set_file_compression(archive, index, ZIP_CM_STORE, 0) != 0 ||
+            zip_file_set_dostime(archive, index, 0, first_of_1980, 0) != 0)
+            return drop();
+    }
+    if (zip_close(archive) != 0) return drop();
+    std::string out;
+    if (zip_stat_t about; zip_source_stat(whole, &about) == 0 && zip_source_open(whole) == 0) {
+        out.resize(about.size);
+        const auto got = zip_source_read(whole, out.data(), out.size());
+        out.resize(static_cast<std::size_t>(std::max<zip_int64_t>(got, 0)));
+        zip_source_close(whole);
+    }
+    zip_source_free(whole);
+    return out;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+#include <cmath>
+
+#include "io/npz.hpp"
+#include "io/trains.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Ours has the exact times and the units' names beside what SpikeInterface reads.
+class NpzSpikes {
+    NpzReader npz_;
+    std::vector<std::int64_t> ids_;
+    std::vector<std::string> afferents_, channels_;
+    bool ours_ = false;
+    double rate_ = 1;
+    Trains trains_;
+
+    Error wrong(std::string sentence) const { return bad_input(std::move(sentence), {npz_.path()}); }
+
+    Result<void> read_units() {
+        auto ids = npz_.integers("unit_ids");
+        if (!ids) return ids.error();
+        ids_ = std::move(*ids);
+        ours_ = npz_.has("unit_afferent");
+        if (!ours_) return {};
+        auto afferents = npz_.words("unit_afferent"), channels = npz_.words("unit_channel");
+        if (!afferents || !channels) return afferents ? channels.error() : afferents.error();
+        afferents_ = std::move(*afferents), channels_ = std::move(*channels);
+        if (afferents_.size() != ids_.size() || channels_.size() != ids_.size())
+            return wrong(fmt::format("unit_ids names {} units, unit_afferent {} and unit_channel {}", ids_.size(), afferents_.size(),
+                                     channels_.size()));
+        for (std::size_t u = 0; u < ids_.size(); ++u) trains_.of(afferents_[u], channels_[u]);
+        return {};
+    }
+
+    Result<std::vector<double>> times(std::int64_t segment) const {
+        if (ours_) return npz_.numbers(fmt::format("spike_times_seg{}", segment));
+        const auto indexes = npz_.integers(fmt::format("spike_indexes_seg{}", segment));
+        if (!indexes) return indexes.error();
+        std::vector<double> out;
+        for (const auto k : *indexes) out.push_back(static_cast<double>(k) / rate_);
+        return out;
+    }
+
+    std::vector<double>& train(std::size_t unit, std::int64_t segment) {
+        if (ours_) return trains_.of(afferents_[unit], channels_[unit]);
+        return trains_.of(std::to_string(ids_[unit]), segment == 0 ? "" : fmt::format("segment {}", segment + 1));
+    }
+
+    Result<void> read_segment(std::int64_t segment) {
+        const auto labels = npz_.integers(fmt::format("spike_labels_seg{}", segment));
+        if (!labels) return labels.error();
+        const auto when = times(segment);
+        if (!when) return when.error();
+        if (when->size() != labels->size())
+            return wrong(fmt::format("segment {} has {} spikes and {} labels", segment, when->size(), labels->size()));
+        std::map<std::int64_t, std::vector<double>*> of;
+        for (std::size_t u = 0; u < ids_.size(); ++u) of[ids_[u]] = &train(u, segment);
+        for (std::size_t k = 0; k < labels->size(); ++k) {
+            const auto found = of.find((*labels)[k]);
+            if (found == of.end())
+                return wrong(fmt::format("spike {} of segment {} is of a unit {} that unit_ids does not name", k, segment, (*labels)[k]));
+            if (!std::isfinite((*when)[k])) return wrong(fmt::format("spike {} of segment {} is at no finite time", k, segment));
+            found->second->push_back((*when)[k]);
+        }
+        return {};
+    }
+
+public:
+    explicit NpzSpikes(NpzReader npz) : npz_(std::move(npz)) {}
+
+    Result<std::vector<NamedTrain>> read() {
+        if (auto ok = read_units(); !ok) return ok.error();
+        const auto segments = npz_.integers("num_segment");
+        const auto rate = npz_.numbers("sampling_frequency");
+        if (!segments || !rate) return segments ? rate.error() : segments.error();
+        if (segments->size() != 1 || rate->size() != 1 || !((*rate)[0] > 0) || !std::isfinite((*rate)[0]))
+            return wrong("num_segment and sampling_frequency are to be one number each, and a rate positive");
+        rate_ = (*rate)[0];
+        for (std::int64_t s = 0; s < (*segments)[0]; ++s)
+            if (auto ok = read_segment(s); !ok) return ok.error();
+        return std::move(trains_).in_order();
+    }
+};
+
+}  // namespace
+
+Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path) {
+    auto npz = NpzReader::open(path);
+    if (!npz) return npz.error();
+    return NpzSpikes(std::move(*npz)).read();
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,61 @@
+#include "io/spikes.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include "io/trains.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// "ch2" before "ch10": runs of digits by their value, all else by its bytes.
+bool natural_less(std::string_view a, std::string_view b) {
+    const auto digits = [](std::string_view s) { return std::min(s.find_first_not_of("0123456789"), s.size()); };
+    while (!a.empty() && !b.empty()) {
+        auto m = digits(a), n = digits(b);
+        if (m == 0 || n == 0) {
+            if (a[0] != b[0]) return static_cast<unsigned char>(a[0]) < static_cast<unsigned char>(b[0]);
+            m = n = 1;
+        } else {
+            auto x = a.substr(0, m), y = b.substr(0, n);
+            x.remove_prefix(std::min(x.find_first_not_of('0'), m)), y.remove_prefix(std::min(y.find_first_not_of('0'), n));
+            if (x.size() != y.size()) return x.size() < y.size();
+            if (x != y) return x < y;
+            if (m != n) return m < n;
+        }
+        a.remove_prefix(m), b.remove_prefix(n);
+    }
+    return a.size() < b.size();
+}
+
+}  // namespace
+
+std::vector<NamedTrain> Trains::in_order() && {
+    std::vector<NamedTrain> out;
+    for (auto& [name, times] : all_) {
+        std::sort(times.begin(), times.end());
+        out.push_back({name.first, name.second, std::move(times)});
+    }
+    std::stable_sort(out.begin(), out.end(), [](const NamedTrain& a, const NamedTrain& b) {
+        return a.channel == b.channel ? natural_less(a.afferent, b.afferent) : natural_less(a.channel, b.channel);
+    });
+    return out;
+}
+
+std::string csv_field(const std::string& name) {
+    if (name.find_first_of(",;\t\"\r\n") == name.npos && trimmed(name).size() == name.size() && !name.starts_with('#') &&
+        !name.starts_with('%'))
+        return name;
+    std::string quoted = "\"";
+    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+Result<std::vector<NamedTrain>> read_spikes(const std::string& path) {
+    char first[2] = {};
+    std::ifstream(path, std::ios::binary).read(first, 2);
+    return first[0] == 'P' && first[1] == 'K' ? read_npz_spikes(path) : read_text_spikes(path);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,22 @@
+#pragma once
+// The trains of a file while it is read, and the two kinds of file.
+
+#include <map>
+#include <utility>
+
+#include "io/spikes.hpp"
+
+namespace corpuscle {
+
+class Trains {
+    std::map<std::pair<std::string, std::string>, std::vector<double>> all_;
+
+public:
+    std::vector<double>& of(const std::string& afferent, const std::string& channel) { return all_[{afferent, channel}]; }
+    std::vector<NamedTrain> in_order() &&;
+};
+
+Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path);
+Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path);
+
+}  // namespace corpuscle

@@ -1,0 +1,111 @@
+#include "measure/distance.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "signal/elementary.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// What is saved against removing all of one train and adding all of the other: 2 - q |dt| for each move. Row by row over a, only
+/// the columns of b that are worth a move from there: before them nothing changes, behind them the last value holds.
+class Savings {
+    std::span<const double> a_, b_;
+    double q_;
+    std::vector<double> best_;  // best_[j]: of a[0 .. i) and b[0 .. j); known up to known_
+    std::size_t known_ = 0;
+
+public:
+    enum Choice : unsigned char { skip_a, skip_b, move };
+    struct Row {
+        std::size_t from = 0, to = 0;  // the columns of b, [from, to)
+        std::size_t choices = 0;       // where theirs begin
+    };
+
+    Savings(std::span<const double> a, std::span<const double> b, double q) : a_(a), b_(b), q_(q), best_(b.size() + 1) {}
+
+    double saved(std::size_t i, std::size_t j) const { return 2 - q_ * std::abs(a_[i] - b_[j]); }
+
+    std::vector<Row> rows() const {
+        std::vector<Row> all(a_.size());
+        std::size_t from = 0, to = 0, cells = 0;
+        for (std::size_t i = 0; i < a_.size(); ++i) {
+            while (from < b_.size() && b_[from] <= a_[i] && saved(i, from) <= 0) ++from;
+            to = std::max(to, from);
+            while (to < b_.size() && (b_[to] <= a_[i] || saved(i, to) > 0)) ++to;
+            all[i] = {from, to, cells};
+            cells += to - from;
+        }
+        return all;
+    }
+
+    void answer(std::size_t i, const Row& row, std::vector<Choice>* choices) {
+        if (row.from == row.to) return;
+        while (known_ < row.to) best_[known_ + 1] = best_[known_], ++known_;
+        double diagonal = best_[row.from];  // of the row above
+        for (std::size_t j = row.from; j < row.to; ++j) {
+            const double above = best_[j + 1], moved = diagonal + saved(i, j);
+            diagonal = above;
+            const Choice choice = moved > above && moved > best_[j] ? move : above >= best_[j] ? skip_a : skip_b;
+            best_[j + 1] = choice == move ? moved : choice == skip_a ? above : best_[j];
+            if (choices) (*choices)[row.choices + j - row.from] = choice;
+        }
+    }
+
+    double total() const { return best_[known_]; }
+};
+
+Result<Alignment> align(std::span<const double> a, std::span<const double> b, double q, bool with_moves) {
+    Savings savings(a, b, q);
+    const auto rows = savings.rows();
+    const std::size_t cells = rows.empty() ? 0 : rows.back().choices + rows.back().to - rows.back().from;
+    if (cells > (with_moves ? most_candidates() / 4 : most_candidates()))
+        return bad_input(fmt::format("at a cost of {:g} a second, {} and {} spikes are {} pairs within reach of each other; raise the cost",
+                                     q, a.size(), b.size(), cells));
+    std::vector<Savings::Choice> choices(with_moves ? cells : 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) savings.answer(i, rows[i], with_moves ? &choices : nullptr);
+    Alignment out{static_cast<double>(a.size() + b.size()) - savings.total(), {}};
+    if (!with_moves) return out;
+    std::size_t j = b.size();
+    for (std::size_t i = a.size(); i-- > 0;)
+        for (j = std::min(j, rows[i].to); j > rows[i].from;) {
+            const auto choice = choices[rows[i].choices + j - 1 - rows[i].from];
+            if (choice == Savings::skip_a) break;
+            --j;
+            if (choice == Savings::skip_b) continue;
+            out.moved.push_back({i, j});
+            break;
+        }
+    std::reverse(out.moved.begin(), out.moved.end());
+    return out;
+}
+
+}  // namespace
+
+Result<double> victor_purpura(std::span<const double> a, std::span<const double> b, double q) {
+    const auto aligned = align(a, b, q, false);
+    if (!aligned) return aligned.error();
+    return aligned->distance;
+}
+
+Result<Alignment> align(std::span<const double> a, std::span<const double> b, double q) { return align(a, b, q, true); }
+
+double van_rossum_squared(std::span<const double> a, std::span<const double> b, double tau) {
+    // Spikes of a count +1, those of b -1: the sum over all pairs of sign sign e^(-|dt|/tau). `before` is that of a spike with all
+    // that went before it, so each spike adds its own 1 and twice its sign times `before`.
+    double sum = 0, before = 0, last = 0;
+    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+        const bool of_a = j == b.size() || (i < a.size() && a[i] <= b[j]);
+        const double t = of_a ? a[i++] : b[j++], sign = of_a ? 1 : -1;
+        before *= num::exp((last - t) / tau);
+        last = t;
+        sum += 1 + 2 * sign * before;
+        before += sign;
+    }
+    return std::max(sum, 0.0);
+}
+
+}  // namespace corpuscle

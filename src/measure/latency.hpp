@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cmath>
+
+#include "measure/stretch.hpp"
+
+namespace corpuscle {
+
+/// First-spike latency (Johansson & Birznieks 2004, Nat Neurosci 7:170), here from the phase's start: the onset of force in it.
+struct Latency : Deaf {
+    static constexpr Measure row{"latency", "latency", "s", 4, "from the phase's start to its first spike"};
+    double first = no_value;
+    void spike(double t, const Stretch&) {
+        if (std::isnan(first)) first = t;
+    }
+    double value(const Stretch& s) const { return first - s.from; }
+};
+
+}  // namespace corpuscle

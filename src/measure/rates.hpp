@@ -1,0 +1,56 @@
+#pragma once
+// How many, how fast: counts and frequencies.
+
+#include <cmath>
+
+#include "measure/stretch.hpp"
+
+namespace corpuscle {
+
+/// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), drawn at t[k] (3.3). Two spikes on one sample have none.
+inline double rate_between(double from, double to) { return to > from ? 1 / (to - from) : no_value; }
+
+struct SpikeCount : Deaf {
+    static constexpr Measure row{"spikes", "spikes", "", 0, "spikes in the phase"};
+    double count = 0;
+    void spike(double, const Stretch&) { ++count; }
+    double value(const Stretch&) const { return count; }
+};
+
+struct MeanRate : Deaf {
+    static constexpr Measure row{"mean_rate", "mean", "Hz", 1, "spikes in the phase over its length"};
+    double count = 0;
+    void spike(double, const Stretch&) { ++count; }
+    double value(const Stretch& s) const { return s.to > s.from ? count / (s.to - s.from) : no_value; }
+};
+
+struct PeakRate : Deaf {
+    static constexpr Measure row{"peak_rate", "peak", "Hz", 1, "highest instantaneous frequency at a spike of the phase"};
+    double peak = no_value;
+    void interval(double from, double to, bool) {
+        if (const double rate = rate_between(from, to); rate > peak || std::isnan(peak)) peak = rate;
+    }
+    double value(const Stretch&) const { return peak; }
+};
+
+struct FirstRate : Deaf {
+    static constexpr Measure row{"first_rate", "first", "Hz", 1, "instantaneous frequency at the phase's first spike"};
+    bool seen = false;
+    double first = no_value;
+    void interval(double from, double to, bool) {
+        if (!seen) first = rate_between(from, to);
+        seen = true;
+    }
+    double value(const Stretch&) const { return first; }
+};
+
+struct LastRate : Deaf {
+    static constexpr Measure row{"last_rate", "last", "Hz", 1, "last instantaneous frequency between two spikes of the phase"};
+    double last = no_value;
+    void interval(double from, double to, bool inside) {
+        if (inside) last = rate_between(from, to);
+    }
+    double value(const Stretch&) const { return last; }
+};
+
+}  // namespace corpuscle

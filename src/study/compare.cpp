@@ -1,0 +1,140 @@
+#include "study/compare.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "measure/distance.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Trains = std::vector<NamedTrain>;
+
+std::string listed(const Trains& trains) {
+    std::vector<std::string> names;
+    for (const auto& t : trains)
+        if (names.size() < 8) names.push_back(t.name().empty() ? "one without a name" : t.name());
+    return fmt::format("{}{}", fmt::join(names, "; "), names.size() < trains.size() ? " ..." : "");
+}
+
+const NamedTrain* find(const Trains& trains, const std::string& afferent, const std::string& channel) {
+    const auto found =
+        std::find_if(trains.begin(), trains.end(), [&](const NamedTrain& t) { return t.afferent == afferent && t.channel == channel; });
+    return found == trains.end() ? nullptr : &*found;
+}
+
+PairedTrains paired(const NamedTrain* a, const NamedTrain* b) {
+    return {a ? a->name() : "", b ? b->name() : "", a ? &a->times : nullptr, b ? &b->times : nullptr};
+}
+
+std::vector<const NamedTrain*> called(const Trains& trains, const std::string& name) {
+    std::vector<const NamedTrain*> all;
+    for (const auto& t : trains)
+        if (t.name() == name || t.afferent == name || t.channel == name) all.push_back(&t);
+    return all;
+}
+
+/// What in B answers a train of A that goes by `from`, when that is `to` there: the same train with the name changed.
+const NamedTrain* renamed(const Trains& b, const NamedTrain& train, const std::string& from, const std::string& to) {
+    for (const auto& t : b)
+        if (train.name() == from && t.name() == to) return &t;
+    const auto* found = train.afferent == from ? find(b, to, train.channel) : nullptr;
+    return found || train.channel != from ? found : find(b, train.afferent, to);
+}
+
+/// One --pair: the only two trains of these names, or all whose names differ in just this.
+Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text, std::vector<PairedTrains>& out) {
+    const auto equals = text.find('=');
+    if (equals == text.npos) return bad_usage(fmt::format("--pair {}: write A-NAME=B-NAME, such as sa1=sa1-kim", text));
+    const auto from = text.substr(0, equals), to = text.substr(equals + 1);
+    const auto in_a = called(a, from), in_b = called(b, to);
+    for (const auto& [name, found, all, file] : {std::tuple{&from, &in_a, &a, "first"}, std::tuple{&to, &in_b, &b, "second"}})
+        if (found->empty())
+            return bad_usage(
+                fmt::format("--pair {}: no train of the {} file is called '{}'; there are {}", text, file, *name, listed(*all)));
+    if (in_a.size() == 1 && in_b.size() == 1) return out.push_back(paired(in_a[0], in_b[0])), Result<void>();
+    const std::size_t before = out.size();
+    for (const auto* train : in_a)
+        if (const auto* other = renamed(b, *train, from, to)) out.push_back(paired(train, other));
+    if (out.size() > before) return {};
+    return bad_usage(
+        fmt::format("--pair {}: {} trains of the first file and {} of the second are meant, and no two differ in this name "
+                    "only; name one of each, such as --pair '{}={}'",
+                    text, in_a.size(), in_b.size(), in_a[0]->name(), in_b[0]->name()));
+}
+
+/// Trains of one name; those that stand in one file only against silence.
+std::vector<PairedTrains> by_name(const Trains& a, const Trains& b) {
+    std::vector<PairedTrains> out;
+    for (const auto& t : a) out.push_back(paired(&t, find(b, t.afferent, t.channel)));
+    for (const auto& t : b)
+        if (!find(a, t.afferent, t.channel)) out.push_back(paired(nullptr, &t));
+    return out;
+}
+
+/// The --pair that would bring the two together, if they differ in one name.
+std::string proposal(const Trains& a, const Trains& b) {
+    for (const auto& x : a)
+        for (const auto& y : b) {
+            if (x.channel == y.channel && !x.afferent.empty() && !y.afferent.empty())
+                return fmt::format("--pair {}={}", x.afferent, y.afferent);
+            if (x.afferent == y.afferent && !x.channel.empty() && !y.channel.empty())
+                return fmt::format("--pair {}={}", x.channel, y.channel);
+        }
+    return fmt::format("--pair '{}={}'", a[0].name(), b[0].name());
+}
+
+}  // namespace
+
+double Difference::rms() const { return std::sqrt(squares / static_cast<double>(matched)); }
+
+double Difference::van_rossum() const { return std::sqrt(van_rossum_squared); }
+
+double Difference::per_spike() const { return in_a + in_b == 0 ? 0 : victor_purpura / static_cast<double>(in_a + in_b); }
+
+void Difference::add(const Difference& o) {
+    in_a += o.in_a, in_b += o.in_b, matched += o.matched;
+    largest = std::max(largest, o.largest);
+    squares += o.squares, victor_purpura += o.victor_purpura, van_rossum_squared += o.van_rossum_squared;
+}
+
+Result<std::vector<PairedTrains>> pair_trains(const Trains& a, const Trains& b, const CompareOptions& options) {
+    std::vector<PairedTrains> out;
+    if (options.by_order) {
+        if (!options.pairs.empty()) return bad_usage("--by-order and --pair both say who is compared with whom: give one");
+        if (a.size() != b.size())
+            return bad_usage(
+                fmt::format("--by-order: the first file has {} trains, the second {}; --pair A-NAME=B-NAME names those to compare",
+                            a.size(), b.size()));
+        for (std::size_t k = 0; k < a.size(); ++k) out.push_back(paired(&a[k], &b[k]));
+        return out;
+    }
+    for (const auto& text : options.pairs)
+        if (auto ok = add_pairs(a, b, text, out); !ok) return ok.error();
+    if (!options.pairs.empty()) return out;
+    out = by_name(a, b);
+    if (a.empty() || b.empty() || std::any_of(out.begin(), out.end(), [](const auto& p) { return p.in_a && p.in_b; })) return out;
+    if (a.size() == 1 && b.size() == 1) return std::vector{paired(&a[0], &b[0])};
+    return bad_usage(fmt::format("no train is called the same in both files: {} | {}; {} would compare these{}", listed(a), listed(b),
+                                 proposal(a, b), a.size() == b.size() ? ", --by-order takes them all in this order" : ""));
+}
+
+Result<Difference> compare(const PairedTrains& pair, const CompareOptions& options) {
+    static const std::vector<double> silence;
+    const auto &a = pair.in_a ? *pair.in_a : silence, &b = pair.in_b ? *pair.in_b : silence;
+    const auto matched = align(a, b, 2 / options.window);
+    const auto distance = victor_purpura(a, b, options.cost);
+    if (!matched || !distance) return matched ? distance.error() : matched.error();
+    Difference d{pair.a, pair.b, a.size(), b.size(), matched->moved.size()};
+    for (const auto& m : matched->moved) {
+        const double apart = std::abs(b[m.b] - a[m.a]);
+        d.largest = std::max(d.largest, apart);
+        d.squares += apart * apart;
+    }
+    d.victor_purpura = *distance;
+    d.van_rossum_squared = van_rossum_squared(a, b, options.tau);
+    return d;
+}
+
+}  // namespace corpuscle

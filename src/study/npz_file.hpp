@@ -1,0 +1,32 @@
+#pragma once
+// Spikes as NumPy's lists, for SpikeInterface and for exact times.
+
+#include "io/npz.hpp"
+#include "study/files.hpp"
+
+namespace corpuscle {
+
+/// spikes.npz: what SpikeInterface's NpzSortingExtractor reads (unit_ids, num_segment, sampling_frequency, spike_indexes_seg0,
+/// spike_labels_seg0; a segment an input) and, beside it, unit_afferent, unit_channel, and exact times by the clock of the
+/// recording, spike_times_seg0. The indexes count microseconds from the segment's first sample: finer than any nerve, and whole numbers
+/// that people can read. The spikes are kept in memory until the end: a list's length stands before it.
+class NpzFile final : public WrittenFile {
+    OutputFile file_;
+    NpzWriter npz_;
+    std::vector<std::string> afferents_, channels_;  // of each unit of all inputs
+    std::vector<std::int64_t> indexes_, labels_;
+    std::vector<double> times_;  // s
+    std::int64_t segments_ = 0;
+
+public:
+    static constexpr double ticks_per_second = 1e6;
+
+    explicit NpzFile(OutputFile file) : file_(std::move(file)) {}
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const Answered&) override;
+    Result<void> end(const Input&, std::int64_t samples) override;
+    std::vector<std::string> paths() const override { return {file_.path()}; }
+    Result<void> commit() override;
+};
+
+}  // namespace corpuscle

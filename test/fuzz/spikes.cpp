@@ -1,0 +1,58 @@
+// Any bytes as a file of spikes: trains in order with finite times, or an error that names a line that exists; names are read back.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+#include "io/spikes.hpp"
+#include "study/compare.hpp"
+
+using namespace corpuscle;
+
+namespace {
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+void put(const std::string& path, const void* data, std::size_t size) {
+    if (std::FILE* f = std::fopen(path.c_str(), "wb")) {
+        std::fwrite(data, 1, size, f);
+        std::fclose(f);
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::string path = "/tmp/corpuscle-fuzz-spikes-" + std::to_string(::getpid()) + ".csv";
+    static const bool once = [] { return std::atexit([] { std::remove(path.c_str()); }), true; }();
+    (void)once;
+    put(path, data, size);
+    const auto trains = read_spikes(path);
+    if (!trains) {
+        require(!trains.error().sentence.empty());
+        require(trains.error().place.line <= 1 + std::count(data, data + size, '\n'));
+        return 0;
+    }
+    std::string text = "afferent,channel,time_s\n";
+    for (const auto& t : *trains) {
+        require(std::is_sorted(t.times.begin(), t.times.end()));
+        for (const double x : t.times) require(std::isfinite(x));
+        text += csv_field(t.afferent) + "," + csv_field(t.channel) + ",0.5\n";
+    }
+    put(path, text.data(), text.size());
+    const auto again = read_spikes(path);
+    const bool broken = std::any_of(trains->begin(), trains->end(),
+                                    [](const auto& t) { return (t.afferent + t.channel).find_first_of("\r\n") != std::string::npos; });
+    require(broken || (again && again->size() == trains->size()));
+    const auto pairs = pair_trains(*trains, *trains, {});
+    require(bool(pairs));
+    for (const auto& p : *pairs)
+        if (p.in_a->size() < 100) require(compare(p, {})->matched == p.in_a->size());
+    return 0;
+}

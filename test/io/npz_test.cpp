@@ -1,0 +1,93 @@
+// Lists written as NPZ: read back as they were, and the same bytes wherever and whenever they are written.
+
+#include "io/npz.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+
+const std::vector<std::int64_t> whole = {0, -1, std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()};
+const std::vector<double> numbers = {0.1, -0.0, 1e308, INFINITY};
+const std::vector<std::string> words = {"", "fz", "Kraft in \xc2\xb5N", "\xf0\x9f\xa4\x9a"};
+
+std::string written() {
+    NpzWriter npz;
+    npz.add("whole", whole);
+    npz.add("numbers", numbers);
+    npz.add("words", words);
+    return test::sure(npz.bytes());
+}
+
+TEST(Npz, ListsComeBackAsTheyWere) {
+    const Folder folder;
+    const auto npz = test::sure(NpzReader::open(folder.write("x.npz", written())));
+    EXPECT_EQ(npz.names(), (std::vector<std::string>{"whole", "numbers", "words"}));
+    EXPECT_EQ(test::sure(npz.integers("whole")), whole);
+    EXPECT_EQ(test::sure(npz.numbers("numbers")), numbers);
+    EXPECT_TRUE(std::signbit(test::sure(npz.numbers("numbers"))[1]));
+    EXPECT_EQ(test::sure(npz.words("words")), words);
+}
+
+TEST(Npz, AnyListsComeBackAsTheyWere) {
+    EXPECT_TRUE(rc::check("lists of any length", [] {
+        const auto integers = *rc::gen::arbitrary<std::vector<std::int64_t>>();
+        const auto reals = *rc::gen::arbitrary<std::vector<double>>();
+        const auto texts = *rc::gen::container<std::vector<std::string>>(rc::gen::string<std::string>());
+        auto plain = texts;  // NumPy fills words up with zeros, and knows only Unicode
+        for (auto& t : plain) std::erase_if(t, [](char c) { return c == 0 || static_cast<unsigned char>(c) >= 0x80; });
+        NpzWriter npz;
+        npz.add("i", integers);
+        npz.add("r", reals);
+        npz.add("t", plain);
+        const auto path = (std::filesystem::temp_directory_path() / ("corpuscle-npz-" + std::to_string(::getpid()) + ".npz")).string();
+        std::ofstream(path, std::ios::binary) << test::sure(npz.bytes());
+        const auto back = test::sure(NpzReader::open(path));
+        std::filesystem::remove(path);
+        RC_ASSERT(test::sure(back.integers("i")) == integers);
+        RC_ASSERT(test::sure(back.numbers("r")) == reals);
+        RC_ASSERT(test::sure(back.words("t")) == plain);
+    }));
+}
+
+TEST(Npz, TheBytesDoNotDependOnTheClockOrItsZone) {
+    const auto here = written();
+    const std::string zone = std::getenv("TZ") ? std::getenv("TZ") : "";
+    for (const char* other : {"Asia/Kolkata", "America/St_Johns", "Africa/Monrovia", "Pacific/Apia"}) {
+        ::setenv("TZ", other, 1);
+        EXPECT_EQ(written(), here) << other;
+    }
+    ::setenv("TZ", zone.c_str(), 1);
+    EXPECT_EQ(static_cast<unsigned char>(here[12]), 0x21) << "the first of January";
+    EXPECT_EQ(here[13], 0) << "1980";
+}
+
+TEST(Npz, WhatIsNotThereOrOfAnotherKindIsSaid) {
+    const Folder folder;
+    const auto path = folder.write("x.npz", written());
+    const auto npz = test::sure(NpzReader::open(path));
+    EXPECT_TRUE(npz.has("words"));
+    EXPECT_FALSE(npz.has("word"));
+    EXPECT_EQ(npz.words("word").error().text(), path + ": no array 'word'; did you mean 'words'?");
+    EXPECT_EQ(npz.words("whole").error().text(), path + "/whole: '<i8' is no type for words");
+    EXPECT_EQ(npz.integers("numbers").error().text(), path + "/numbers: '<f8' is no type for whole numbers");
+    EXPECT_EQ(test::sure(npz.numbers("whole"))[1], -1) << "whole numbers are numbers";
+    const auto text = folder.write("y.npz", "a,b\n1,2\n");
+    EXPECT_EQ(NpzReader::open(text).error().text(), text + ": this is no zip archive that can be read: Not a zip archive");
+    const auto cut = folder.write("z.npz", written().substr(0, 300));
+    EXPECT_FALSE(NpzReader::open(cut));
+    auto damaged = written();
+    damaged[damaged.find("NUMPY", 200) + 127] ^= 1;  // one bit of the numbers: the archive's checksum tells
+    EXPECT_EQ(test::sure(NpzReader::open(folder.write("d.npz", damaged))).numbers("numbers").error().sentence,
+              "cannot be unpacked: CRC error");
+}
+
+}  // namespace
+}  // namespace corpuscle
