@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "signal/version.hpp"
+#include "study/studies.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -156,6 +157,16 @@ void add_compare(CLI::App& app, CompareWords& w, Common& common) {
     add_common(verb, common);
 }
 
+void add_study(CLI::App& app, StudyWords& w, Common& common) {
+    auto& verb = *app.add_subcommand("study", "what others printed, made again and held against it");
+    std::string known;
+    for (const auto& s : studies) known += fmt::format("\n  {:12} {}", s.name, s.title);
+    verb.footer("Studies:" + known + "\n\nExamples:\n  corpuscle study\n  corpuscle study kim nerve --report studies.html");
+    verb.add_option("NAME", w.names, "which studies (default: all)");
+    verb.add_option("--report", w.report_file, "write a page to look at")->type_name("FILE.html");
+    add_common(verb, common);
+}
+
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
@@ -170,6 +181,7 @@ int main(int argc, char** argv) {
     common.command = quoted(argc, argv);
     RespondWords respond_words;
     CompareWords compare_words;
+    StudyWords study_words;
     ListWords list_words;
 
     CLI::App app(about, "corpuscle");
@@ -178,6 +190,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     add_respond(app, respond_words, common);
     add_compare(app, compare_words, common);
+    add_study(app, study_words, common);
     add_list(app, list_words, common);
     try {
         app.parse(argc, argv);
@@ -189,6 +202,7 @@ int main(int argc, char** argv) {
     }
     try {
         return app.got_subcommand("list")      ? list(list_words, common)
+               : app.got_subcommand("study")   ? study(study_words, common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);
     } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory

@@ -29,12 +29,18 @@ struct CompareWords {
     std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
 
+struct StudyWords {
+    std::vector<std::string> names;
+    std::string report_file;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
 
 int respond(const RespondWords&, const Common&);
 int compare(const CompareWords&, const Common&);
+int study(const StudyWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle

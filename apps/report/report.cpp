@@ -4,19 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets.hpp"
+#include "report/template.hpp"
 #include "signal/version.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-#ifdef __clang__
-constexpr std::string_view compiler = __VERSION__;
-#else
-constexpr std::string_view compiler = "g++ " __VERSION__;
-#endif
 
 Json trace_document(std::uint32_t channel, const Json& afferent, std::string_view part, std::string_view unit, const Envelope& e) {
     return {{"channel", channel},
@@ -67,41 +61,6 @@ Json quality_document(const Summary& summary) {
         }
     }
     return {{"sentences", sentences}, {"columns", columns}, {"rows", rows}};
-}
-
-std::string_view asset(std::string_view name) {
-    for (const auto& a : assets)
-        if (a.name == name) return {a.begin, static_cast<std::size_t>(a.end - a.begin)};
-    return {};
-}
-
-/// JSON that can stand inside a script element: no '<' can end it.
-std::string safe_json(const Json& document) {
-    const auto text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
-    std::string out;
-    out.reserve(text.size());
-    for (const char c : text) c == '<' ? out += "\\u003c" : out += c;
-    return out;
-}
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) c == '<' ? out += "&lt;" : c == '&' ? out += "&amp;" : out += c;
-    return out;
-}
-
-/// The template with each {{name}} replaced once, by a value or by the asset of that name.
-std::string filled(std::string_view text, std::string_view title, std::string_view data) {
-    std::string out;
-    for (;;) {
-        const auto open = text.find("{{"), close = text.find("}}", open);
-        out += text.substr(0, open);
-        if (open == std::string_view::npos || close == std::string_view::npos) return out;
-        const auto name = text.substr(open + 2, close - open - 2);
-        const auto value = name == "title" ? title : name == "data" ? data : asset(name);
-        out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays to be seen
-        text.remove_prefix(close + 2);
-    }
 }
 
 }  // namespace
@@ -196,7 +155,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                            {"table", table_document(summary)},
                            {"quality", quality_document(summary)},
                            {"remarks", remarks},
-                           {"versions", {{"corpuscle", version}, {"compiler", compiler}}}};
+                           {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
     return filled(asset("page.html"), escaped(title), safe_json(document));
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/catalog.hpp"
+#include "signal/source.hpp"
 
 namespace corpuscle {
 

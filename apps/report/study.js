@@ -1,0 +1,101 @@
+"use strict";
+// A page of studies: what was claimed and what was made, then the figures. Drag to zoom, double click for the whole.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const colour = (k) => getComputedStyle(document.documentElement).getPropertyValue(`--series-${k % 8}`).trim();
+const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+function element(host, tag, kind = "", html = "") {
+    const made = document.createElement(tag);
+    if (kind) made.className = kind;
+    made.innerHTML = html;
+    return host.appendChild(made);
+}
+
+const value = (x, unit) => (x === null ? "\u2013" : quantity(x, unit, true));
+
+function allowed({low, high, unit}) {
+    if (low === null && high === null) return "\u2013";
+    if (low === null) return `\u2264 ${value(high, unit)}`;
+    if (high === null) return `\u2265 ${value(low, unit)}`;
+    return low === high ? value(low, unit) : `${value(low, unit)} \u2026 ${value(high, unit)}`;
+}
+
+function claimRow(claim) {
+    const cells = [escaped(claim.what), value(claim.made, claim.unit), value(claim.printed, claim.unit), allowed(claim)];
+    const verdict = `<td class="${claim.verdict === "holds" ? "holds" : "fails"}">${claim.verdict}</td>`;
+    const source = escaped([claim.source, claim.note].filter(Boolean).join("; "));
+    return `<tr>${cells.map((text, k) => `<td${k ? ' class="number"' : ""}>${text}</td>`).join("")}${verdict}<td class="unit">${source}</td></tr>`;
+}
+
+function showClaims(host, claims) {
+    if (!claims.length) return;
+    const head = ["", "made", "printed", "allowed", "", "source"].map((text) => `<th scope="col">${text}</th>`).join("");
+    element(host, "div", "scroll", `<table><thead><tr>${head}</tr></thead><tbody>${claims.map(claimRow).join("")}</tbody></table>`);
+}
+
+/// One row a distinct x, one column a series; what a series does not have there is left open.
+function rowsOf(series, height) {
+    const at = new Map();
+    series.forEach(({x, y, style}, s) => x.forEach((t, k) => {
+        if (!at.has(t)) at.set(t, [t, ...series.map(() => null)]);
+        at.get(t)[s + 1] = style === "raster" ? height - s : y[k];
+    }));
+    return [...at.values()].sort((a, b) => a[0] - b[0]);
+}
+
+/// Logarithms are drawn as such and labelled with what they are of: the chart library's own log axes are for times.
+const logTicks = (lo, hi) => {
+    const ticks = [];
+    for (let decade = Math.floor(lo); decade <= Math.ceil(hi); ++decade)
+        for (const m of [1, 2, 5]) {
+            const v = decade + Math.log10(m);
+            if (v >= lo - 1e-9 && v <= hi + 1e-9) ticks.push({v, label: String(Number((10 ** v).toPrecision(3)))});
+        }
+    return ticks;
+};
+
+function showPlot(host, plot) {
+    const figure = element(host, "figure");
+    element(figure, "figcaption", "", escaped(plot.title));
+    element(figure, "div", "key", plot.series.map(({name}, k) => `<span><span class="chip" style="background: ${colour(k)}"></span>${escaped(name)}</span>`).join(""));
+    const raster = plot.series.every(({style}) => style === "raster");
+    const series = plot.series.map((one) => ({...one, x: plot.log_x ? one.x.map(Math.log10) : one.x, y: plot.log_y ? one.y.map(Math.log10) : one.y}));
+    const rows = rowsOf(series, series.length);
+    if (!rows.length) return;
+    const axis = (label, log, width) => ({axisLabelFontSize: 11, axisLabelWidth: width, ...(log ? {ticker: logTicks} : {})});
+    const labels = plot.series.map(({name}, k) => `${name || "made"}${plot.series.findIndex((one) => one.name === name) === k ? "" : ` (${k + 1})`}`);
+    const chart = new Dygraph(element(figure, "div", "plot"), rows, {
+        labels: [plot.x, ...labels],
+        series: Object.fromEntries(plot.series.map(({style}, k) => [labels[k], {
+            color: colour(k), strokeWidth: style === "line" ? 1.6 : 0, drawPoints: style !== "line", pointSize: style === "raster" ? 4 : 3, connectSeparatedPoints: true,
+            ...(style === "raster" ? {drawPointCallback: tick} : {}),
+        }])),
+        axes: {x: axis(plot.x, plot.log_x, 60), y: {...axis(plot.y, plot.log_y, 56), drawAxis: !raster}},
+        ...(raster ? {valueRange: [0.3, series.length + 0.7]} : {}),
+        xlabel: plot.x, ylabel: plot.y || undefined, xLabelHeight: 16, yLabelWidth: 16,
+        xRangePad: 6, yRangePad: 6, legend: "never", highlightCircleSize: 0,
+        gridLineColor: ink("grid"), axisLineColor: ink("axis"),
+    });
+    (window.charts ||= []).push(chart);
+}
+
+/// A spike in a raster: an upright stroke.
+function tick(chart, name, context, x, y, color) {
+    context.beginPath();
+    context.strokeStyle = color, context.lineWidth = 1.2;
+    context.moveTo(x, y - 9), context.lineTo(x, y + 9);
+    context.stroke();
+}
+
+document.getElementById("title").textContent = data.title;
+document.getElementById("program").textContent = data.program;
+document.getElementById("command").textContent = data.command;
+for (const study of data.studies) {
+    const host = element(document.getElementById("studies"), "section");
+    element(host, "h2", "", `${escaped(study.title)} <small>${escaped(study.question)}</small>`);
+    showClaims(host, study.claims);
+    const plots = element(host, "div", "plots");
+    for (const plot of study.plots) showPlot(plots, plot);
+    for (const note of study.notes) element(host, "p", "", escaped(note));
+}

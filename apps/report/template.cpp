@@ -1,0 +1,51 @@
+#include "report/template.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "assets.hpp"
+
+namespace corpuscle {
+
+std::string_view compiler() {
+#ifdef __clang__
+    return __VERSION__;
+#else
+    return "g++ " __VERSION__;
+#endif
+}
+
+std::string_view asset(std::string_view name) {
+    for (const auto& a : assets)
+        if (a.name == name) return {a.begin, static_cast<std::size_t>(a.end - a.begin)};
+    return {};
+}
+
+std::string safe_json(const nlohmann::ordered_json& document) {
+    const auto text = document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    std::string out;
+    out.reserve(text.size());
+    for (const char c : text) c == '<' ? out += "\\u003c" : out += c;
+    return out;
+}
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) c == '<' ? out += "&lt;" : c == '&' ? out += "&amp;" : out += c;
+    return out;
+}
+
+std::string filled(std::string_view text, std::string_view title, std::string_view data) {
+    std::string out;
+    for (;;) {
+        const auto open = text.find("{{"), close = text.find("}}", open);
+        out += text.substr(0, open);
+        if (open == std::string_view::npos || close == std::string_view::npos) return out;
+        const auto name = text.substr(open + 2, close - open - 2);
+        const auto value = name == "title" ? title : name == "data" ? data : asset(name);
+        out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays to be seen
+        text.remove_prefix(close + 2);
+    }
+}
+
+}  // namespace corpuscle
