@@ -37,7 +37,7 @@ std::vector<NamedTrain> Trains::in_order() && {
         std::sort(times.begin(), times.end());
         out.push_back({name.first, name.second, std::move(times)});
     }
-    std::stable_sort(out.begin(), out.end(), [](const NamedTrain& a, const NamedTrain& b) {
+    std::sort(out.begin(), out.end(), [](const NamedTrain& a, const NamedTrain& b) {
         return a.channel == b.channel ? natural_less(a.afferent, b.afferent) : natural_less(a.channel, b.channel);
     });
     return out;
