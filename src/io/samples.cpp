@@ -116,6 +116,34 @@ bool accessory(const ArrayFacts& a) {
     return names_time(parse_heading(name).name) || (single(a) && (names_rate(name) || a.shape.empty()));
 }
 
+Result<std::size_t> array_called(const std::string& wanted, std::span<const ArrayFacts> arrays, const std::string& path) {
+    std::vector<std::string_view> names;
+    for (const auto& a : arrays) names.push_back(a.name);
+    const auto k = static_cast<std::size_t>(std::find(names.begin(), names.end(), wanted) - names.begin());
+    if (k == names.size())
+        return bad_input(fmt::format("no array '{}'{}; there are: {}", wanted, did_you_mean(wanted, names), listed(arrays)), {path});
+    if (usable(arrays[k])) return k;
+    return bad_input(fmt::format("{}: a recording is numbers in one dimension, or in two: rows and channels", described(arrays[k])),
+                     {path});
+}
+
+Result<std::size_t> only_array(std::span<const ArrayFacts> arrays, const std::string& path) {
+    std::vector<std::size_t> able, likely;
+    std::vector<ArrayFacts> candidates;
+    for (std::size_t k = 0; k < arrays.size(); ++k) {
+        if (!usable(arrays[k])) continue;
+        able.push_back(k);
+        if (!accessory(arrays[k])) likely.push_back(k), candidates.push_back(arrays[k]);
+    }
+    if (likely.size() == 1) return likely[0];
+    if (likely.empty() && able.size() == 1) return able[0];
+    if (!likely.empty())
+        return bad_input(fmt::format("several arrays could be the recording; say which with --dataset NAME: {}", listed(candidates)),
+                         {path});
+    return bad_input(fmt::format("no array that could be the recording: numbers in one or two dimensions; there are: {}", listed(arrays)),
+                     {path});
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Table>> table_of(SamplesResult samples, const std::string& path) {
@@ -129,33 +157,13 @@ std::unique_ptr<Samples> with_times(std::unique_ptr<Samples> times, std::unique_
 }
 
 std::string described(const ArrayFacts& a) {
-    const auto shape = a.shape.empty() ? "a single one" : fmt::format("{}", fmt::join(a.shape, " x "));
+    const auto shape = a.shape.empty() ? "scalar" : fmt::format("{}", fmt::join(a.shape, " x "));
     return fmt::format("{} ({}{})", a.name.empty() ? "the array" : a.name, shape, a.numeric ? "" : ", no numbers");
 }
 
 Result<std::size_t> choose_array(std::span<const ArrayFacts> arrays, const std::optional<std::string>& wanted, const std::string& path) {
     if (arrays.empty()) return bad_input("there is no array in this file", {path});
-    if (wanted) {
-        std::vector<std::string_view> names;
-        for (std::size_t k = 0; k < arrays.size(); ++k) {
-            names.push_back(arrays[k].name);
-            if (arrays[k].name != *wanted) continue;
-            if (usable(arrays[k])) return k;
-            return bad_input(fmt::format("{}: a recording is numbers in one dimension, or in two: rows and channels", described(arrays[k])),
-                             {path});
-        }
-        return bad_input(fmt::format("no array '{}'{}; there are: {}", *wanted, did_you_mean(*wanted, names), listed(arrays)), {path});
-    }
-    std::vector<std::size_t> able, likely;
-    for (std::size_t k = 0; k < arrays.size(); ++k) {
-        if (usable(arrays[k])) able.push_back(k);
-        if (usable(arrays[k]) && !accessory(arrays[k])) likely.push_back(k);
-    }
-    if (likely.size() == 1) return likely[0];
-    if (likely.empty() && able.size() == 1) return able[0];
-    if (able.empty())
-        return bad_input(fmt::format("no array with numbers in one or two dimensions; there are: {}", listed(arrays)), {path});
-    return bad_input(fmt::format("several arrays could be the recording; say which with --dataset NAME: {}", listed(arrays)), {path});
+    return wanted ? array_called(*wanted, arrays, path) : only_array(arrays, path);
 }
 
 bool names_rate(std::string_view name) {
