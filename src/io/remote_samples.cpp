@@ -45,7 +45,7 @@ Result<SamplesFacts> facts_in(Message& m) {
     double rate = 0;
     bool whole = m.get(rows) && m.get(&rate, sizeof rate) && m.get(time) && m.get(columns);
     facts.rows = static_cast<std::int64_t>(rows);
-    if (rate > 0) facts.rate = rate;
+    if (rate != 0) facts.rate = rate;
     if (time > 0) facts.time = time - 1;
     for (std::uint64_t k = 0; whole && k < columns; ++k) {
         Column c;

@@ -38,7 +38,7 @@ public:
     SamplesTable(std::string path, std::unique_ptr<Samples> samples) : path_(std::move(path)), samples_(std::move(samples)) {}
 
     const std::vector<Column>& columns() const override { return facts().columns; }
-    std::optional<double> rate() const override { return facts().rate; }
+    std::optional<double> rate() const override { return facts().rate > 0.0 ? facts().rate : std::nullopt; }
     std::optional<std::size_t> time_column() const override {
         if (facts().time) return facts().time;
         const auto found = std::find_if(columns().begin(), columns().end(), [](const auto& c) { return names_time(c.name); });
@@ -52,7 +52,7 @@ public:
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
         const auto count = static_cast<std::size_t>(std::min(static_cast<std::int64_t>(rows), facts().rows - next_));
         for (auto& column : out) column.resize(count);
-        if (count == 0) return count;
+        if (count == 0 || wanted.empty()) return count;
         if (auto ok = samples_->fetch(next_, count, wanted, out); !ok) return ok.error();
         for (std::size_t i = 0; i < wanted.size(); ++i)
             if (auto ok = check(out[i], wanted[i]); !ok) return ok.error();

@@ -155,6 +155,23 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
     H5Tclose(complex);
 }
 
+std::string seed(const char* name) { return test::read_file(std::string(CORPUSCLE_ROOT "/test/fuzz/seeds/hdf5/") + name).substr(1); }
+
+TEST(Hdf5, AnyDamageIsAnErrorOrIsRead) {
+    const Folder folder;
+    const auto survived = [&](std::string bytes, std::size_t at, int to) {
+        bytes.at(at) = static_cast<char>(to);
+        EXPECT_FALSE(refusal(folder.write("x.h5", bytes), {.rate = 10}).empty()) << at;
+    };
+    const auto sound = seed("latest");
+    ASSERT_EQ(refusal(folder.write("x.h5", sound), {.rate = 10}), "read");
+    for (std::size_t at = 0; at < sound.size(); at += 23) survived(sound, at, ~sound[at]);
+    // Found by changing bytes at random: 1.10.8 reads beyond its memory, and often dies of it, on opening and on reading.
+    auto on_opening = seed("plain"), on_reading = seed("packed");
+    on_opening.at(1485) = '\xff', on_reading.at(3744) = '\xff';
+    for (int k = 0; k < 10; ++k) survived(on_opening, 2175, 97), survived(on_reading, 968, 98);
+}
+
 TEST(Hdf5, SeveralFilesAreOpenAtOnceAndLeaveNoChildren) {
     const Folder folder;
     for (int k = 0; k < 4; ++k) Hdf5File(folder / fmt::format("{}.h5", k)).numbers("/f", {5000}, ramp(5000, k));
