@@ -3,8 +3,11 @@
 
 #include <span>
 
+#include "io/hdf5_table.hpp"
+#include "io/npy_table.hpp"
 #include "io/table.hpp"
 #include "io/text_table.hpp"
+#include "io/wav_table.hpp"
 
 namespace corpuscle {
 
@@ -18,6 +21,11 @@ struct Format {
 inline constexpr Format formats[] = {
     {"text", ".csv .tsv .txt .dat", "numbers in columns: commas, tabs, semicolons or blanks; header or none; decimal point or comma",
      open_text_table},
+    {"npy", ".npy", "NumPy's array: rows and channels, or a structure with a field a column", open_npy_table},
+    {"npz", ".npz", "NumPy's arrays in one file: one of them, with its rate (fs) and times (t)", open_npz_table},
+    {"sound", ".wav .w64 .flac .aif .aiff .au", "a channel a column, with its rate; whole numbers are parts of full scale: say --scale",
+     open_wav_table},
+    {"hdf5", ".h5 .hdf5 .nwb .mat", "a dataset of HDF5: rows and channels, or members; NWB's time series; MATLAB's -v7.3", open_hdf5_table},
 };
 
 }  // namespace corpuscle

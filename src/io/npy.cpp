@@ -129,7 +129,8 @@ Result<NpyHeader> parse_header(std::string_view text, const std::string& name) {
         header.shape.push_back(static_cast<std::uint64_t>(n.number));
     }
     auto fields = parse_fields(*type, header.element);
-    if (!fields || header.element == 0) return bad_input(fmt::format("the type {} in the header is none of NumPy's", header.type), {name});
+    if (!fields || header.element == 0 || header.element > longest_header)
+        return bad_input(fmt::format("the type {} in the header is none of NumPy's", header.type), {name});
     header.fields = *std::move(fields);
     return header;
 }

@@ -28,11 +28,6 @@ bool known_unit(std::string_view s) {
     return std::find(std::begin(words), std::end(words), s) != std::end(words) || parse_unit(s);
 }
 
-bool names_time(std::string_view name) {
-    const auto word = lower(name);
-    return word == "time" || word == "timestamp" || word == "t" || word == "times" || word == "time stamp";
-}
-
 class TextTable final : public Table {
     Lines lines_;
     Dialect dialect_;
@@ -221,6 +216,11 @@ public:
 };
 
 }  // namespace
+
+bool names_time(std::string_view name) {
+    const auto word = lower(name);
+    return word == "time" || word == "timestamp" || word == "t" || word == "times" || word == "timestamps" || word == "time stamp";
+}
 
 Column parse_heading(std::string_view field) {
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})

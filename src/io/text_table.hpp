@@ -14,4 +14,7 @@ Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const Ta
 /// The name and the unit in a header's field.
 Column parse_heading(std::string_view field);
 
+/// Is a column of this name the time?
+bool names_time(std::string_view name);
+
 }  // namespace corpuscle

@@ -1,0 +1,153 @@
+#include "io/hdf5_file.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <memory>
+
+namespace corpuscle::hdf5 {
+namespace {
+
+constexpr std::size_t most_datasets = 10000;                 // looked at, in a file that has more
+constexpr std::size_t chunk_cache = std::size_t{256} << 20;  // bytes
+constexpr std::size_t most_words = 1 << 20;
+
+Id space_of(hid_t dataset) { return {H5Dget_space(dataset), H5Sclose}; }
+
+Id attribute_of(hid_t object, const std::string& name) {
+    return H5Aexists(object, name.c_str()) > 0 ? Id(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose) : Id();
+}
+
+/// Text up to its first zero, without the blanks that may fill it up.
+std::string cut(std::string s) {
+    s.resize(std::min(s.find('\0'), s.size()));
+    return s.substr(0, s.find_last_not_of(' ') + 1);
+}
+
+std::vector<std::string> words_of_any_length(hid_t attribute, hid_t type, hid_t space, std::size_t count) {
+    std::vector<char*> words(count);
+    if (H5Aread(attribute, type, words.data()) < 0) return {};
+    std::vector<std::string> out;
+    for (const char* w : words) out.push_back(w ? cut(w) : "");
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, words.data());
+    return out;
+}
+
+std::vector<std::string> words_of_one_length(hid_t attribute, hid_t type, std::size_t count) {
+    const std::size_t length = H5Tget_size(type);
+    if (length == 0 || length > most_words / count) return {};
+    std::string all(count * length, '\0');
+    if (H5Aread(attribute, type, all.data()) < 0) return {};
+    std::vector<std::string> out;
+    for (std::size_t k = 0; k < count; ++k) out.push_back(cut(all.substr(k * length, length)));
+    return out;
+}
+
+herr_t remember_dataset(hid_t, const char* name, const H5O_info_t* info, void* to) {
+    auto& names = *static_cast<std::vector<std::string>*>(to);
+    if (info->type == H5O_TYPE_DATASET) names.push_back("/" + std::string(name));
+    return names.size() >= most_datasets ? 1 : 0;
+}
+
+}  // namespace
+
+Result<Id> open_file(const std::string& path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(access, false, true);  // reading needs no lock, and some file systems have none
+    if (H5Fis_hdf5(path.c_str()) <= 0) return bad_input("this is no HDF5 file (MATLAB writes one with save -v7.3)", {path});
+    Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+    if (!file) return bad_input("this HDF5 file cannot be opened: damaged, or cut short?", {path});
+    return file;
+}
+
+Id open_dataset(hid_t file, const std::string& name) {
+    const Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    H5Pset_chunk_cache(access, 12421, chunk_cache, 1.0);
+    return {H5Dopen2(file, name.c_str(), access), H5Dclose};
+}
+
+bool is_number(hid_t type) {
+    const auto kind = H5Tget_class(type);
+    return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+std::vector<Member> numeric_members(hid_t type) {
+    std::vector<Member> out;
+    const int count = H5Tget_class(type) == H5T_COMPOUND ? H5Tget_nmembers(type) : 0;
+    for (int k = 0; k < count; ++k) {
+        const auto index = static_cast<unsigned>(k);
+        const Id member(H5Tget_member_type(type, index), H5Tclose);
+        const std::unique_ptr<char, herr_t (*)(void*)> name(H5Tget_member_name(type, index), H5free_memory);
+        if (member && name && is_number(member)) out.push_back({name.get(), index});
+    }
+    if (out.size() == 2 && count == 2 && out[0].name == "r" && out[1].name == "i") return {};  // complex numbers, as h5py writes them
+    return out;
+}
+
+ArrayFacts facts_of(hid_t dataset, std::string name) {
+    ArrayFacts facts{std::move(name), {}, false};
+    const Id type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
+    const int rank = space ? H5Sget_simple_extent_ndims(space) : -1;
+    if (!type || rank < 0 || H5Sget_simple_extent_type(space) == H5S_NULL) return facts;
+    std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+    if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+    facts.shape.assign(shape.begin(), shape.end());
+    facts.numeric = is_number(type) || !numeric_members(type).empty();
+    return facts;
+}
+
+std::vector<ArrayFacts> datasets_in(hid_t file) {
+    std::vector<std::string> names;
+    (void)H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, remember_dataset, &names, H5O_INFO_BASIC);
+    std::vector<ArrayFacts> out;
+    for (const auto& name : names)
+        if (const auto dataset = open_dataset(file, name)) out.push_back(facts_of(dataset, name));
+    return out;
+}
+
+std::optional<double> number_at(hid_t object, const std::string& name) {
+    const auto attribute = attribute_of(object, name);
+    if (!attribute) return {};
+    const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+    double value = 0;
+    if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) return {};
+    return value;
+}
+
+std::vector<std::string> words_at(hid_t object, const std::string& name) {
+    const auto attribute = attribute_of(object, name);
+    if (!attribute) return {};
+    const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+    const auto count = H5Sget_simple_extent_npoints(space);
+    if (H5Tget_class(type) != H5T_STRING || count < 1 || static_cast<std::size_t>(count) > most_words) return {};
+    return H5Tis_variable_str(type) > 0 ? words_of_any_length(attribute, type, space, static_cast<std::size_t>(count))
+                                        : words_of_one_length(attribute, type, static_cast<std::size_t>(count));
+}
+
+std::optional<std::string> text_at(hid_t object, const std::string& name) {
+    auto words = words_at(object, name);
+    return words.size() == 1 ? std::optional(std::move(words[0])) : std::nullopt;
+}
+
+std::vector<std::string> attributes_of(hid_t object) {
+    std::vector<std::string> names;
+    (void)H5Aiterate2(
+        object, H5_INDEX_NAME, H5_ITER_INC, nullptr,
+        [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
+            static_cast<std::vector<std::string>*>(to)->push_back(name);
+            return 0;
+        },
+        &names);
+    return names;
+}
+
+std::optional<double> single_number(hid_t dataset) {
+    const Id type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
+    double value = 0;
+    if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
+        H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0)
+        return {};
+    return value;
+}
+
+}  // namespace corpuscle::hdf5

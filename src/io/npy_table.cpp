@@ -1,0 +1,193 @@
+#include "io/npy_table.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "io/npz.hpp"
+#include "io/samples.hpp"
+#include "io/text_table.hpp"
+
+namespace corpuscle {
+namespace {
+
+class NpySamples final : public Samples {
+    std::unique_ptr<Bytes> bytes_;
+    NpyHeader header_;
+    Extent extent_;
+    std::vector<NpyField> fields_;  // of each column; in an array without structure all are the same one
+    SamplesFacts facts_;
+    std::vector<std::byte> buffer_;
+
+    bool structured() const { return !header_.fields[0].name.empty(); }
+    std::size_t field_of(std::size_t column) const { return structured() ? column : 0; }
+    std::uint64_t element(std::uint64_t number) const { return header_.data_at + number * header_.element; }
+
+    Result<void> read_elements(std::uint64_t first, std::size_t count) {
+        buffer_.resize(count * header_.element);
+        if (auto ok = bytes_->seek(element(first)); !ok) return ok;
+        return bytes_->read(buffer_);
+    }
+
+    /// Every `stride`-th element in the buffer, from number `from` on.
+    void decode(const NpyField& field, std::size_t from, std::size_t stride, std::span<double> out) const {
+        const auto number = field.decoder();
+        const auto* at = buffer_.data() + from * header_.element + field.offset;
+        for (auto& x : out) x = number(at), at += stride * header_.element;
+    }
+
+    Result<void> fetch_columns(std::uint64_t first, std::size_t rows, std::span<const std::size_t> wanted,
+                               std::vector<std::vector<double>>& out) {
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            if (auto ok = read_elements(wanted[i] * extent_.rows + first, rows); !ok) return ok;
+            decode(fields_[0], 0, 1, out[i]);
+        }
+        return {};
+    }
+
+public:
+    NpySamples(std::unique_ptr<Bytes> bytes, NpyHeader header, Extent extent)
+        : bytes_(std::move(bytes)), header_(std::move(header)), extent_(extent) {
+        facts_.rows = static_cast<std::int64_t>(extent_.rows);
+    }
+
+    void name_columns(std::string_view name) {
+        if (!structured()) {
+            fields_ = header_.fields;
+            facts_.columns = columns_named_after(name, static_cast<std::size_t>(extent_.columns));
+        }
+        for (const auto& f : header_.fields)
+            if (structured() && f.numeric()) fields_.push_back(f), facts_.columns.push_back(parse_heading(f.name));
+    }
+    void set_rate(std::optional<double> rate) { facts_.rate = rate; }
+
+    const SamplesFacts& facts() const override { return facts_; }
+
+    Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> wanted,
+                       std::vector<std::vector<double>>& out) override {
+        const auto first = static_cast<std::uint64_t>(start);
+        const auto width = static_cast<std::size_t>(extent_.columns);
+        if (header_.by_columns && width > 1) return fetch_columns(first, rows, wanted, out);
+        const std::size_t most = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element));
+        for (std::size_t done = 0; done < rows; done += most) {
+            const auto count = std::min(most, rows - done);
+            if (auto ok = read_elements((first + done) * width, count * width); !ok) return ok;
+            for (std::size_t i = 0; i < wanted.size(); ++i)
+                decode(fields_[field_of(wanted[i])], structured() ? 0 : wanted[i], width, std::span(out[i]).subspan(done, count));
+        }
+        return {};
+    }
+};
+
+bool has_numbers(const NpyHeader& header) {
+    return std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.numeric(); });
+}
+
+Error no_numbers(const NpyHeader& header, const std::string& name) {
+    const bool pickled = std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; });
+    const bool complex = header.fields[0].kind == 'c';
+    return bad_input(fmt::format("the array holds {} {}", header.type,
+                                 pickled   ? "(Python objects), which are not read: to read them could run any program; save numbers"
+                                 : complex ? "(complex numbers); save the real part, or the magnitude"
+                                           : "and no numbers that are known here: floats to 64 bits, integers, booleans"),
+                     {name});
+}
+
+/// One array as samples; `bytes` stand behind its header.
+Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, NpyHeader header, const ArrayFacts& facts) {
+    const auto name = bytes->name();
+    if (!has_numbers(header) || std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; }))
+        return no_numbers(header, name);
+    const auto extent = extent_of(facts, name);
+    if (!extent) return extent.error();
+    if (!header.fields[0].name.empty() && extent->columns > 1)
+        return bad_input(fmt::format("{}: a structure's fields are its columns; it can have one dimension only", described(facts)), {name});
+    auto samples = std::make_unique<NpySamples>(std::move(bytes), std::move(header), *extent);
+    samples->name_columns(facts.name);
+    return samples;
+}
+
+/// The arrays of an NPZ that can be read at all, and their headers.
+struct Npz {
+    NpzReader file;
+    std::vector<ArrayFacts> arrays = {};
+    std::vector<NpyHeader> headers = {};
+
+    void look() {
+        for (const auto& name : file.names()) {
+            const auto bytes = file.bytes(name);
+            auto header = bytes ? read_npy_header(**bytes) : bytes.error();
+            arrays.push_back({name, header ? header->shape : std::vector<std::uint64_t>{}, header && has_numbers(*header)});
+            headers.push_back(header ? *std::move(header) : NpyHeader{});
+        }
+    }
+
+    Result<std::unique_ptr<NpySamples>> samples(std::size_t k) const {
+        auto bytes = file.bytes(arrays[k].name);
+        if (!bytes) return bytes.error();
+        auto header = read_npy_header(**bytes);
+        if (!header) return header.error();
+        if (header->by_columns && header->shape.size() > 1) {
+            bytes = spooled(**bytes);
+            if (!bytes) return bytes.error();
+        }
+        return samples_of(*std::move(bytes), *std::move(header), arrays[k]);
+    }
+
+    std::optional<double> rate() const {
+        for (std::size_t k = 0; k < arrays.size(); ++k)
+            if (names_rate(arrays[k].name) && arrays[k].numeric && headers[k].count() == 1)
+                if (const auto value = file.numbers(arrays[k].name)) return value->at(0);
+        return {};
+    }
+
+    /// The list of times that goes with `rows` rows of array number `chosen`.
+    std::optional<std::size_t> times(std::size_t chosen, std::int64_t rows) const {
+        for (std::size_t k = 0; k < arrays.size(); ++k)
+            if (k != chosen && arrays[k].numeric && arrays[k].shape == std::vector{static_cast<std::uint64_t>(rows)} &&
+                headers[k].fields[0].name.empty() && names_time(parse_heading(last_name(arrays[k].name)).name))
+                return k;
+        return {};
+    }
+};
+
+SamplesResult open_npy(const std::string& path) {
+    auto bytes = open_bytes(path);
+    if (!bytes) return bytes.error();
+    auto header = read_npy_header(**bytes);
+    if (!header) return header.error();
+    const ArrayFacts facts{"", header->shape, has_numbers(*header)};
+    auto samples = samples_of(*std::move(bytes), *std::move(header), facts);
+    if (!samples) return samples.error();
+    return std::unique_ptr<Samples>(*std::move(samples));
+}
+
+SamplesResult open_npz(const std::string& path, const TableOptions& options) {
+    auto file = NpzReader::open(path);
+    if (!file) return file.error();
+    Npz npz{*std::move(file)};
+    npz.look();
+    const auto chosen = choose_array(npz.arrays, options.dataset, path);
+    if (!chosen) return chosen.error();
+    auto samples = npz.samples(*chosen);
+    if (!samples) return samples.error();
+    (*samples)->set_rate(npz.rate());
+    const auto times = npz.times(*chosen, (*samples)->facts().rows);
+    if (!times) return std::unique_ptr<Samples>(*std::move(samples));
+    auto clock = npz.samples(*times);
+    if (!clock) return clock.error();
+    return with_times(*std::move(clock), *std::move(samples));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Table>> open_npy_table(const std::string& path, const TableOptions& options) {
+    if (options.dataset) return bad_usage(fmt::format("--dataset {}: a NPY file has only one array", *options.dataset));
+    return table_of(open_npy(path), path);
+}
+
+Result<std::unique_ptr<Table>> open_npz_table(const std::string& path, const TableOptions& options) {
+    return table_of(open_npz(path, options), path);
+}
+
+}  // namespace corpuscle

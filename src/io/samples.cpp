@@ -1,0 +1,194 @@
+#include "io/samples.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/text_table.hpp"
+#include "signal/field.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::uint64_t most_columns = std::uint64_t{1} << 20;
+
+class SamplesTable final : public Table {
+    std::string path_;
+    std::unique_ptr<Samples> samples_;
+    std::int64_t block_ = 0, next_ = 0;  // rows: where the last block begins, and where the next
+
+    const SamplesFacts& facts() const { return samples_->facts(); }
+
+    /// Infinities are gaps, too.
+    Result<void> check(std::vector<double>& values, std::size_t column) {
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            if (std::isfinite(values[k])) continue;
+            if (!gaps_allowed_)
+                return bad_input(fmt::format("row {}: column '{}': {} where a number should be", next_ + static_cast<std::int64_t>(k) + 1,
+                                             columns()[column].name, values[k]),
+                                 {path_});
+            values[k] = std::numeric_limits<double>::quiet_NaN();
+        }
+        return {};
+    }
+
+public:
+    SamplesTable(std::string path, std::unique_ptr<Samples> samples) : path_(std::move(path)), samples_(std::move(samples)) {}
+
+    const std::vector<Column>& columns() const override { return facts().columns; }
+    std::optional<double> rate() const override { return facts().rate > 0.0 ? facts().rate : std::nullopt; }
+    std::optional<std::size_t> time_column() const override {
+        if (facts().time) return facts().time;
+        const auto found = std::find_if(columns().begin(), columns().end(), [](const auto& c) { return names_time(c.name); });
+        return found == columns().end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - columns().begin()));
+    }
+    bool time_is_guessed() const override { return false; }
+    double done() const override { return static_cast<double>(next_) / static_cast<double>(facts().rows); }
+    Place place(std::size_t row) const override { return {path_, block_ + static_cast<long>(row) + 1}; }
+    Result<void> rewind() override { return next_ = 0, Result<void>{}; }
+
+    Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
+        const auto count = static_cast<std::size_t>(std::min(static_cast<std::int64_t>(rows), facts().rows - next_));
+        for (auto& column : out) column.resize(count);
+        if (count == 0 || wanted.empty()) return count;
+        if (auto ok = samples_->fetch(next_, count, wanted, out); !ok) return ok.error();
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            if (auto ok = check(out[i], wanted[i]); !ok) return ok.error();
+        block_ = next_;
+        next_ += static_cast<std::int64_t>(count);
+        return count;
+    }
+};
+
+class WithTimes final : public Samples {
+    std::unique_ptr<Samples> times_, samples_;
+    SamplesFacts facts_;
+
+public:
+    WithTimes(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples)
+        : times_(std::move(times)), samples_(std::move(samples)), facts_(samples_->facts()) {
+        facts_.columns.insert(facts_.columns.begin(), times_->facts().columns[0]);
+        facts_.time = 0;
+    }
+
+    const SamplesFacts& facts() const override { return facts_; }
+
+    Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
+                       std::vector<std::vector<double>>& out) override {
+        std::vector<std::size_t> others;
+        std::vector<std::vector<double>> some;
+        const auto trade = [&] {  // the columns of the samples, out of `out` and back into it
+            for (std::size_t i = 0, k = 0; i < wanted.size(); ++i)
+                if (wanted[i] != 0) std::swap(some[k++], out[i]);
+        };
+        for (const auto c : wanted)
+            if (c != 0) others.push_back(c - 1);
+        some.resize(others.size());
+        trade();
+        auto ok = others.empty() ? Result<void>() : samples_->fetch(first, rows, others, some);
+        trade();
+        std::vector<std::vector<double>> time(1, std::vector<double>(others.size() < wanted.size() ? rows : 0));
+        if (ok && !time[0].empty()) ok = times_->fetch(first, rows, std::vector<std::size_t>{0}, time);
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            if (wanted[i] == 0) out[i] = time[0];
+        return ok;
+    }
+};
+
+std::string listed(std::span<const ArrayFacts> arrays) {
+    constexpr std::size_t most = 24;
+    std::vector<std::string> texts;
+    for (const auto& a : arrays.first(std::min(arrays.size(), most))) texts.push_back(described(a));
+    return fmt::format("{}{}", fmt::join(texts, ", "), arrays.size() > most ? " ..." : "");
+}
+
+bool usable(const ArrayFacts& a) { return a.numeric && (a.shape.size() == 1 || a.shape.size() == 2); }
+
+bool single(const ArrayFacts& a) {
+    return std::all_of(a.shape.begin(), a.shape.end(), [](auto n) { return n == 1; });
+}
+
+/// Times and rates belong to another array.
+bool accessory(const ArrayFacts& a) {
+    const auto name = last_name(a.name);
+    return names_time(parse_heading(name).name) || (single(a) && (names_rate(name) || a.shape.empty()));
+}
+
+Result<std::size_t> array_called(const std::string& wanted, std::span<const ArrayFacts> arrays, const std::string& path) {
+    std::vector<std::string_view> names;
+    for (const auto& a : arrays) names.push_back(a.name);
+    const auto k = static_cast<std::size_t>(std::find(names.begin(), names.end(), wanted) - names.begin());
+    if (k == names.size())
+        return bad_input(fmt::format("no array '{}'{}; there are: {}", wanted, did_you_mean(wanted, names), listed(arrays)), {path});
+    if (usable(arrays[k])) return k;
+    return bad_input(fmt::format("{}: a recording is numbers in one dimension, or in two: rows and channels", described(arrays[k])),
+                     {path});
+}
+
+Result<std::size_t> only_array(std::span<const ArrayFacts> arrays, const std::string& path) {
+    std::vector<std::size_t> able, likely;
+    std::vector<ArrayFacts> candidates;
+    for (std::size_t k = 0; k < arrays.size(); ++k) {
+        if (!usable(arrays[k])) continue;
+        able.push_back(k);
+        if (!accessory(arrays[k])) likely.push_back(k), candidates.push_back(arrays[k]);
+    }
+    if (likely.size() == 1) return likely[0];
+    if (likely.empty() && able.size() == 1) return able[0];
+    if (!likely.empty())
+        return bad_input(fmt::format("several arrays could be the recording; say which with --dataset NAME: {}", listed(candidates)),
+                         {path});
+    return bad_input(fmt::format("no array that could be the recording: numbers in one or two dimensions; there are: {}", listed(arrays)),
+                     {path});
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Table>> table_of(SamplesResult samples, const std::string& path) {
+    if (!samples) return samples.error();
+    if ((*samples)->facts().rows < 1 || (*samples)->facts().columns.empty()) return bad_input("no data in this file", {path});
+    return std::unique_ptr<Table>(std::make_unique<SamplesTable>(path, *std::move(samples)));
+}
+
+std::unique_ptr<Samples> with_times(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples) {
+    return std::make_unique<WithTimes>(std::move(times), std::move(samples));
+}
+
+std::string described(const ArrayFacts& a) {
+    const auto shape = a.shape.empty() ? "scalar" : fmt::format("{}", fmt::join(a.shape, " x "));
+    return fmt::format("{} ({}{})", a.name.empty() ? "the array" : a.name, shape, a.numeric ? "" : ", no numbers");
+}
+
+Result<std::size_t> choose_array(std::span<const ArrayFacts> arrays, const std::optional<std::string>& wanted, const std::string& path) {
+    if (arrays.empty()) return bad_input("there is no array in this file", {path});
+    return wanted ? array_called(*wanted, arrays, path) : only_array(arrays, path);
+}
+
+bool names_rate(std::string_view name) {
+    constexpr std::string_view words[] = {"rate", "fs", "sampling_rate", "sample_rate", "sampling_frequency", "samplerate"};
+    return std::find(std::begin(words), std::end(words), lower(name)) != std::end(words);
+}
+
+std::string_view last_name(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+
+Result<Extent> extent_of(const ArrayFacts& a, const std::string& path) {
+    if (a.shape.empty() || a.shape.size() > 2)
+        return bad_input(fmt::format("{}: a recording has one dimension, or two: rows and channels", described(a)), {path});
+    Extent e{a.shape[0], a.shape.size() == 2 ? a.shape[1] : 1};
+    if (e.rows == 1 && e.columns > 1) e = {e.columns, 1, true};
+    if (e.rows == 0 || e.columns == 0) return bad_input(fmt::format("{}: there are no samples in it", described(a)), {path});
+    if (e.columns > most_columns) return bad_input(fmt::format("{}: more than {} channels", described(a), most_columns), {path});
+    return e;
+}
+
+std::vector<Column> columns_named_after(std::string_view array, std::size_t count) {
+    const auto heading = parse_heading(array);
+    if (count == 1 && !heading.name.empty()) return {heading};
+    std::vector<Column> columns;
+    for (std::size_t c = 0; c < count; ++c) columns.push_back({fmt::format("ch{}", c + 1), heading.unit});
+    return columns;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,61 @@
+#pragma once
+// Any bytes as a recording of some format: numbers that are finite, or an error with a sentence.
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "io/recording.hpp"
+
+namespace corpuscle::fuzz {
+
+inline void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+/// A helper process may die of its library, by a signal or by a sanitizer; it may not give a broken answer.
+inline void check(const Error& error, long lines) {
+    require(!error.sentence.empty() && error.place.line <= lines);
+    require(error.sentence.find("answer of the process") == std::string::npos);
+}
+
+inline void read_all(const std::string& path, const RecordingOptions& options, long lines) {
+    auto source = open_recording(path, options);
+    if (!source) return check(source.error(), lines);
+    require(!(*source)->channels().empty());
+    require((*source)->clock().T() > 0);
+    Frames block((*source)->channels().size(), 64);
+    for (int k = 0; k < 50; ++k) {  // resampled, a short file may hold a great many samples
+        if (auto ok = (*source)->read(block); !ok) return check(ok.error(), lines);
+        if (block.count == 0) return;
+        for (const auto& channel : block.force)
+            for (std::size_t n = 0; n < block.count; ++n) require(std::isfinite(channel[n]));
+    }
+}
+
+/// The first byte says how it is read, the others are the file; `lines` is how many it may name.
+inline int recording(const std::uint8_t* data, std::size_t size, const std::string& extension, long lines) {
+    if (size < 1) return 0;
+    static const std::string path = "/tmp/corpuscle-fuzz-" + std::to_string(::getpid()) + extension;
+    static const bool once = [] { return std::atexit([] { std::remove(path.c_str()); }), true; }();
+    (void)once;
+    if (std::FILE* f = std::fopen(path.c_str(), "wb")) {
+        std::fwrite(data + 1, 1, size - 1, f);
+        std::fclose(f);
+    }
+    RecordingOptions options;
+    if (data[0] & 1) options.rate = 100;
+    if (data[0] & 2) options.resample = 30;
+    if (data[0] & 4) options.scale = 1e-3;
+    if (data[0] & 8) options.channels = {"1-2"};
+    if (data[0] & 16) options.time = "none";
+    options.absolute = data[0] & 32;
+    read_all(path, options, lines);
+    return 0;
+}
+
+}  // namespace corpuscle::fuzz

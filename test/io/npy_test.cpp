@@ -1,0 +1,184 @@
+// NumPy's arrays as recordings: every kind of number, both orders, both ends, structures; alone and in an archive.
+
+#include <zip.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "io/archive.hpp"
+#include "io/npy.hpp"
+#include "support/property.hpp"
+#include "support/recordings.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder, test::npy, test::recording, test::refusal;
+
+template <class T>
+std::string bytes_of(T x, bool big) {
+    std::string s(reinterpret_cast<const char*>(&x), sizeof x);
+    if (big) std::reverse(s.begin(), s.end());
+    return s;
+}
+
+/// A kind of number: its letters, the range that every whole number in it is exact in, and its bytes.
+struct Kind {
+    const char* letters;
+    int low, high;
+    std::string (*bytes)(int, bool);
+};
+
+template <class T>
+std::string of(int x, bool big) {
+    return bytes_of(static_cast<T>(x), big);
+}
+
+const Kind kinds[] = {{"f8", -1000000, 1000000, of<double>},
+                      {"f4", -1000000, 1000000, of<float>},
+                      {"i1", -128, 128, of<std::int8_t>},
+                      {"i2", -32768, 32768, of<std::int16_t>},
+                      {"i4", -1000000, 1000000, of<std::int32_t>},
+                      {"i8", -1000000, 1000000, of<std::int64_t>},
+                      {"u1", 0, 256, of<std::uint8_t>},
+                      {"u2", 0, 65536, of<std::uint16_t>},
+                      {"u4", 0, 1000000, of<std::uint32_t>},
+                      {"u8", 0, 1000000, of<std::uint64_t>},
+                      {"b1", 0, 2, of<std::uint8_t>}};
+
+TEST(Npy, EveryKindOfNumberInBothOrdersAndBothEndsIsReadAsItWasWritten) {
+    EXPECT_TRUE(rc::check("round trip", [] {
+        const auto& kind = *rc::gen::elementOf(std::vector<Kind>(std::begin(kinds), std::end(kinds)));
+        const auto rows = *rc::gen::inRange<std::size_t>(2, 300), columns = *rc::gen::inRange<std::size_t>(1, 5);
+        const bool big = *rc::gen::arbitrary<bool>(), by_columns = *rc::gen::arbitrary<bool>();
+        const int version = *rc::gen::inRange(1, 4);
+        std::vector<std::vector<double>> force(columns, std::vector<double>(rows));
+        std::vector<std::string> cells(rows * columns);
+        for (std::size_t r = 0; r < rows; ++r)
+            for (std::size_t c = 0; c < columns; ++c) {
+                const int x = *rc::gen::inRange(kind.low, kind.high);
+                force[c][r] = x;
+                cells[by_columns ? c * rows + r : r * columns + c] = kind.bytes(x, big);
+            }
+        std::string data;
+        for (const auto& cell : cells) data += cell;
+        const auto type = fmt::format("'{}{}'", big ? '>' : '<', kind.letters);
+        const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-npy-{}.npy", ::getpid())).string();
+        std::ofstream(path, std::ios::binary) << npy(type, fmt::format("({}, {})", rows, columns), data, by_columns, version);
+        const auto made = test::try_recording(path, {.rate = 100});
+        std::filesystem::remove(path);
+        RC_ASSERT(static_cast<bool>(made));
+        RC_ASSERT(made->force == force);
+    }));
+}
+
+TEST(Npy, HalvesAreReadToTheLastBit) {
+    const auto half = NpyField{"", 'f', 2, 0, false}.decoder();
+    const auto value = [&](std::uint16_t bits) { return half(reinterpret_cast<const std::byte*>(&bits)); };
+    EXPECT_EQ(value(0x3c00), 1);
+    EXPECT_EQ(value(0xc000), -2);
+    EXPECT_EQ(value(0x7bff), 65504);
+    EXPECT_EQ(value(0x0400), std::ldexp(1, -14)) << "the least normal number";
+    EXPECT_EQ(value(0x0001), std::ldexp(1, -24)) << "the least of all";
+    EXPECT_EQ(value(0x3555), 1365.0 / 4096) << "a third";
+    EXPECT_TRUE(std::isinf(value(0xfc00)) && value(0xfc00) < 0);
+    EXPECT_TRUE(std::isnan(value(0x7e00)));
+}
+
+TEST(Npy, AStructuresNumbersAreColumnsWithNameAndUnit) {
+    const Folder folder;
+    std::string data;
+    for (int k = 0; k < 5000; ++k) data += bytes_of(std::uint32_t(k), false) + "ab" + bytes_of(static_cast<float>(k) * 30, true);
+    const auto path = folder.write("x.npy", npy("[('t_ms', '<u4'), ('note', '|S2'), ('fz_mN', '>f4')]", "(5000,)", data));
+    const auto made = recording(path);
+    EXPECT_EQ(made.names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(made.clock.rate(), 1000);
+    ASSERT_EQ(made.force[0].size(), 5000U);
+    EXPECT_EQ(made.force[0][4321], 4321 * 30.0 * 1e-3);
+}
+
+TEST(Npy, ARowLyingDownIsOneChannel) {
+    const Folder folder;
+    const auto made = recording(folder.write("x.npy", npy("'|u1'", "(1, 3)", "\1\2\3")), {.rate = 10});
+    EXPECT_EQ(made.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
+}
+
+TEST(Npy, WhatCannotBeReadIsSaid) {
+    const Folder folder;
+    const auto said = [&](const std::string& bytes, const RecordingOptions& options = {.rate = 10}) {
+        return refusal(folder.write("x.npy", bytes), options);
+    };
+    const auto nan = bytes_of(std::nan(""), false), one = bytes_of(1.0, false);
+    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number should be");
+    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one)), "x.npy: the array should take 32 bytes, and 24 are there: cut short?");
+    EXPECT_EQ(said(npy("'<f8'", "(99999999999, 99999999999)", one)),
+              "x.npy: the array should take endless bytes, and 8 are there: cut short?");
+    EXPECT_EQ(said(npy("'<c16'", "(2,)", std::string(32, '\0'))),
+              "x.npy: the array holds '<c16' (complex numbers); save the real part, or the magnitude");
+    EXPECT_EQ(said(npy("'|O'", "(2,)", "\x80\x04")),
+              "x.npy: the array holds '|O' (Python objects), which are not read: to read them could run any program; save numbers");
+    EXPECT_EQ(said(npy("'<U3'", "(1,)", std::string(12, 'a'))),
+              "x.npy: the array holds '<U3' and no numbers that are known here: floats to 64 bits, integers, booleans");
+    EXPECT_EQ(said(npy("'<f8'", "(0, 3)", "")), "x.npy: the array (0 x 3): there are no samples in it");
+    EXPECT_EQ(said(npy("'<f8'", "()", one)), "x.npy: the array (scalar): a recording has one dimension, or two: rows and channels");
+    EXPECT_EQ(said(npy("'<f8'", "(1, 1, 1)", one)),
+              "x.npy: the array (1 x 1 x 1): a recording has one dimension, or two: rows and channels");
+    EXPECT_EQ(said(npy("'<f8'", "(-1,)", one)), "x.npy: the shape in the header is no list of whole numbers");
+    EXPECT_EQ(said(npy("'<q8'", "(1,)", one)), "x.npy: the type '<q8' in the header is none of NumPy's");
+    EXPECT_EQ(said(npy("'<f8'", "(1,", one)), "x.npy: the header does not say descr, fortran_order and shape");
+    EXPECT_EQ(said("\x93NUMPY\x04\x01 and so on"), "x.npy: NPY version 4 is not known here (1, 2, 3)");
+    EXPECT_EQ(said("a,b\n1,2\n3,4\n"), "x.npy: this is no NPY file");
+    EXPECT_EQ(said(""), "x.npy: this is no NPY file");
+    EXPECT_EQ(said(npy("'<f8'", "(1,)", one), {.table = {"a"}, .rate = 10}), "--dataset a: a NPY file has only one array");
+    EXPECT_EQ(said(npy("'<f8'", "(1,)", one), {}),
+              "x.npy: there is no time column (there are ch1); name it with --time, or say --rate, such as --rate 1kHz");
+}
+
+/// An archive as numpy.savez_compressed makes it.
+void write_deflated(const std::string& path, const std::vector<Packed>& members) {
+    int code = 0;
+    zip_t* z = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+    for (const auto& m : members) zip_file_add(z, m.name.c_str(), zip_source_buffer(z, m.bytes.data(), m.bytes.size(), 0), 0);
+    ASSERT_EQ(zip_close(z), 0);
+}
+
+std::string ramp(std::size_t count, double step = 1) {
+    std::string data;
+    for (std::size_t k = 0; k < count; ++k) data += bytes_of(static_cast<double>(k) * step, false);
+    return data;
+}
+
+TEST(Npz, TheArrayIsChosenByNameAndRateOrTimesStandBesideIt) {
+    const Folder folder;
+    const Packed force{"force_mN.npy", npy("'<f8'", "(9000, 2)", ramp(18000))},
+        turned{"turned.npy", npy("'<f8'", "(9000, 2)", ramp(18000), true)},
+        rate{"fs.npy", npy("'<i8'", "()", bytes_of(std::int64_t(250), false))}, times{"t.npy", npy("'<f8'", "(9000,)", ramp(9000, 0.01))},
+        words{"who.npy", npy("'<U1'", "(1,)", std::string(4, 'a'))};
+    const auto path = folder / "x.npz";
+    for (const bool deflated : {false, true}) {
+        const auto write = [&](const std::vector<Packed>& members) {
+            deflated ? write_deflated(path, members) : void(folder.write("x.npz", test::sure(make_archive(members))));
+        };
+        write({force, rate, words});
+        const auto made = recording(path);
+        EXPECT_EQ(made.clock.rate(), 250);
+        EXPECT_EQ(made.names, (std::vector<std::string>{"ch1", "ch2"}));
+        EXPECT_EQ(made.force[1][8999], 17999 * 1e-3);
+        write({times, force});
+        EXPECT_EQ(recording(path).clock.rate(), 100);
+        EXPECT_EQ(recording(path, {.channels = {"2"}}).force[0][8999], 17999 * 1e-3);
+        write({force, rate, turned});
+        EXPECT_EQ(refusal(path),
+                  "x.npz: several arrays could be the recording; say which with --dataset NAME: force_mN (9000 x 2), turned (9000 x 2)");
+        EXPECT_EQ(recording(path, {.table = {"turned"}}).force[1][10], 9010);
+        EXPECT_EQ(refusal(path, {.table = {"forces_mN"}}),
+                  "x.npz: no array 'forces_mN'; did you mean 'force_mN'?; there are: force_mN (9000 x 2), fs (scalar), turned (9000 x 2)");
+        write({words});
+        EXPECT_EQ(refusal(path),
+                  "x.npz: no array that could be the recording: numbers in one or two dimensions; there are: who (1, no numbers)");
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,79 @@
+// Sound files as recordings: whole numbers are parts of full scale, floats are newtons, and the rate is the file's.
+
+#include "io/formats.hpp"
+#include "support/property.hpp"
+#include "support/recordings.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder, test::recording, test::refusal, test::write_sound;
+
+struct Depth {
+    const char* name;
+    int format;
+};
+
+TEST(Wav, EveryDepthIsReadAsItWasWritten) {
+    const Depth depths[] = {{"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_24},
+                            {"x.w64", SF_FORMAT_W64 | SF_FORMAT_PCM_32},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT},
+                            {"x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE},   {"x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_24},
+                            {"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}};
+    EXPECT_TRUE(rc::check("round trip", [&] {
+        const auto& depth = *rc::gen::elementOf(std::vector(std::begin(depths), std::end(depths)));
+        const auto rows = *rc::gen::inRange<std::size_t>(2, 200), columns = *rc::gen::inRange<std::size_t>(1, 4);
+        const int rate = *rc::gen::inRange(1, 65536);  // more is no plain FLAC
+        std::vector<std::vector<double>> values(columns);
+        for (auto& c : values)
+            c = *rc::gen::container<std::vector<double>>(rows,
+                                                         rc::gen::map(rc::gen::inRange(-1024, 1024), [](int x) { return x / 1024.0; }));
+        const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-{}-{}", ::getpid(), depth.name)).string();
+        write_sound(path, depth.format, rate, values);
+        const auto made = test::try_recording(path, {.scale = 2});
+        std::filesystem::remove(path);
+        RC_ASSERT(static_cast<bool>(made));
+        RC_ASSERT(made->clock.rate() == rate);
+        for (auto& c : values)
+            for (auto& x : c) x *= 2;
+        RC_ASSERT(made->force == values);
+    }));
+}
+
+TEST(Wav, WholeNumbersNeedAScaleAndFloatsAreNewtons) {
+    const Folder folder;
+    const std::vector<std::vector<double>> force = {std::vector<double>(9000, 0.25), std::vector<double>(9000, 0.5)};
+    write_sound(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, force);
+    EXPECT_EQ(
+        refusal(folder / "x.wav"),
+        "x.wav: 'ch1' is in parts of full scale, which is no unit of force known here (N, mN, gf, kgf, lbf ...); say --scale S, so that "
+        "what is read times S is newtons, --unit N if the header is wrong, or --channel if it is another column that holds the force");
+    EXPECT_EQ(recording(folder / "x.wav", {.channels = {"ch2"}, .scale = 8}).force[0][8999], 4);
+    write_sound(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 8000, force);
+    EXPECT_EQ(recording(folder / "y.wav").force[1][8999], 0.5);
+    EXPECT_EQ(recording(folder / "y.wav").remarks.at(0), "no unit for 'ch1', 'ch2': taken as newtons");
+}
+
+TEST(Wav, WhatCannotBeReadIsSaid) {
+    const Folder folder;
+    EXPECT_EQ(refusal(folder.write("x.wav", "t,F\n0,1\n")), "x.wav: this is no sound file that can be read: Format not recognised.");
+    EXPECT_EQ(refusal(folder / "none.wav"), "none.wav: cannot be opened: No such file or directory");
+    EXPECT_EQ(refusal(folder.write("x.wav", ""), {.table = {"a"}}), "--dataset a: a sound file has only one array");
+    write_sound(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 100, {{1, std::nan("")}});
+    EXPECT_EQ(refusal(folder / "y.wav"), "y.wav: row 2: column 'ch1': nan where a number should be");
+    write_sound(folder / "z.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 100, {{}});
+    EXPECT_EQ(refusal(folder / "z.wav"), "z.wav: there are no samples in this sound file");
+}
+
+TEST(Wav, OfAFileCutShortTheBeginningIsRead) {
+    const Folder folder;
+    write_sound(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE, 100, {std::vector<double>(1000, 1.5)});
+    const auto whole = test::read_file(folder / "x.wav");
+    const auto made = recording(folder.write("cut.wav", whole.substr(0, whole.size() - 4000)));
+    EXPECT_EQ(made.force[0], std::vector<double>(500, 1.5));
+    write_sound(folder / "x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 100, {test::force("noise", {.rate = 20000})});
+    const auto packed = test::read_file(folder / "x.flac");
+    EXPECT_NE(refusal(folder.write("cut.flac", packed.substr(0, packed.size() / 2)), {.scale = 1}).find("cut short?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace corpuscle
