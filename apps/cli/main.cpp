@@ -96,7 +96,8 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
-    verb.add_option("WHAT", w.what, "afferents, transductions, neurons, stimuli, measures, formats, or names of any of these");
+    verb.add_option("WHAT", w.what,
+                    "afferents, sensors, transducers, converters, transductions, neurons, stimuli, measures, formats, or names of any");
     add_common(verb, common);
 }
 

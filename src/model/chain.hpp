@@ -151,15 +151,11 @@ public:
     }
 
     std::span<const Probe> probes() const override { return probes_; }
-    State start() const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
+    State start(Turn) const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
 
     Result<void> respond(std::span<const double> force, State& state, Answer& answer) const override {
-        if (state.format != format_ || state.values.size() * sizeof(double) != sizeof(Values))
-            return bad_input("a state of '" + state.format + "' was handed to '" + format_ + "'");
+        if (auto ok = check_block(name_, format_, sizeof(Values) / sizeof(double), state, force); !ok) return ok;
         if (force.empty()) return {};
-        if (const auto bad = first_not_finite(force); bad < force.size())
-            return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name_,
-                                         state.step + static_cast<std::int64_t>(bad), force[bad]));
         Values s;
         std::memcpy(&s, state.values.data(), sizeof s);
         if (state.step == 0) s = kernel_.start(force[0]);

@@ -32,8 +32,10 @@ public:
             probes_of_.push_back(afferents_.back()->probes());
         }
         input_.probes = probes_of_;
+        const auto channels = input_.source.channels().size();
         for (std::size_t u = 0; u < input_.units(); ++u) {
-            states_.push_back(afferents_[u % plans.size()]->start());
+            states_.push_back(afferents_[u % plans.size()]->start(
+                {static_cast<std::uint32_t>(input_.channel_of(u)), static_cast<std::uint32_t>(channels)}));
             if (probed) probes_.emplace_back(probes_of_[u % plans.size()].size(), std::vector<double>(force_.capacity));
         }
     }
@@ -53,7 +55,7 @@ public:
                 fmt::format("{} on {}: {}", input_.afferent_of(u).name, input_.channel_name(input_.channel_of(u)), error.sentence);
             return error;
         }
-        work.capped_steps += answer.capped;
+        work.capped_steps += answer.capped, work.clipped += answer.clipped, work.overflowed += answer.overflowed;
         return {};
     }
 

@@ -50,6 +50,8 @@ struct Work {
     std::int64_t afferent_steps = 0;  ///< samples times afferents
     std::int64_t spikes = 0;
     std::int64_t capped_steps = 0;  ///< steps cut short by the cap on spikes a step
+    std::int64_t clipped = 0;       ///< samples beyond a sensor's electronics or converter
+    std::int64_t overflowed = 0;    ///< results too large for a digital afferent's words
 };
 
 struct RespondOptions {

@@ -19,7 +19,11 @@ Json afferent_document(const AfferentPlan& plan) {
     Json parameters = Json::object();
     for (const auto& p : plan.parameters)
         parameters[std::string(p.row.name)] = {{"value", p.value}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
-    return {{"name", plan.name}, {"transduction", plan.receptor}, {"neuron", plan.neuron}, {"parameters", parameters}};
+    return {{"name", plan.name},
+            {"made_of", plan.made_of()},
+            {"transduction", plan.receptor},
+            {"neuron", plan.neuron},
+            {"parameters", parameters}};
 }
 
 Json input_document(const Summary::InputFacts& input) {
@@ -86,8 +90,9 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
     for (const auto& i : inputs_) out["inputs"].push_back(input_document(i));
     out["rates"] = Json::array();
     for (const auto& r : rows_) out["rates"].push_back(row_document(r));
-    out["work"] = {
-        {"samples", work.samples}, {"afferent_steps", work.afferent_steps}, {"spikes", work.spikes}, {"capped_steps", work.capped_steps}};
+    out["work"] = {{"samples", work.samples}, {"afferent_steps", work.afferent_steps},
+                   {"spikes", work.spikes},   {"capped_steps", work.capped_steps},
+                   {"clipped", work.clipped}, {"overflowed", work.overflowed}};
     out["warnings"] = warnings;
     return out;
 }
