@@ -14,6 +14,7 @@
 #include "signal/stimuli.hpp"
 #include "study/files.hpp"
 #include "study/summary.hpp"
+#include "study/vectors.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -77,9 +78,13 @@ Result<void> check_wishes(const Job& job) {
 /// What is said of recordings must find one.
 Result<void> check_recording_words(const RespondWords& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()}, {"--time", w.time.has_value()},
-                                                  {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
-                                                  {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
+    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},
+                                                  {"--dataset", w.dataset.has_value()},
+                                                  {"--time", w.time.has_value()},
+                                                  {"--time-unit", w.time_unit.has_value()},
+                                                  {"--unit", w.unit.has_value()},
+                                                  {"--scale", w.scale.has_value()},
+                                                  {"--abs", w.absolute},
                                                   {"--resample", w.resample.has_value()}};
     for (const auto& [word, said] : words)
         if (said)
@@ -112,9 +117,19 @@ Result<Job> prepare(const RespondWords& w) {
     }
     if (auto ok = check_wishes(job); !ok) return ok.error();
     if (auto ok = check_recording_words(w); !ok) return ok.error();
+    if (w.vectors && std::all_of(job.afferents.begin(), job.afferents.end(), [](const auto& a) { return a.converter.empty(); }))
+        return bad_usage(
+            fmt::format("--vectors: {} has no converter, and so no words; try 'adc+{}'", job.afferents[0].name, job.afferents[0].name));
     job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
     job.options.sampled = w.sampled;
+    const auto noise = quantity(w.noise, "A", "--noise");
+    if (!noise) return noise.error();
+    if (noise->value_or(0) < 0)
+        return bad_usage(fmt::format("--noise '{}' is below 0; write a standard deviation, such as '50 nA'", *w.noise));
+    job.options.noise = noise->value_or(0);
+    job.options.seed = w.seed;
     job.warnings = rate_warnings(job.sources, job.afferents);
+    for (auto& warning : noise_warnings(job.afferents, job.options.noise)) job.warnings.push_back(std::move(warning));
     return job;
 }
 
@@ -158,6 +173,7 @@ std::string rate_table(const Summary& summary) {
 class Outputs {
     std::optional<SpikesFile> spikes_;
     std::optional<TracesFile> traces_;
+    std::optional<VectorsFile> vectors_;
     std::optional<Report> report_;
     std::optional<OutputFile> summary_file_, report_file_;
     std::vector<std::string> paths_;
@@ -174,6 +190,7 @@ class Outputs {
 
 public:
     Result<void> open(const RespondWords& w) {
+        if (w.vectors && w.out.empty()) return bad_usage("--vectors needs --out DIR to write into");
         if (w.traces && w.out.empty()) return bad_usage("--traces needs --out DIR to write into");
         if (!w.out.empty()) {
             auto spikes = create(w.out + "/spikes.csv");
@@ -183,6 +200,7 @@ public:
             if (!summary) return summary.error();
             summary_file_ = std::move(*summary);
             if (w.traces) traces_.emplace(w.out);
+            if (w.vectors) vectors_.emplace(w.out);
         }
         if (!w.report) return {};
         auto page = create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
@@ -195,6 +213,7 @@ public:
     void listen(std::vector<Listener*>& listeners) {
         if (spikes_) listeners.push_back(&*spikes_);
         if (traces_) listeners.push_back(&*traces_);
+        if (vectors_) listeners.push_back(&*vectors_);
         if (report_) listeners.push_back(&*report_);
     }
 
@@ -204,6 +223,10 @@ public:
         if (traces_) {
             if (auto ok = traces_->commit(); !ok) return ok;
             for (const auto& path : traces_->paths()) paths_.push_back(path);
+        }
+        if (vectors_) {
+            if (auto ok = vectors_->commit(); !ok) return ok;
+            paths_.insert(paths_.end(), vectors_->paths().begin(), vectors_->paths().end());
         }
         if (spikes_) {
             if (auto ok = spikes_->commit(); !ok) return ok;
@@ -241,11 +264,9 @@ Result<void> run(const RespondWords& w, const Common& common) {
         return respond(job->sources, job->afferents, listeners, job->options);
     }();
     if (!work) return work.error();
-    if (work->capped_steps > 0) {
-        job->warnings.push_back(
-            fmt::format("{} steps would have held more than {} spikes and were cut short; raise the rate, or the threshold",
-                        work->capped_steps, spikes_a_step));
-        fmt::print(stderr, "corpuscle: warning: {}\n", job->warnings.back());
+    for (const auto& warning : work_warnings(*work)) {
+        job->warnings.push_back(warning);
+        fmt::print(stderr, "corpuscle: warning: {}\n", warning);
     }
     const auto document = summary.document(job->afferents, *work, job->options, w.seed, job->warnings)
                               .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +

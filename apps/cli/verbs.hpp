@@ -14,9 +14,9 @@ struct Common {
 
 struct RespondWords {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, noise;
     std::string method = "exact";
-    bool sampled = false, absolute = false, traces = false, report = false;
+    bool sampled = false, absolute = false, traces = false, vectors = false, report = false;
     std::string out, report_file;
     std::uint64_t seed = 0;
 };

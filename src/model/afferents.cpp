@@ -45,7 +45,7 @@ const std::vector<NamedAfferent>& named_afferents() {
         {"fa1-lee",
          "fa1a",
          "adaptive",
-         {},
+         {{"k", 200e-9}},
          {},
          "the earlier digital FA-I: rising and falling force to a neuron each, adaptive threshold; likewise",
          "Lee et al. 2016 as told in thesis 3.1; values are a choice",

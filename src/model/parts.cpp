@@ -8,8 +8,6 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::string_view order = "the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), then the afferent";
-
 std::vector<std::string_view> names_of(const std::vector<Card>& cards) {
     std::vector<std::string_view> names;
     for (const auto& c : cards) names.push_back(c.name);
@@ -33,6 +31,13 @@ const std::vector<Kind>& kinds() {
                                           {"a transducer", names_of(transducer_cards()), &Parts::transducer},
                                           {"a converter", names_of(converter_cards()), &Parts::converter}};
     return all;
+}
+
+/// "the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), then the afferent"
+std::string order() {
+    std::string text = "the signal goes through ";
+    for (const auto& kind : kinds()) text += fmt::format("{} ({}), ", kind.article_and_name, fmt::join(kind.names, ", "));
+    return text + "then the afferent";
 }
 
 std::vector<std::string_view> split(std::string_view text) {
@@ -69,9 +74,9 @@ Error misplaced(std::string_view text, std::string_view word, const Parts& parts
         if (name.empty()) continue;
         if (const auto first = parts.*kind.at; !first.empty())
             return bad_input(fmt::format("{}: '{}' after '{}': {} is enough", text, name, first, kind.article_and_name));
-        return bad_input(fmt::format("{}: '{}' stands too late; {}", text, name, order));
+        return bad_input(fmt::format("{}: '{}' stands too late; {}", text, name, order()));
     }
-    return bad_input(fmt::format("{}: '{}' is no part that can stand there{} ({})", text, word, did_you_mean(word, known), order));
+    return bad_input(fmt::format("{}: '{}' is no part that can stand there{} ({})", text, word, did_you_mean(word, known), order()));
 }
 
 /// Takes the front's parts from the first words; gives how many they were.

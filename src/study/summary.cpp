@@ -82,8 +82,10 @@ Result<void> Summary::end(const Input& input, std::int64_t samples) {
 Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work, const RespondOptions& options, std::uint64_t seed,
                        const std::vector<std::string>& warnings) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
-    out["options"] = {
-        {"method", options.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", options.sampled}, {"seed", seed}};
+    out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"},
+                      {"sampled", options.sampled},
+                      {"noise_A", options.noise},
+                      {"seed", seed}};
     out["afferents"] = Json::array();
     for (const auto& a : afferents) out["afferents"].push_back(afferent_document(a));
     out["inputs"] = Json::array();

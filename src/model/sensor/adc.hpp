@@ -14,7 +14,7 @@ namespace corpuscle {
 /// the transducer gives. The converter is ideal: no noise, no aperture, no settling. All values are a choice.
 struct Adc {
     struct Params {
-        double bits = 12, f_s = 1e3, F_low = 0, F_high = 5, shared = 0, linearise = 1, word = 24, frac = 16;
+        double bits = 12, f_s = 1e3, F_low = 0, F_high = 5, shared = 0, linearise = 1, word = 32, frac = 20;
     };
     static constexpr std::string_view name = "adc", sentence = "analog-to-digital converter; behind it the algorithms run in fixed point";
     static constexpr std::string_view source = "thesis 1.3, fig. 6a; all values are a choice";

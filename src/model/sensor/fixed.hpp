@@ -29,7 +29,7 @@ inline double rounded(double x) {
 
 /// Words of `word` bits, of which `frac` stand behind the point.
 struct Format {
-    int word = 24, frac = 16;
+    int word = 32, frac = 20;
     Word most() const { return (Word{1} << (word - 1)) - 1; }
     Word least() const { return -(Word{1} << (word - 1)); }
     /// The nearest word to a value that one can hold.
