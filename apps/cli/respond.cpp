@@ -117,7 +117,8 @@ Result<Job> prepare(const RespondWords& w) {
     }
     if (auto ok = check_wishes(job); !ok) return ok.error();
     if (auto ok = check_recording_words(w); !ok) return ok.error();
-    if (w.vectors && std::all_of(job.afferents.begin(), job.afferents.end(), [](const auto& a) { return a.converter.empty(); }))
+    if (w.vectors && !w.out.empty() &&
+        std::all_of(job.afferents.begin(), job.afferents.end(), [](const auto& a) { return a.converter.empty(); }))
         return bad_usage(
             fmt::format("--vectors: {} has no converter, and so no words; try 'adc+{}'", job.afferents[0].name, job.afferents[0].name));
     job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
