@@ -59,7 +59,7 @@ void Digital::keep(const Held& h, State& state) const {
 std::optional<Digital::Held> Digital::held_of(const State& state) const {
     const auto& v = state.values;
     const auto counts = [](double x, double low, double high) { return x >= low && x <= high && x == std::floor(x); };
-    if (!counts(v[1], 1, 0x1p31) || !counts(v[0], 0, v[1] - 1) || !counts(v[2], 0, last) || !counts(v[3], 0, last)) return {};
+    if (!counts(v[1], 1, 0x1p20) || !counts(v[0], 0, v[1] - 1) || !counts(v[2], 0, last) || !counts(v[3], 0, last)) return {};
     if (!std::isfinite(v[4]) || !std::isfinite(v[5]) || !counts(v[6], -1, static_cast<double>(converter_.most()))) return {};
     const Turn turn{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
     Held h{turn, instants_of(turn.of),           {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
