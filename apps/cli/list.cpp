@@ -46,7 +46,7 @@ std::vector<Entry> afferent_entries() {
     for (const auto& a : named_afferents()) {
         const auto plan = plan_afferent(a.name, {});
         entries.push_back({std::string(a.name),
-                           fmt::format("{}+{}", a.receptor, a.neuron),
+                           plan->made_of(),
                            std::string(a.sentence),
                            std::string(a.source),
                            plan->parameters,
@@ -62,6 +62,9 @@ std::vector<Section> catalogue() {
     for (const auto& f : formats)
         readable.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}, "extensions"});
     return {{"afferents", afferent_entries()},
+            {"sensors", entries_of(sensor_cards())},
+            {"transducers", entries_of(transducer_cards())},
+            {"converters", entries_of(converter_cards())},
             {"transductions", entries_of(receptor_cards())},
             {"neurons", entries_of(neuron_cards())},
             {"stimuli", entries_of(stimulus_cards())},

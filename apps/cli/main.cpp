@@ -26,8 +26,8 @@ Exit status: 0 done, 1 bad input, 2 bad usage, 3 did not converge, 130 interrupt
 constexpr const char* respond_examples =
     R"(FORCE is a file of numbers in columns (- for standard input), or a stimulus by name: press, ramp-hold, step, sine,
 chirp, noise, grating, or a sum of them: press+noise (a shorter one holds its last value). AFFERENT is a name (sa1 fa1
-sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a transduction and a neuron: sa1b+izhikevich. 'corpuscle list'
-shows them all, with every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
+sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a transduction and a neuron: sa1b+izhikevich; before either may
+stand a sensor, a transducer, a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b. 'corpuscle list' shows them all, with every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
 
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
@@ -77,6 +77,8 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->capture_default_str()
         ->type_name("METHOD");
     verb.add_flag("--sampled", w.sampled, "spikes on the samples, as in the thesis; else interpolated inside the step");
+    verb.add_option("--noise", w.noise, "a white current to every membrane: its standard deviation within 1 kHz, such as 100nA")
+        ->type_name("CURRENT");
     verb.add_option("--seed", w.seed, "of everything random")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("N");
     verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
@@ -129,6 +131,8 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->group("Output");
     verb.add_flag("--npz", w.npz, "write spikes.npz there, too: exact times for NumPy and SpikeInterface")->group("Output");
     verb.add_flag("--wav", w.wav, "write spikes.wav there, too: a click a spike, to listen to")->group("Output");
+    verb.add_flag("--vectors", w.vectors, "write vectors-AFFERENT.csv and rom-AFFERENT.csv there: every word behind a converter")
+        ->group("Output");
     auto* report = verb.add_option("--report", w.report_file, "write a page to look at (report.html, in --out's directory if there is one)")
                        ->expected(0, 1)
                        ->type_name("[FILE.html]")
@@ -170,7 +174,8 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
-    verb.add_option("WHAT", w.what, "afferents, transductions, neurons, stimuli, measures, formats, or names of any of these");
+    verb.add_option("WHAT", w.what,
+                    "afferents, sensors, transducers, converters, transductions, neurons, stimuli, measures, formats, or names of any");
     add_common(verb, common);
 }
 

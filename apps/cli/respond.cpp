@@ -17,6 +17,7 @@
 #include "study/npz_file.hpp"
 #include "study/stale.hpp"
 #include "study/summary.hpp"
+#include "study/vectors.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -171,9 +172,20 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     }
     if (auto ok = check_wishes(job); !ok) return ok.error();
     if (auto ok = check_recording_words(w); !ok) return ok.error();
+    if (w.vectors && !w.out.empty() &&
+        std::all_of(job.afferents.begin(), job.afferents.end(), [](const auto& a) { return a.converter.empty(); }))
+        return bad_usage(
+            fmt::format("--vectors: {} has no converter, and so no words; try 'adc+{}'", job.afferents[0].name, job.afferents[0].name));
     job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
     job.options.sampled = w.sampled;
+    const auto noise = quantity(w.noise, "A", "--noise");
+    if (!noise) return noise.error();
+    if (noise->value_or(0) < 0)
+        return bad_usage(fmt::format("--noise '{}' is below 0; write a standard deviation, such as '50 nA'", *w.noise));
+    job.options.noise = noise->value_or(0);
+    job.options.seed = w.seed;
     job.warnings = rate_warnings(job.sources, job.afferents);
+    for (auto& warning : noise_warnings(job.afferents, job.options.noise)) job.warnings.push_back(std::move(warning));
     return job;
 }
 
@@ -241,6 +253,7 @@ class Outputs {
             if (auto ok = add<BinsFile>("psth.csv", *bin); !ok) return ok;
         if (w.wav) files_.push_back(std::make_unique<ClicksFile>(directory_));
         if (w.traces) files_.push_back(std::make_unique<TracesFile>(directory_));
+        if (w.vectors) files_.push_back(std::make_unique<VectorsFile>(directory_));
         auto summary = OutputFile::create(directory_ + "/summary.json");
         if (!summary) return summary.error();
         summary_file_ = std::move(*summary);
@@ -259,7 +272,7 @@ class Outputs {
 public:
     Result<void> open(const RespondWords& w) {
         const std::pair<const char*, bool> words[] = {
-            {"--traces", w.traces}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
+            {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
         for (const auto& [word, said] : words)
             if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
         const auto bin = quantity(w.bin, "s", "--bin");
@@ -345,9 +358,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     }();
     if (!work) return work.error();
     print_quality(*job, summary, common.quiet);
-    if (work->capped_steps > 0)
-        warn(*job, fmt::format("{} steps would have held more than {} spikes and were cut short; raise the rate, or the threshold",
-                               work->capped_steps, spikes_a_step));
+    for (const auto& warning : work_warnings(*work)) warn(*job, warning);
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     answer["files"] = outputs.names();
     const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes

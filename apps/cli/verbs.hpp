@@ -14,11 +14,11 @@ struct Common {
 
 struct RespondWords {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, bin;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise, bin;
     std::vector<std::string> notch;
     std::string layout;
     std::string method = "exact";
-    bool sampled = false, absolute = false, traces = false, report = false, npz = false, wav = false;
+    bool sampled = false, absolute = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
     std::uint64_t seed = 0;
 };

@@ -73,8 +73,9 @@ function afferentPanels(afferent, index) {
     const host = section(afferent.name, about, afferentColour(index));
     return byUnit(traces).map((group, k, all) => {
         const {unit} = group[0];
-        const title = {A: "current", V: "membrane"}[unit] || group.map((trace) => trace.part).join(", ");
-        const hasLine = unit === "V" && Number.isFinite(afferent.V_th);
+        const front = isFront(group[0], traces);
+        const title = (!front && {A: "current", V: "membrane"}[unit]) || group.map((trace) => trace.part).join(", ");
+        const hasLine = !front && unit === "V" && Number.isFinite(afferent.V_th);
         group.sort((one, other) => isWhole(other) - isWhole(one));  // the whole first, so that its parts are drawn over it
         return new TracePanel({
             host, input: shown.input, traces: group, name: `${afferent.name} ${title}`, title,
@@ -88,9 +89,15 @@ function afferentPanels(afferent, index) {
 
 function byUnit(traces) {
     const groups = new Map();
-    for (const trace of traces) groups.set(trace.unit, [...(groups.get(trace.unit) || []), trace]);
+    for (const trace of traces) {
+        const key = isFront(trace, traces) ? trace.part : trace.unit;
+        groups.set(key, [...(groups.get(key) || []), trace]);
+    }
     return [...groups.values()];
 }
+
+/// What a sensor, transducer or converter shows: all up to the force as it was read. A panel each.
+const isFront = (trace, traces) => traces.indexOf(trace) <= traces.findIndex(({part}) => part === "F_read");
 
 /// A total current or a membrane, and not one of the parts.
 const isWhole = (trace) => /^[Iu](_[+-])?$/.test(trace.part);

@@ -135,7 +135,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
         Json parameters = Json::array();
         for (const auto& p : plan.parameters) parameters.push_back(parameter_document(p));
         afferents.push_back({{"name", plan.name},
-                             {"made_of", fmt::format("{}+{}", plan.receptor, plan.neuron)},
+                             {"made_of", plan.made_of()},
                              {"sentence", plan.sentence},
                              {"V_th", level(plan, "V_th")},
                              {"V_reset", level(plan, "V_reset")},

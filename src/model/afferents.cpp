@@ -39,15 +39,17 @@ const std::vector<NamedAfferent>& named_afferents() {
          "lif-a",
          {},
          {},
-         "the earlier digital SA-I: SA-IA with LIF-A",
-         "Kim et al. 2012 as told in thesis 3.1; values are a choice"},
+         "the earlier digital SA-I: SA-IA with LIF-A, in fixed point behind a sensor and a converter",
+         "Kim et al. 2012 as told in thesis 3.1; values are a choice",
+         "fsr+f2v+adc"},
         {"fa1-lee",
          "fa1a",
          "adaptive",
+         {{"k", 200e-9}},
          {},
-         {},
-         "the earlier digital FA-I: rising and falling force to a neuron each, adaptive threshold",
-         "Lee et al. 2016 as told in thesis 3.1; values are a choice"},
+         "the earlier digital FA-I: rising and falling force to a neuron each, adaptive threshold; likewise",
+         "Lee et al. 2016 as told in thesis 3.1; values are a choice",
+         "fsr+f2v+adc"},
     };
     return all;
 }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "signal/text.hpp"
+#include "model/parts.hpp"
+#include "model/sensor/fronted.hpp"
+#include "model/sensor/fronts.hpp"
 
 namespace corpuscle {
 namespace {
@@ -11,6 +13,11 @@ namespace {
 template <template <class> class... M>
 std::vector<Card> cards(ModelList<M...>) {
     return {card_of<M<double>>()...};
+}
+
+template <class... M>
+std::vector<Card> cards(PartList<M...>) {
+    return {card_of<M>()...};
 }
 
 /// Calls f with the member that has this name.
@@ -21,51 +28,23 @@ void with_named(List list, std::string_view name, const F& f) {
     });
 }
 
-const Card* card_named(const std::vector<Card>& cards, std::string_view name) {
-    const auto at = std::find_if(cards.begin(), cards.end(), [&](const Card& c) { return c.name == name; });
-    return at == cards.end() ? nullptr : &*at;
+template <class List, class F>
+void with_part(List list, std::string_view name, const F& f) {
+    each(list, [&]<class M>(Part<M> m) {
+        if (M::name == name) f(m);
+    });
 }
 
-const NamedAfferent* afferent_named(std::string_view text) {
-    for (const auto& a : named_afferents()) {
-        if (same_letters(a.name, text)) return &a;
-        for (const auto other : a.other_names)
-            if (same_letters(other, text)) return &a;
-    }
-    return nullptr;
-}
-
-Error unknown_afferent(std::string_view text) {
-    std::vector<std::string_view> names;
-    for (const auto& a : named_afferents()) names.push_back(a.name);
-    return bad_input(
-        fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')", text,
-                    did_you_mean(text, names)));
-}
-
-/// The two halves of "sa1b+izhikevich", as the catalogue's own text.
-Result<std::pair<const Card*, const Card*>> halves(std::string_view text) {
-    static const auto receptors = receptor_cards(), neurons = neuron_cards();
-    const auto plus = text.find('+');
-    if (plus == std::string_view::npos) return unknown_afferent(text);
-    const auto find = [&](const std::vector<Card>& cards, std::string_view name, std::string_view kind) -> Result<const Card*> {
-        if (const auto* card = card_named(cards, name)) return card;
-        std::vector<std::string_view> names;
-        for (const auto& c : cards) names.push_back(c.name);
-        return bad_input(
-            fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, name, did_you_mean(name, names), fmt::join(names, ", ")));
+/// The cards of a plan's parts, in the order of the signal.
+std::vector<Card> cards_of(const Parts& parts) {
+    std::vector<Card> all;
+    const auto add = [&](std::vector<Card> cards, std::string_view name) {
+        for (auto& c : cards)
+            if (c.name == name) all.push_back(std::move(c));
     };
-    const auto receptor = find(receptors, text.substr(0, plus), "transduction");
-    if (!receptor) return receptor.error();
-    const auto neuron = find(neurons, text.substr(plus + 1), "neuron");
-    if (!neuron) return neuron.error();
-    return std::pair{*receptor, *neuron};
-}
-
-std::vector<Setting> settings_of(const AfferentPlan& plan) {
-    std::vector<Setting> settings;
-    for (const auto& p : plan.parameters) settings.push_back({p.row.name, p.value});
-    return settings;
+    add(sensor_cards(), parts.sensor), add(transducer_cards(), parts.transducer), add(converter_cards(), parts.converter);
+    add(receptor_cards(), parts.receptor), add(neuron_cards(), parts.neuron);
+    return all;
 }
 
 template <class M>
@@ -75,8 +54,46 @@ std::optional<Error> out_of_order(const AfferentPlan& plan) {
     return {};
 }
 
+template <class M>
+std::optional<Error> not_whole(const AfferentPlan& plan) {
+    if constexpr (requires { M::whole; })
+        for (const auto at : M::whole)
+            for (const auto& f : M::fields)
+                if (const double x = *plan.value(f.name); f.at == at && x != std::floor(x))
+                    return bad_input(fmt::format("{}: {} = {:g} is no whole number", plan.name, f.name, x));
+    return {};
+}
+
+/// What the rows alone cannot say: orders, whole numbers, a front that cannot measure its own range, words too short.
+std::optional<Error> refusal(const AfferentPlan& plan) {
+    std::optional<Error> wrong;
+    const auto model = [&]<template <class> class M>(Model<M>) {
+        if (!wrong) wrong = out_of_order<M<double>>(plan);
+    };
+    const auto part = [&]<class M>(Part<M>) {
+        if (!wrong) wrong = out_of_order<M>(plan);
+        if (!wrong) wrong = not_whole<M>(plan);
+    };
+    with_part(Sensors{}, plan.sensor, part), with_part(Transducers{}, plan.transducer, part), with_part(Converters{}, plan.converter, part);
+    with_named(Receptors{}, plan.receptor, model), with_named(Neurons{}, plan.neuron, model);
+    const auto front = front_of(plan);
+    if (!wrong && !plan.sensor.empty()) wrong = front.unreadable(plan.name, 0, "F_cal", *plan.value("F_cal"));
+    if (!wrong && !plan.converter.empty()) wrong = front.unreadable(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high"));
+    if (!wrong && !plan.converter.empty())
+        if (const auto chain = fixed_chain_of(plan); !chain) wrong = chain.error();
+    return wrong;
+}
+
 }  // namespace
 
+std::vector<Card> sensor_cards() {
+    auto all = cards(Sensors{});
+    for (auto& card : all)
+        for (const auto& row : rows_of<Calibration::Params>(Calibration::fields)) card.rows.push_back(row);
+    return all;
+}
+std::vector<Card> transducer_cards() { return cards(Transducers{}); }
+std::vector<Card> converter_cards() { return cards(Converters{}); }
 std::vector<Card> receptor_cards() { return cards(Receptors{}); }
 std::vector<Card> neuron_cards() { return cards(Neurons{}); }
 
@@ -85,24 +102,42 @@ std::optional<double> AfferentPlan::value(std::string_view parameter) const {
     return at == parameters.end() ? std::nullopt : std::optional(at->value);
 }
 
-Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> wishes) {
-    const NamedAfferent* named = afferent_named(text);
-    const auto parts = halves(named ? fmt::format("{}+{}", named->receptor, named->neuron) : text);
-    if (!parts) return parts.error();
-    const auto [receptor, neuron] = *parts;
+std::string AfferentPlan::made_of() const {
+    std::string text;
+    for (const auto part : {sensor, transducer, converter, receptor, neuron})
+        if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
+    return text;
+}
 
-    AfferentPlan plan{named ? std::string(named->name) : std::string(text),
-                      receptor->name,
-                      neuron->name,
-                      named ? named->sentence : receptor->sentence,
-                      named ? named->source : receptor->source,
+std::vector<Setting> settings_of(const AfferentPlan& plan) {
+    std::vector<Setting> settings;
+    for (const auto& p : plan.parameters) settings.push_back({p.row.name, p.value});
+    return settings;
+}
+
+Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> wishes) {
+    const auto parts = parse_parts(text);
+    if (!parts) return parts.error();
+    const auto* named = parts->named;
+    const auto cards = cards_of(*parts);
+    const auto& receptor = cards[cards.size() - 2];
+    AfferentPlan plan{std::string(text),
+                      parts->receptor,
+                      parts->neuron,
+                      named ? named->sentence : receptor.sentence,
+                      named ? named->source : receptor.source,
                       {},
-                      0};
+                      0,
+                      parts->sensor,
+                      parts->transducer,
+                      parts->converter};
+    if (named)
+        plan.name = named->front.empty() && !parts->front().empty() ? fmt::format("{}+{}", parts->front(), named->name) : named->name;
     std::vector<Row> rows;
-    for (const auto* half : {receptor, neuron})
-        for (const auto& row : half->rows) {
+    for (const auto& card : cards)
+        for (const auto& row : card.rows) {
             rows.push_back(row);
-            plan.parameters.push_back({row, half->name, row.initial, false});
+            plan.parameters.push_back({row, card.name, row.initial, false});
         }
     const auto apply = [&](std::span<const Setting> settings, bool by_user) {
         for (const auto& s : settings)
@@ -115,18 +150,12 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
             if (p.value != p.row.initial) p.row.initial = p.value, p.row.source = named->source;  // the name's own default
     }
     for (const auto& wish : wishes) {  // by any name it has
-        if (named ? afferent_named(wish.of) != named : wish.of != plan.name) continue;
+        if (wish.of != text && wish.of != plan.name && !(named && plan.name == named->name && afferent_named(wish.of) == named)) continue;
         const auto settings = settings_for(wish.of, rows, std::span(&wish, 1));
         if (!settings) return settings.error();
         apply(*settings, true);
     }
-    std::optional<Error> wrong;
-    const auto check = [&]<template <class> class M>(Model<M>) {
-        if (!wrong) wrong = out_of_order<M<double>>(plan);
-    };
-    with_named(Receptors{}, plan.receptor, check);
-    with_named(Neurons{}, plan.neuron, check);
-    if (wrong) return *wrong;
+    if (const auto wrong = refusal(plan)) return *wrong;
     with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
         if constexpr (requires { R<double>::least_rate; }) plan.least_rate = R<double>::least_rate;
     });
@@ -134,6 +163,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
 }
 
 std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Run& run) {
+    if (!plan.converter.empty()) return make_digital(plan, run);
     const auto settings = settings_of(plan);
     std::unique_ptr<Afferent> made;
     with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
@@ -143,6 +173,7 @@ std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Run& run
             made = std::make_unique<Chain<R, N>>(r, n, run);
         });
     });
+    if (!plan.sensor.empty()) return std::make_unique<Fronted>(front_of(plan), std::move(made));
     return made;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,10 @@
 #include "model/receptor/sa1a.hpp"
 #include "model/receptor/sa1b.hpp"
 #include "model/receptor/vibration.hpp"
+#include "model/sensor/adc.hpp"
+#include "model/sensor/f2i.hpp"
+#include "model/sensor/f2v.hpp"
+#include "model/sensor/fsr.hpp"
 #include "signal/settings.hpp"
 
 namespace corpuscle {
@@ -32,6 +37,19 @@ void each(ModelList<M...>, const F& f) {
     (f(Model<M>{}), ...);
 }
 
+/// What stands before a transduction; these know no kind of number but double.
+template <class... M>
+struct PartList {};
+template <class M>
+struct Part {};
+template <class... M, class F>
+void each(PartList<M...>, const F& f) {
+    (f(Part<M>{}), ...);
+}
+
+using Sensors = PartList<Fsr>;
+using Transducers = PartList<F2v, F2i>;
+using Converters = PartList<Adc>;
 using Receptors = ModelList<Sa1a, Sa1b, Fa1a, Fa1b, Vibration>;
 using Neurons = ModelList<LifA, LifB, Adaptive, Izhikevich, Adex>;
 
@@ -41,16 +59,20 @@ struct NamedAfferent {
     std::vector<Setting> settings;
     std::vector<std::string_view> other_names;  ///< accepted in any case
     std::string_view sentence, source;
+    std::string_view front = {};  ///< sensor, transducer, converter before it
 };
 const std::vector<NamedAfferent>& named_afferents();
 
+std::vector<Card> sensor_cards();  ///< each with its calibration's rows
+std::vector<Card> transducer_cards();
+std::vector<Card> converter_cards();
 std::vector<Card> receptor_cards();
 std::vector<Card> neuron_cards();
 
 /// One parameter of an afferent, with the value it has.
 struct Parameter {
     Row row;
-    std::string_view of;  ///< the transduction or the neuron it belongs to
+    std::string_view of;  ///< the part it belongs to
     double value = 0;
     bool set = false;  ///< by the user
 };
@@ -60,11 +82,16 @@ struct AfferentPlan {
     std::string name;  ///< as asked for: "sa1", "sa1b+izhikevich"
     std::string_view receptor, neuron, sentence, source;
     std::vector<Parameter> parameters;
-    double least_rate = 0;  ///< Hz; below it the answer is not to be trusted
+    double least_rate = 0;                                          ///< Hz; below it the answer is not to be trusted
+    std::string_view sensor = {}, transducer = {}, converter = {};  ///< "": there is none
     std::optional<double> value(std::string_view parameter) const;
+    std::string made_of() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
 };
 
-/// Reads "sa1", "SA1", "sa1b+izhikevich"; wishes name it as it was asked for or by its own name.
+/// The values of a plan's parameters, for `with`.
+std::vector<Setting> settings_of(const AfferentPlan&);
+
+/// Reads "sa1", "SA1", "sa1b+izhikevich", "fsr+f2i+sa1"; wishes name it as it was asked for or by its own name.
 Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> wishes);
 
 /// The afferent of a plan, for samples T = run.dt apart.

@@ -8,6 +8,7 @@
 
 #include "model/current.hpp"
 #include "signal/afferent.hpp"
+#include "signal/random.hpp"
 
 namespace corpuscle {
 
@@ -42,10 +43,12 @@ struct Kernel {
         return s;
     }
 
-    /// One sample; fired(mask, offset) for each spike. Returns where a neuron's cap cut it short.
-    template <class Fired>
-    num::Mask<T> step(State& s, T force, Current<T> (&i)[outputs], Fired&& fired) const {
+    /// One sample; disturb(i) may change the currents on their way; fired(mask, offset) for each spike. Returns where a neuron's cap
+    /// cut it short.
+    template <class Disturb, class Fired>
+    num::Mask<T> step(State& s, T force, Current<T> (&i)[outputs], Disturb&& disturb, Fired&& fired) const {
         receptor.step(s.receptor, force, i);
+        disturb(i);
         auto capped = neuron.step(s.neuron[0], i[0], fired);
         for (int k = 1; k < outputs; ++k) capped = capped | neuron.step(s.neuron[k], i[k], fired);
         return capped;
@@ -53,9 +56,9 @@ struct Kernel {
 
     /// The first sample: the force before it was the same. Backward Euler takes a step there, as the algorithms do, and puts its
     /// spikes on the sample: there is no time before it. Exact has no time to cover yet.
-    template <class Fired>
-    num::Mask<T> first(State& s, T force, Current<T> (&i)[outputs], Fired&& fired) const {
-        if (method == Method::backward_euler) return step(s, force, i, [&](num::Mask<T> who, T) { fired(who, T(1.0)); });
+    template <class Disturb, class Fired>
+    num::Mask<T> first(State& s, T force, Current<T> (&i)[outputs], Disturb&& disturb, Fired&& fired) const {
+        if (method == Method::backward_euler) return step(s, force, i, disturb, [&](num::Mask<T> who, T) { fired(who, T(1.0)); });
         receptor.step(s.receptor, force, i);
         return num::none<T>();
     }
@@ -81,7 +84,12 @@ struct Run {
     double dt = 1e-4;  ///< s, one sample
     Method method = Method::exact;
     bool sampled = false;  ///< spikes on the sample, as in the thesis, not inside the step
+    /// Membrane noise: a white current to each neuron; its standard deviation within noise_band, A. Constant in each step.
+    double noise = 0;
+    std::uint64_t seed = 0;
 };
+
+inline constexpr double noise_band = 1e3;  ///< Hz
 
 template <template <class> class R, template <class> class N>
 class Chain final : public Afferent {
@@ -91,6 +99,8 @@ class Chain final : public Afferent {
 
     K kernel_;
     bool sampled_;
+    double noise_;  // standard deviation of one step's current, A: white up to 1/(2T)
+    std::uint64_t seed_;
     std::string name_, format_;
     std::vector<std::string> names_;
     std::vector<Probe> probes_;
@@ -112,7 +122,16 @@ class Chain final : public Afferent {
         for (std::size_t k = 0; k < names_.size(); ++k) probes_.push_back({names_[k], units[k]});
     }
 
-    template <bool Probed>
+    /// What a step's noise adds; it depends on what it is for alone: seed, unit, neuron and step.
+    void disturb(Current<double> (&i)[K::outputs], std::uint32_t unit, std::int64_t step) const {
+        constexpr std::uint32_t purpose = 0x6d656d00;  // membranes' own streams, one a neuron
+        for (int k = 0; k < K::outputs; ++k) {
+            const double n = noise_ * normal(seed_, unit, purpose + static_cast<std::uint32_t>(k), static_cast<std::uint64_t>(step));
+            i[k] = {i[k].from + n, i[k].to + n};
+        }
+    }
+
+    template <bool Probed, bool Noisy>
     void run(std::span<const double> force, std::int64_t first, Values& state, Answer& answer) const {
         Values s = state;  // a local: kept in registers
         Current<double> i[K::outputs] = {};
@@ -120,9 +139,12 @@ class Chain final : public Afferent {
             const auto fired = [&](bool, double x) {
                 answer.spikes.push_back({first + static_cast<std::int64_t>(k), sampled_ ? 1.0 : x, answer.unit});
             };
+            const auto noise = [&](Current<double>(&currents)[K::outputs]) {
+                if constexpr (Noisy) disturb(currents, answer.unit, first + static_cast<std::int64_t>(k));
+            };
             [[maybe_unused]] const std::size_t seen = answer.spikes.size();
-            const bool capped =
-                first + static_cast<std::int64_t>(k) == 0 ? kernel_.first(s, force[k], i, fired) : kernel_.step(s, force[k], i, fired);
+            const bool capped = first + static_cast<std::int64_t>(k) == 0 ? kernel_.first(s, force[k], i, noise, fired)
+                                                                          : kernel_.step(s, force[k], i, noise, fired);
             if (capped) ++answer.capped;
             if constexpr (K::outputs > 1) sort_from(seen, answer.spikes);
             if constexpr (Probed) show(s, i, k, answer);
@@ -145,25 +167,24 @@ public:
     template <class RP, class NP>
     Chain(const RP& r, const NP& n, const Run& run)
         : kernel_{R<double>(Same<RP>{r}, run.dt, run.method), N<double>(Same<NP>{n}, run.dt, run.method), run.method},
-          sampled_(run.sampled), name_(fmt::format("{}+{}", R<double>::name, N<double>::name)),
-          format_(fmt::format("{}/1, T = {} s", name_, run.dt)) {
+          sampled_(run.sampled), noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
+          name_(fmt::format("{}+{}", R<double>::name, N<double>::name)), format_(fmt::format("{}/1, T = {} s", name_, run.dt)) {
         name_probes();
     }
 
     std::span<const Probe> probes() const override { return probes_; }
-    State start() const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
+    State start(Turn) const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
 
     Result<void> respond(std::span<const double> force, State& state, Answer& answer) const override {
-        if (state.format != format_ || state.values.size() * sizeof(double) != sizeof(Values))
-            return bad_input("a state of '" + state.format + "' was handed to '" + format_ + "'");
+        if (auto ok = check_block(name_, format_, sizeof(Values) / sizeof(double), state, force); !ok) return ok;
         if (force.empty()) return {};
-        if (const auto bad = first_not_finite(force); bad < force.size())
-            return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name_,
-                                         state.step + static_cast<std::int64_t>(bad), force[bad]));
         Values s;
         std::memcpy(&s, state.values.data(), sizeof s);
         if (state.step == 0) s = kernel_.start(force[0]);
-        answer.probes.empty() ? run<false>(force, state.step, s, answer) : run<true>(force, state.step, s, answer);
+        const bool probed = !answer.probes.empty();
+        const auto go = noise_ > 0 ? (probed ? &Chain::run<true, true> : &Chain::run<false, true>)
+                                   : (probed ? &Chain::run<true, false> : &Chain::run<false, false>);
+        (this->*go)(force, state.step, s, answer);
         std::memcpy(state.values.data(), &s, sizeof s);
         if (first_not_finite(state.values) < state.values.size())
             return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "

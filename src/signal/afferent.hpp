@@ -34,11 +34,21 @@ struct Answer {
     std::uint32_t unit = 0;
     /// If not empty: one array a probe, each as long as the block of force, to be filled.
     std::span<double* const> probes = {};
-    std::int64_t capped = 0;  ///< steps whose spikes were more than the cap allows
+    std::int64_t capped = 0;      ///< steps whose spikes were more than the cap allows
+    std::int64_t clipped = 0;     ///< samples beyond what a sensor's electronics or a converter can tell
+    std::int64_t overflowed = 0;  ///< results too large for a digital afferent's words, kept at the largest
+};
+
+/// Which of several channels that share their electronics: a converter takes them in turn.
+struct Turn {
+    std::uint32_t channel = 0, of = 1;
 };
 
 /// The place of the first number that is infinite or none; the size if there is none such.
 std::size_t first_not_finite(std::span<const double>);
+
+/// Refuses a state that is another afferent's, and a force that is not finite.
+Result<void> check_block(std::string_view name, std::string_view format, std::size_t values, const State&, std::span<const double> force);
 
 class Afferent {
 public:
@@ -48,7 +58,7 @@ public:
     virtual ~Afferent() = default;
     virtual std::span<const Probe> probes() const = 0;
     /// The state before the first sample. The first sample also sets the force that went before it.
-    virtual State start() const = 0;
+    virtual State start(Turn = {}) const = 0;
     /// Answers the next block (force in newtons, one sample a T). Blocks of any size give the same spikes.
     virtual Result<void> respond(std::span<const double> force, State&, Answer&) const = 0;
 };

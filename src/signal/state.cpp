@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -37,6 +38,16 @@ std::size_t first_not_finite(std::span<const double> x) {
     for (const double v : x) found |= (std::bit_cast<std::uint64_t>(v) & exponent) == exponent;
     if (!found) return x.size();
     return static_cast<std::size_t>(std::find_if(x.begin(), x.end(), [](double v) { return !std::isfinite(v); }) - x.begin());
+}
+
+Result<void> check_block(std::string_view name, std::string_view format, std::size_t values, const State& state,
+                         std::span<const double> force) {
+    if (state.format != format || state.values.size() != values)
+        return bad_input(fmt::format("a state of '{}' was handed to '{}'", state.format, format));
+    if (const auto bad = first_not_finite(force); bad < force.size())
+        return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name,
+                                     state.step + static_cast<std::int64_t>(bad), force[bad]));
+    return {};
 }
 
 std::vector<std::byte> pack(const State& s) {

@@ -29,12 +29,15 @@ public:
         : input_(std::move(input)), force_(input_.source.channels().size(), block_for(input_, options, probed)) {
         const auto plans = input_.afferents;
         for (const auto& plan : plans) {
-            afferents_.push_back(make_afferent(plan, {input_.source.clock().T(), options.method, options.sampled}));
+            afferents_.push_back(
+                make_afferent(plan, {input_.source.clock().T(), options.method, options.sampled, options.noise, options.seed}));
             probes_of_.push_back(afferents_.back()->probes());
         }
         input_.probes = probes_of_;
+        const auto channels = input_.source.channels().size();
         for (std::size_t u = 0; u < input_.units(); ++u) {
-            states_.push_back(afferents_[u % plans.size()]->start());
+            states_.push_back(afferents_[u % plans.size()]->start(
+                {static_cast<std::uint32_t>(input_.channel_of(u)), static_cast<std::uint32_t>(channels)}));
             if (probed) probes_.emplace_back(probes_of_[u % plans.size()].size(), std::vector<double>(force_.capacity));
         }
     }
@@ -54,7 +57,7 @@ public:
                 fmt::format("{} on {}: {}", input_.afferent_of(u).name, input_.channel_name(input_.channel_of(u)), error.sentence);
             return error;
         }
-        work.capped_steps += answer.capped;
+        work.capped_steps += answer.capped, work.clipped += answer.clipped, work.overflowed += answer.overflowed;
         return {};
     }
 
@@ -114,6 +117,32 @@ Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span
         unit += static_cast<std::uint32_t>(bench.input().units());
     }
     return work;
+}
+
+std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise) {
+    std::vector<std::string> warnings;
+    for (const auto& a : afferents)
+        if (noise > 0 && !a.converter.empty())
+            warnings.push_back(fmt::format("{}: --noise does not reach it; behind a converter membranes are numbers", a.name));
+    return warnings;
+}
+
+std::vector<std::string> work_warnings(const Work& work) {
+    std::vector<std::string> warnings;
+    if (work.capped_steps > 0)
+        warnings.push_back(
+            fmt::format("{} steps would have held more spikes than one step can ({}, or 1 behind a converter) and were cut "
+                        "short; raise the rate, or the threshold",
+                        work.capped_steps, spikes_a_step));
+    if (work.clipped > 0)
+        warnings.push_back(
+            fmt::format("{} samples were clipped by a transducer or a converter: the afferent saw less force than there "
+                        "was; lower R_fb or V_FSR, raise V_DD or I_max, or widen F_low to F_high",
+                        work.clipped));
+    if (work.overflowed > 0)
+        warnings.push_back(fmt::format(
+            "{} results did not fit their words and were kept at the largest or least; lower frac, or raise word", work.overflowed));
+    return warnings;
 }
 
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents) {

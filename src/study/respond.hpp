@@ -50,11 +50,15 @@ struct Work {
     std::int64_t afferent_steps = 0;  ///< samples times afferents
     std::int64_t spikes = 0;
     std::int64_t capped_steps = 0;  ///< steps cut short by the cap on spikes a step
+    std::int64_t clipped = 0;       ///< samples beyond a sensor's electronics or converter
+    std::int64_t overflowed = 0;    ///< results too large for a digital afferent's words
 };
 
 struct RespondOptions {
     Method method = Method::exact;
     bool sampled = false;
+    double noise = 0;          ///< of every membrane: see Run
+    std::uint64_t seed = 0;    ///< of the noise
     std::size_t block = 4096;  ///< samples; the answer does not depend on it
     /// Called once a block with the share done, 0 to 1; false stops the run.
     std::function<bool(double)> keep_on = [](double) { return true; };
@@ -63,6 +67,12 @@ struct RespondOptions {
 /// Runs all sources through all afferents. Stopped by keep_on, it is an error of code `interrupted`.
 Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents,
                      std::span<Listener* const> listeners, const RespondOptions&);
+
+/// What the user should know of noise: whom it does not reach.
+std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
+
+/// What the user should know of the answer: what was cut short, clipped or too large for its words.
+std::vector<std::string> work_warnings(const Work&);
 
 /// What the user should know before trusting the answer: a rate too low for an afferent.
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents);

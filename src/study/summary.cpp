@@ -20,7 +20,11 @@ Json afferent_document(const AfferentPlan& plan) {
     Json parameters = Json::object();
     for (const auto& p : plan.parameters)
         parameters[std::string(p.row.name)] = {{"value", p.value}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
-    return {{"name", plan.name}, {"transduction", plan.receptor}, {"neuron", plan.neuron}, {"parameters", parameters}};
+    return {{"name", plan.name},
+            {"made_of", plan.made_of()},
+            {"transduction", plan.receptor},
+            {"neuron", plan.neuron},
+            {"parameters", parameters}};
 }
 
 /// Where the sensors sit, by channel; empty if nobody said.
@@ -114,16 +118,19 @@ std::vector<std::size_t> Summary::columns() const {
 Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work, const RespondOptions& options, std::uint64_t seed,
                        const std::vector<std::string>& warnings) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
-    out["options"] = {
-        {"method", options.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", options.sampled}, {"seed", seed}};
+    out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"},
+                      {"sampled", options.sampled},
+                      {"noise_A", options.noise},
+                      {"seed", seed}};
     out["afferents"] = Json::array();
     for (const auto& a : afferents) out["afferents"].push_back(afferent_document(a));
     out["inputs"] = Json::array();
     for (const auto& i : inputs_) out["inputs"].push_back(input_document(i));
     out["rates"] = Json::array();
     for (const auto& r : rows_) out["rates"].push_back(row_document(r));
-    out["work"] = {
-        {"samples", work.samples}, {"afferent_steps", work.afferent_steps}, {"spikes", work.spikes}, {"capped_steps", work.capped_steps}};
+    out["work"] = {{"samples", work.samples}, {"afferent_steps", work.afferent_steps},
+                   {"spikes", work.spikes},   {"capped_steps", work.capped_steps},
+                   {"clipped", work.clipped}, {"overflowed", work.overflowed}};
     out["warnings"] = warnings;
     return out;
 }

@@ -139,7 +139,7 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
 TEST(Program, ListNamesEveryParameterOfEveryModel) {
     const Folder folder;
     const auto text = run(folder, "list").out;
-    for (const auto& cards : {receptor_cards(), neuron_cards(), stimulus_cards()})
+    for (const auto& cards : {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards(), stimulus_cards()})
         for (const auto& card : cards) {
             EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
             for (const auto& row : card.rows)
@@ -171,6 +171,9 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --set f_B=1", 2, "'f_B=1' is no setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
         {"respond press --rate fast", 2, "--rate 'fast' is no quantity; write a number and a unit, such as '2 Hz'"},
         {"respond press --traces", 2, "--traces needs --out DIR to write into"},
+        {"respond press --vectors", 2, "--vectors needs --out DIR to write into"},
+        {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no words; try 'adc+sa1'"},
+        {"respond press --noise -1nA", 2, "--noise '-1nA' is below 0; write a standard deviation, such as '50 nA'"},
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
         {"respond press --scale 2", 2, "--scale is for recordings, and press is a stimulus; --set press.PARAMETER=VALUE changes it"},
@@ -255,6 +258,21 @@ TEST(Program, ProgressWithTimeLeftIsDrawnToATerminalAndNowhereElse) {
     EXPECT_NE(seen.find(" s left"), std::string::npos) << seen.substr(0, 400);
     EXPECT_NE(seen.find(" %  "), std::string::npos);
     EXPECT_EQ(run(folder, job).err, "") << "not a terminal";
+}
+
+TEST(Program, WhatWasClippedOrDidNotFitOrWasNotReachedIsTold) {
+    const Folder folder;
+    EXPECT_EQ(run(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
+              "corpuscle: warning: 3335 samples were clipped by a transducer or a converter: the afferent saw less force than there was; "
+              "lower R_fb or V_FSR, raise V_DD or I_max, or widen F_low to F_high\n");
+    EXPECT_NE(run(folder, "respond press -q -a sa1-kim --set sa1-kim.frac=28 --set sa1-kim.k_s=10e-6")
+                  .err.find("results did not fit their words"),
+              std::string::npos);
+    EXPECT_EQ(run(folder, "respond press -q -a sa1-kim --noise 1nA").err,
+              "corpuscle: warning: sa1-kim: --noise does not reach it; behind a converter membranes are numbers\n");
+    const auto noisy = Json::parse(run(folder, "respond press --noise 200nA --seed 5 --json").out);
+    EXPECT_DOUBLE_EQ(noisy["options"]["noise_A"].get<double>(), 200e-9);
+    EXPECT_EQ(noisy["work"]["clipped"], 0);
 }
 
 TEST(Program, ReadsFromAPipe) {

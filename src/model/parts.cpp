@@ -1,0 +1,146 @@
+#include "model/parts.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::vector<std::string_view> names_of(const std::vector<Card>& cards) {
+    std::vector<std::string_view> names;
+    for (const auto& c : cards) names.push_back(c.name);
+    return names;
+}
+
+/// The catalogue's own text for a name in it, in any case; "" if it is not there.
+std::string_view found(const std::vector<std::string_view>& names, std::string_view typed) {
+    const auto at = std::find_if(names.begin(), names.end(), [&](auto name) { return same_letters(name, typed); });
+    return at == names.end() ? std::string_view() : *at;
+}
+
+/// The kinds of part that stand before an afferent, in their order.
+struct Kind {
+    std::string_view article_and_name;
+    std::vector<std::string_view> names;
+    std::string_view Parts::* at;
+};
+const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> all = {{"a sensor", names_of(sensor_cards()), &Parts::sensor},
+                                          {"a transducer", names_of(transducer_cards()), &Parts::transducer},
+                                          {"a converter", names_of(converter_cards()), &Parts::converter}};
+    return all;
+}
+
+/// "the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), then the afferent"
+std::string order() {
+    std::string text = "the signal goes through ";
+    for (const auto& kind : kinds()) text += fmt::format("{} ({}), ", kind.article_and_name, fmt::join(kind.names, ", "));
+    return text + "then the afferent";
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+    std::vector<std::string_view> words;
+    for (std::size_t at = 0; at <= text.size();) {
+        const auto end = std::min(text.find('+', at), text.size());
+        words.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return words;
+}
+
+Error unknown_afferent(std::string_view text) {
+    std::vector<std::string_view> names;
+    for (const auto& a : named_afferents()) names.push_back(a.name);
+    return bad_input(
+        fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')", text,
+                    did_you_mean(text, names)));
+}
+
+Result<std::string_view> part_named(std::string_view text, std::string_view typed, const std::vector<std::string_view>& names,
+                                    std::string_view kind) {
+    if (std::find(names.begin(), names.end(), typed) != names.end()) return *std::find(names.begin(), names.end(), typed);
+    return bad_input(
+        fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, typed, did_you_mean(typed, names), fmt::join(names, ", ")));
+}
+
+/// A part of the front after its place, or a word that is no part at all.
+Error misplaced(std::string_view text, std::string_view word, const Parts& parts) {
+    std::vector<std::string_view> known;
+    for (const auto& kind : kinds()) {
+        known.insert(known.end(), kind.names.begin(), kind.names.end());
+        const auto name = found(kind.names, word);
+        if (name.empty()) continue;
+        if (const auto first = parts.*kind.at; !first.empty())
+            return bad_input(fmt::format("{}: '{}' after '{}': {} is enough", text, name, first, kind.article_and_name));
+        return bad_input(fmt::format("{}: '{}' stands too late; {}", text, name, order()));
+    }
+    return bad_input(fmt::format("{}: '{}' is no part that can stand there{} ({})", text, word, did_you_mean(word, known), order()));
+}
+
+/// Takes the front's parts from the first words; gives how many they were.
+std::size_t take_front(std::span<const std::string_view> words, Parts& parts) {
+    std::size_t taken = 0;
+    for (const auto& kind : kinds())
+        if (taken < words.size())
+            if (const auto name = found(kind.names, words[taken]); !name.empty()) parts.*kind.at = name, ++taken;
+    return taken;
+}
+
+Result<void> take_afferent(std::string_view text, std::span<const std::string_view> words, Parts& parts) {
+    static const auto receptors = names_of(receptor_cards()), neurons = names_of(neuron_cards());
+    if (words.empty())
+        return bad_input(fmt::format("{}: no afferent stands behind '{}'; name one, such as '{}+sa1'", text, parts.front(), text));
+    parts.named = afferent_named(words.back());
+    const std::size_t own = parts.named ? 1 : 2;  // words of the afferent itself
+    for (const auto& kind : kinds())
+        for (const auto word : words)
+            if (!found(kind.names, word).empty()) return misplaced(text, word, parts);
+    if (words.size() > own) return misplaced(text, words[0], parts);
+    if (words.size() < own) return unknown_afferent(words[0]);
+    if (parts.named) return {};
+    const auto receptor = part_named(text, words[0], receptors, "transduction");
+    if (!receptor) return receptor.error();
+    const auto neuron = part_named(text, words[1], neurons, "neuron");
+    if (!neuron) return neuron.error();
+    parts.receptor = *receptor, parts.neuron = *neuron;
+    return {};
+}
+
+}  // namespace
+
+const NamedAfferent* afferent_named(std::string_view text) {
+    for (const auto& a : named_afferents()) {
+        if (same_letters(a.name, text)) return &a;
+        for (const auto other : a.other_names)
+            if (same_letters(other, text)) return &a;
+    }
+    return nullptr;
+}
+
+std::string Parts::front() const {
+    std::string text;
+    for (const auto part : {sensor, transducer, converter})
+        if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
+    return text;
+}
+
+Result<Parts> parse_parts(std::string_view text) {
+    Parts parts;
+    const auto words = split(text);
+    const auto taken = take_front(words, parts);
+    if (auto ok = take_afferent(text, std::span(words).subspan(taken), parts); !ok) return ok.error();
+    if (parts.named) {
+        parts.receptor = parts.named->receptor, parts.neuron = parts.named->neuron;
+        if (taken > 0 && !parts.named->front.empty())
+            return bad_input(fmt::format("{}: {} has a front of its own ({}); put '{}' before {}+{} instead", text, parts.named->name,
+                                         parts.named->front, parts.front(), parts.receptor, parts.neuron));
+        if (taken == 0 && !parts.named->front.empty()) take_front(split(parts.named->front), parts);
+    }
+    if (parts.sensor.empty() && !parts.transducer.empty())
+        return bad_input(fmt::format("{}: {} needs the conductance of a sensor before it, such as 'fsr+{}'", text, parts.transducer, text));
+    return parts;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,92 @@
+#pragma once
+// A transduction and its neurons in words, as one thing that steps. State and outputs are rows of words, each named.
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <span>
+
+#include "model/sensor/fixed_neuron.hpp"
+#include "model/sensor/fixed_receptor.hpp"
+
+namespace corpuscle {
+
+class FixedChain {
+public:
+    /// What one step gave: a spike bit for each neuron, and how many neurons were cut short.
+    struct Stepped {
+        std::array<bool, 2> fired = {};
+        int capped = 0;
+    };
+    static constexpr std::size_t most_words = 12, most_shown = 6;
+
+    FixedChain(Constants constants) : constants_(std::move(constants)) {}
+    virtual ~FixedChain() = default;
+    const Constants& constants() const { return constants_; }
+    /// The words shown after a step: "I" or "I_+", "I_-", then each neuron's own.
+    const std::vector<std::pair<std::string, std::string_view>>& shown() const { return shown_; }
+    virtual int outputs() const = 0;
+    virtual std::size_t words() const = 0;
+    /// The state before the first step; the force before it was the same.
+    virtual void start(Word F, std::span<Word> state) const = 0;
+    virtual Stepped step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic&) const = 0;
+
+protected:
+    Constants constants_;
+    std::vector<std::pair<std::string, std::string_view>> shown_;  // name, unit
+};
+
+template <class R, class N>
+class FixedChainOf final : public FixedChain {
+    static constexpr int outputs_ = R::Facts::outputs;
+    struct State {
+        typename R::State receptor;
+        typename N::State neuron[outputs_];
+    };
+    static constexpr std::size_t words_ = sizeof(State) / sizeof(Word);
+    static_assert(std::is_trivially_copyable_v<State> && words_ <= most_words && outputs_ * (1 + std::size(N::parts)) <= most_shown);
+
+    R receptor_;
+    N neuron_;
+
+public:
+    FixedChainOf(const typename R::Facts::Params& r, const typename N::Facts::Params& n, double f_s, Format format)
+        : FixedChain(format), receptor_(r, f_s, constants_), neuron_(n, f_s, constants_) {
+        const auto sign = [](int k) -> std::string {
+            if constexpr (requires { R::Facts::signs; }) return "_" + std::string(R::Facts::signs[k]);
+            return k == 0 ? "" : std::to_string(k);
+        };
+        for (int k = 0; k < outputs_; ++k) shown_.push_back({"I" + sign(k), "A"});
+        for (int k = 0; k < outputs_; ++k)
+            for (const auto& p : N::parts) shown_.push_back({std::string(p.name) + sign(k), p.unit});
+    }
+
+    int outputs() const override { return outputs_; }
+    std::size_t words() const override { return words_; }
+
+    void start(Word F, std::span<Word> state) const override {
+        State s{};
+        s.receptor.F = F;
+        for (auto& n : s.neuron) n = neuron_.start();
+        std::memcpy(state.data(), &s, sizeof s);
+    }
+
+    Stepped step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic& a) const override {
+        State s;
+        std::memcpy(&s, state.data(), sizeof s);
+        Word I[outputs_];
+        receptor_.step(s.receptor, F, I, a);
+        Stepped out;
+        for (int k = 0; k < outputs_; ++k) {
+            const auto fired = neuron_.step(s.neuron[k], I[k], a);
+            out.fired[static_cast<std::size_t>(k)] = fired.spike;
+            out.capped += fired.capped;
+            shown[static_cast<std::size_t>(k)] = I[k];
+            neuron_.show(s.neuron[k], &shown[static_cast<std::size_t>(outputs_) + static_cast<std::size_t>(k) * std::size(N::parts)]);
+        }
+        std::memcpy(state.data(), &s, sizeof s);
+        return out;
+    }
+};
+
+}  // namespace corpuscle

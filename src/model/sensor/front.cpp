@@ -1,0 +1,48 @@
+#include "model/sensor/front.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace corpuscle {
+
+Front::Front(std::vector<Stage> stages, double F_cal) : stages_(std::move(stages)), F_cal_(F_cal) {
+    at_zero_ = read(0).value;
+    at_cal_ = read(F_cal_).value;
+}
+
+double Front::played(double held, double F) const {
+    const double h = stages_.empty() ? 0 : stages_.front().hysteresis;
+    return F > 0 ? std::min(std::max(held, F), (1 + h) * F) : F;
+}
+
+Front::Reading Front::read(double felt, double* shown) const {
+    Reading r{felt};
+    for (const auto& stage : stages_) {
+        r.value = stage.curve(r.value);
+        if (r.value > stage.limit) r.value = stage.limit, r.clipped = true;
+        if (shown) *shown++ = r.value;
+    }
+    return r;
+}
+
+double Front::inverse(double value, double low, double high) const {
+    for (int halving = 0; halving < 64; ++halving) {  // always as many: the same bits everywhere
+        const double middle = 0.5 * (low + high);
+        (read(middle).value < value ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+std::optional<Error> Front::unreadable(std::string_view of, double low, std::string_view name, double high) const {
+    double x = high;
+    for (const auto& s : stages_) {
+        x = s.curve(x);
+        if (x > s.limit)
+            return bad_input(fmt::format("{}: at {} = {:g} N {} would be {:.4g} {}, above {} = {:g} {}; lower {} or {}", of, name, high,
+                                         s.shows.name, x, s.shows.unit, s.limit_name, s.limit, s.shows.unit, s.gain_name, name));
+    }
+    if (read(high).value > read(low).value) return {};
+    return bad_input(fmt::format("{}: {} = {:g} N cannot be told from {:g} N behind this sensor; raise {}", of, name, high, low, name));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "model/sensor/stage.hpp"
+#include "signal/elementary.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// A force sensing resistor, Interlink's FSR 400:   G_FSR = 1/R_0 + F^m / a,   F in gram-force, at F <= 0 only 1/R_0
+/// (thesis eq. 13; errata: R_F = a F^-m with a = 170 kohm gf^m.) Fitted from 50 gf to 4 kgf; the press begins below that, at 20 gf.
+/// Hysteresis is a relative play, a choice: what is read stays where it is while it lies between F and (1 + hysteresis) F, and
+/// moves with the end that meets it; so falling force is read up to that share too high, rising force as it is. Creep, drift
+/// and the spread from part to part are left out.
+struct Fsr {
+    struct Params {
+        double R_0 = 10e6, R_1gf = 170e3, m = 0.72, hysteresis = 0;
+    };
+    static constexpr std::string_view name = "fsr", sentence = "force sensing resistor FSR 400: conductance of force";
+    static constexpr std::string_view source = "thesis 4.1, eq. 13";
+    static constexpr Field<Params> fields[] = {
+        {"R_0", &Params::R_0, "ohm", 1, 1e12, "resistance without force"},
+        {"R_1gf", &Params::R_1gf, "ohm", 1, 1e12, "resistance of the film alone at 1 gf (a, in ohm gf^m)",
+         "thesis 4.1, printed 170 ohm gf; the data sheet's curve needs kilohms"},
+        {"m", &Params::m, "", 0.1, 2, "exponent of the film's conductance"},
+        {"hysteresis", &Params::hysteresis, "", 0, 1, "share by which falling force is read too high", "choice: none"},
+    };
+
+    static Stage stage(const Params& p) {
+        return {.part = name, .shows = {"G_FSR", "S"}, .curve = [p](double F) { return conductance(p, F); }, .hysteresis = p.hysteresis};
+    }
+
+    static double conductance(const Params& p, double F) {
+        constexpr double newtons_a_gf = 9.80665e-3, least = 1e-300;  // below it a logarithm has no normal number to work on
+        const double gf = F / newtons_a_gf;
+        return 1 / p.R_0 + (gf > least ? num::exp(p.m * num::log(num::min(gf, 1e300))) / p.R_1gf : 0);
+    }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,114 @@
+#include "study/vectors.hpp"
+
+#include <iterator>
+
+#include "model/sensor/fronts.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// What stands above the rows: whose they are, and every constant.
+std::string header(const AfferentPlan& plan, const std::string& channel, const Digital& afferent) {
+    const auto& constants = afferent.chain().constants();
+    std::string text = "# corpuscle vectors 1, as doc/fixed-point.md tells them\n";
+    text += fmt::format("# afferent {}\n# parts {}\n# channel {}\n", plan.name, plan.made_of(), channel);
+    text += fmt::format("# word {}\n# frac {}\n# bits {:g}\n# f_s {} Hz\n", constants.format().word, constants.format().frac,
+                        *plan.value("bits"), *plan.value("f_s"));
+    for (const auto& c : constants.all())
+        text += c.shift < 0 ? fmt::format("# level {} {} {}\n", c.name, c.value, c.word)
+                            : fmt::format("# factor {} {} {} {}\n", c.name, c.value, c.word, c.shift);
+    std::string columns = "code,F", bits;
+    for (const auto& [name, unit] : afferent.chain().shown()) {
+        columns += "," + name;
+        if (name.starts_with("I")) bits += ",s" + name.substr(1);
+    }
+    return text + columns + bits + "\n";
+}
+
+std::string rom(const Digital& afferent) {
+    std::string text = "code,F\n";
+    for (std::size_t code = 0; code < afferent.rom().size(); ++code) text += fmt::format("{},{}\n", code, afferent.rom()[code]);
+    return text;
+}
+
+/// A channel's name in a comment: one line, whatever bytes it holds.
+std::string one_line(std::string name) {
+    for (char& c : name)
+        if (c == '\n' || c == '\r') c = ' ';
+    return name;
+}
+
+}  // namespace
+
+/// The afferents at this input's clock; at the first input, their tables.
+Result<void> VectorsFile::make_afferents(const Input& input) {
+    digital_.clear();
+    for (const auto& plan : input.afferents) {
+        const bool in_words = !plan.converter.empty();
+        digital_.push_back(in_words ? make_digital(plan, {input.source.clock().T()}) : nullptr);
+        if (!in_words || input.index > 0) continue;
+        paths_.push_back(fmt::format("{}/rom-{}.csv", directory_, plan.name));
+        auto file = OutputFile::create(paths_.back());
+        if (!file) return file.error();
+        if (auto ok = file->write(rom(*digital_.back())); !ok) return ok;
+        whole_.push_back(std::move(*file));
+    }
+    made_.resize(digital_.size());
+    return {};
+}
+
+Result<void> VectorsFile::open(const Input& input, std::size_t unit) {
+    const auto a = unit % input.afferents.size(), c = input.channel_of(unit);
+    const auto number = ++made_[a] == 1 ? "" : fmt::format("-{}", made_[a]);
+    paths_.push_back(fmt::format("{}/vectors-{}{}.csv", directory_, input.afferents[a].name, number));
+    auto file = OutputFile::create(paths_.back());
+    if (!file) return file.error();
+    if (auto ok = file->write(header(input.afferents[a], one_line(input.channel_name(c)), *digital_[a])); !ok) return ok;
+    const Turn turn{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(input.source.channels().size())};
+    units_[unit] = Unit{a, std::move(*file), digital_[a]->start(turn)};
+    return {};
+}
+
+Result<void> VectorsFile::begin(const Input& input) {
+    if (auto ok = make_afferents(input); !ok) return ok;
+    units_.clear();
+    units_.resize(input.units());
+    for (std::size_t u = 0; u < input.units(); ++u)
+        if (digital_[u % input.afferents.size()])
+            if (auto ok = open(input, u); !ok) return ok;
+    return {};
+}
+
+Result<void> VectorsFile::block(const Input& input, const Answered& answered) {
+    for (std::size_t u = 0; u < units_.size(); ++u) {
+        if (!units_[u]) continue;
+        fmt::memory_buffer text;
+        const auto row = [&](const Digital::Conversion& c) {
+            fmt::format_to(std::back_inserter(text), "{},{}", c.code, c.force);
+            for (const Word w : c.shown) fmt::format_to(std::back_inserter(text), ",{}", w);
+            for (const bool spike : c.fired) fmt::format_to(std::back_inserter(text), ",{:d}", spike);
+            text.push_back('\n');
+        };
+        std::vector<Spike> spikes;
+        Answer answer{spikes};
+        const std::span force(answered.force.force[input.channel_of(u)].data(), answered.force.count);
+        if (auto ok = digital_[units_[u]->afferent]->convert(force, units_[u]->state, answer, row); !ok) return ok;
+        if (auto ok = units_[u]->file.write({text.data(), text.size()}); !ok) return ok;
+    }
+    return {};
+}
+
+Result<void> VectorsFile::end(const Input&, std::int64_t) {
+    for (auto& unit : units_)
+        if (unit) whole_.push_back(std::move(unit->file));
+    units_.clear();
+    return {};
+}
+
+Result<void> VectorsFile::commit() {
+    for (auto& file : whole_)
+        if (auto ok = file.commit(); !ok) return ok;
+    return {};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,113 @@
+// The converter: codes, the table back to force, and the instants at which it looks.
+
+#include <cmath>
+
+#include "model/sensor/digital.hpp"
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+TEST(Converter, RoundsToTheNearestLevelAndSaturatesAtBothEnds) {
+    const Converter adc(Front({}, 1), {.bits = 3, .F_low = 0, .F_high = 7});
+    for (const double F : {0.0, 0.49, 0.5, 3.49, 3.5, 6.9, 7.0, 7.49}) {
+        EXPECT_EQ(adc.convert(F).code, static_cast<std::int64_t>(F + 0.5)) << F;
+        EXPECT_FALSE(adc.convert(F).clipped) << F;
+    }
+    EXPECT_EQ(adc.convert(7.5).code, 7);
+    EXPECT_TRUE(adc.convert(7.5).clipped);
+    EXPECT_EQ(adc.convert(-0.51).code, 0);
+    EXPECT_TRUE(adc.convert(-0.51).clipped);
+}
+
+TEST(Converter, TheTableUndoesTheCurveToHalfALevel) {
+    const Front front({Fsr::stage({}), F2v::stage({})}, 4);
+    const Converter adc(front, {.bits = 10});
+    for (double F = 0; F < 5; F += 0.0137) {
+        const auto [code, clipped] = adc.convert(F);
+        EXPECT_FALSE(clipped);
+        EXPECT_GE(F, adc.force(std::max<std::int64_t>(code - 1, 0)));
+        EXPECT_LE(F, adc.force(std::min(code + 1, adc.most())));
+        EXPECT_EQ(adc.convert(adc.force(code)).code, code);
+    }
+    EXPECT_EQ(adc.force(0), 0);
+    EXPECT_EQ(adc.force(adc.most()), 5);
+}
+
+TEST(Converter, WithoutTheTableItBelievesTheCalibrationsLine) {
+    const Front front({Fsr::stage({}), F2v::stage({})}, 4);
+    const Converter line(front, {.bits = 16, .linearise = 0});
+    for (const double F : {0.0, 0.5, 1.0, 3.0, 4.0, 4.5})
+        EXPECT_NEAR(line.force(line.convert(F).code), front.believed(front.read(F).value), 1e-4) << F;
+}
+
+TEST(Instants, StandWhereExactFractionsPutThem) {
+    EXPECT_TRUE(rc::check("any two rates, any turn", [] {
+        const auto source = *rc::gen::inRange<std::int64_t>(1, 50000), adc = *rc::gen::inRange<std::int64_t>(1, 50000);
+        const auto turns = *rc::gen::inRange<std::uint32_t>(1, 100), channel = *rc::gen::inRange<std::uint32_t>(0, turns);
+        const Instants instants(static_cast<double>(source), static_cast<double>(adc), turns);
+        auto at = instants.first(channel);
+        for (std::int64_t j = 0; j < 200; ++j, instants.advance(at)) {
+            const std::int64_t above = (j * turns + channel) * source, below = adc * turns;  // place = above / below, exactly
+            RC_ASSERT(at.step == above / below);
+            RC_ASSERT(at.rest * below == (above % below) * instants.parts());
+        }
+    }));
+}
+
+TEST(Digital, SpikesComeAtConversionsWhateverTheSourcesRate) {
+    const auto fine = test::train("adc+sa1", "press", {.rate = 10e3}), coarse = test::train("adc+sa1", "press", {.rate = 4e3});
+    EXPECT_EQ(fine, coarse) << "both rates have samples where the converter looks";
+    for (const double t : fine) EXPECT_NEAR(t * 1e3, std::round(t * 1e3), 1e-9);
+    for (const double t : test::train("adc+sa1", "press", {.settings = {"adc+sa1.f_s=700Hz"}, .rate = 3e3}))
+        EXPECT_NEAR(t * 700, std::round(t * 700), 1e-9) << "between samples";
+}
+
+TEST(Digital, OneConverterForAllChannelsTakesThemInTurn) {
+    std::vector<double> ramp;
+    for (int k = 0; k < 4000; ++k) ramp.push_back(1e-3 * k);
+    const auto trained = [&](const char* shared, Turn turn) {
+        const auto a = test::afferent("adc+sa1", {.settings = {std::string("adc+sa1.shared=") + shared}, .rate = 1e3});
+        std::vector<Spike> out;
+        Answer answer{out};
+        auto state = a->start(turn);
+        EXPECT_TRUE(a->respond(ramp, state, answer));
+        return out;
+    };
+    const auto own = trained("0", {3, 4}), first = trained("1", {0, 4}), last = trained("1", {3, 4});
+    ASSERT_FALSE(own.empty());
+    EXPECT_EQ(own, first) << "a converter a channel: no skew";
+    for (const auto& s : own) EXPECT_EQ(s.offset, 1);
+    for (const auto& s : last) EXPECT_EQ(s.offset, 0.75) << "channel 3 of 4 waits three quarters of a conversion";
+}
+
+TEST(Digital, ClippedConversionsAreCounted) {
+    std::vector<Spike> out;
+    Answer answer{out};
+    const auto a = test::afferent("adc+sa1", {.rate = 10e3});
+    auto state = a->start();
+    std::vector<double> f(10000, 1.0);
+    std::fill(f.begin() + 1001, f.begin() + 2001, 6.0);
+    EXPECT_TRUE(a->respond(f, state, answer));
+    EXPECT_EQ(answer.clipped, 100) << "at 1 kHz, a tenth of the samples";
+}
+
+TEST(Digital, DamagedStatesAreRefusedNotRun) {
+    const auto a = test::afferent("fa1-lee");
+    const std::vector<double> f(10, 1.0);
+    const auto fresh = a->start();
+    for (std::size_t v = 0; v < fresh.values.size(); ++v)
+        for (const double bad : {0.5, -3.0, 1e300, std::nan("")}) {
+            if (v == 4 || v == 5) continue;  // forces: any number will do
+            auto state = fresh;
+            state.values[v] = bad;
+            if (v >= 7 && bad == -3) continue;  // a word like others
+            std::vector<Spike> out;
+            Answer answer{out};
+            EXPECT_FALSE(a->respond(f, state, answer)) << v << ' ' << bad;
+        }
+}
+
+}  // namespace
+}  // namespace corpuscle
