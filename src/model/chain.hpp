@@ -122,16 +122,13 @@ class Chain final : public Afferent {
         for (std::size_t k = 0; k < names_.size(); ++k) probes_.push_back({names_[k], units[k]});
     }
 
-    /// What a step's noise adds; it depends on what it is for alone: seed, unit, neuron and step.
-    void disturb(Current<double> (&i)[K::outputs], std::uint32_t unit, std::int64_t step) const {
+    /// A neuron's noise in a step; it depends on what it is for alone: seed, unit, neuron and step.
+    [[gnu::noinline]] double drawn(std::uint32_t unit, int neuron, std::int64_t step) const {
         constexpr std::uint32_t purpose = 0x6d656d00;  // membranes' own streams, one a neuron
-        for (int k = 0; k < K::outputs; ++k) {
-            const double n = noise_ * normal(seed_, unit, purpose + static_cast<std::uint32_t>(k), static_cast<std::uint64_t>(step));
-            i[k] = {i[k].from + n, i[k].to + n};
-        }
+        return noise_ * normal(seed_, unit, purpose + static_cast<std::uint32_t>(neuron), static_cast<std::uint64_t>(step));
     }
 
-    template <bool Probed, bool Noisy>
+    template <bool Probed>
     void run(std::span<const double> force, std::int64_t first, Values& state, Answer& answer) const {
         Values s = state;  // a local: kept in registers
         Current<double> i[K::outputs] = {};
@@ -139,8 +136,11 @@ class Chain final : public Afferent {
             const auto fired = [&](bool, double x) {
                 answer.spikes.push_back({first + static_cast<std::int64_t>(k), sampled_ ? 1.0 : x, answer.unit});
             };
-            const auto noise = [&](Current<double>(&currents)[K::outputs]) {
-                if constexpr (Noisy) disturb(currents, answer.unit, first + static_cast<std::int64_t>(k));
+            const auto noise = [&](Current<double>(&to)[K::outputs]) {
+                for (int n = 0; noise_ > 0 && n < K::outputs; ++n) {
+                    const double x = drawn(answer.unit, n, first + static_cast<std::int64_t>(k));
+                    to[n] = {to[n].from + x, to[n].to + x};
+                }
             };
             [[maybe_unused]] const std::size_t seen = answer.spikes.size();
             const bool capped = first + static_cast<std::int64_t>(k) == 0 ? kernel_.first(s, force[k], i, noise, fired)
@@ -181,10 +181,7 @@ public:
         Values s;
         std::memcpy(&s, state.values.data(), sizeof s);
         if (state.step == 0) s = kernel_.start(force[0]);
-        const bool probed = !answer.probes.empty();
-        const auto go = noise_ > 0 ? (probed ? &Chain::run<true, true> : &Chain::run<false, true>)
-                                   : (probed ? &Chain::run<true, false> : &Chain::run<false, false>);
-        (this->*go)(force, state.step, s, answer);
+        answer.probes.empty() ? run<false>(force, state.step, s, answer) : run<true>(force, state.step, s, answer);
         std::memcpy(state.values.data(), &s, sizeof s);
         if (first_not_finite(state.values) < state.values.size())
             return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "
