@@ -16,11 +16,11 @@ function showRates(table, inputs, channel) {
     fill();
 }
 
-function fillRates(host, {columns, rows}, only) {
+function fillRates(host, {columns, decimals, rows}, only) {
     const wanted = rows.filter((row) => !only || row[columns.indexOf("channel")] === only);
     const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number"));
     const cell = (tag, c, text) => `<${tag}${numeric[c] ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${escaped(text)}</${tag}>`;
-    const line = (row, k) => `<tr${k && row[0] !== wanted[k - 1][0] ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value))).join("")}</tr>`;
+    const line = (row, k) => `<tr${k && row[0] !== wanted[k - 1][0] ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value, decimals[c]))).join("")}</tr>`;
     host.innerHTML = `<table><thead><tr>${columns.map((name, c) => cell("th", c, name)).join("")}</tr></thead>
         <tbody>${wanted.slice(0, MOST_ROWS).map(line).join("")}</tbody></table>`;
     if (wanted.length > MOST_ROWS) element(host, "p", "note", `the first ${MOST_ROWS} of ${wanted.length} rows`);

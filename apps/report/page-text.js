@@ -24,11 +24,11 @@ function quantity(value, unit, short = false) {
     return (short ? String(Number(digits)) : digits).replace("-", "−") + (suffix && "\u00a0" + suffix);
 }
 
-/// Table cells: whole numbers as they are, others with four digits.
-function cellText(value) {
+/// Table cells: numbers with the decimals of their column.
+function cellText(value, decimals) {
     if (value === null || value === undefined) return "–";
     if (typeof value !== "number") return String(value);
-    return (Number.isInteger(value) ? String(value) : String(Number(value.toPrecision(4)))).replace("-", "−");
+    return value.toFixed(decimals).replace("-", "−");
 }
 
 /// A time written as finely as `resolution` seconds asks for.

@@ -33,15 +33,15 @@ Json level(const AfferentPlan& plan, std::string_view name) {
 }
 
 Json table_document(const Summary& summary) {
-    Json columns = {"afferent", "channel", "phase"}, rows = Json::array();
+    Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
     const auto told = summary.columns();
-    for (const auto m : told) columns.push_back(heading(measures[m]));
+    for (const auto m : told) columns.push_back(heading(measures[m])), decimals.push_back(measures[m].decimals);
     for (const auto& r : summary.rows()) {
         Json row = {r.afferent, r.channel, r.phase};
         for (const auto m : told) row.push_back(std::isfinite(r.values[m]) ? Json(r.values[m]) : Json(nullptr));
         rows.push_back(std::move(row));
     }
-    return {{"columns", columns}, {"rows", rows}};
+    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
 }
 
 /// What was found of the recordings, in words, and a row a channel in numbers; no rows for stimuli.
