@@ -74,10 +74,8 @@ class Recording final : public Source {
         return {};
     }
 
-    Result<void> add_channel(const Placed& placed, std::vector<std::string>& unitless) {
+    Result<void> add_channel(const Placed& placed, double gain, std::vector<std::string>& unitless) {
         const auto& column = table_->columns()[placed.column];
-        const auto gain = newtons_per_unit(column, options_, path_);
-        if (!gain) return gain.error();
         if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
         if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
             remarks_.push_back(
@@ -87,17 +85,36 @@ class Recording final : public Source {
                                         [&](const auto& c) { return c.name == name || c.name.starts_with(name + " ("); });
         channels_.push_back(
             {static_cast<std::uint32_t>(channels_.size()), same == 0 ? name : fmt::format("{} ({})", name, same + 1), placed.position});
-        auto path = ChannelPath::make(options_, *gain, row_clock_.by_times ? clock_ : row_clock_.clock, !row_clock_.by_times, *hum_table_);
+        auto path = ChannelPath::make(options_, gain, row_clock_.by_times ? clock_ : row_clock_.clock, !row_clock_.by_times, *hum_table_);
         if (!path) return path.error();
         paths_.push_back(std::move(*path));
         return {};
     }
 
-    Result<void> add_channels(const std::vector<Placed>& chosen) {
+    /// Newtons per unit of each channel, before anything is read: a unit that is no force is soon told.
+    Result<std::vector<double>> gains_of(const std::vector<Placed>& chosen) const {
+        std::vector<double> gains;
+        for (const auto& placed : chosen) {
+            const auto gain = newtons_per_unit(table_->columns()[placed.column], options_, path_);
+            if (!gain) return gain.error();
+            gains.push_back(*gain);
+        }
+        return gains;
+    }
+
+    /// A time with the unit or the afferent that fired then.
+    bool holds_spikes(std::optional<std::size_t> time) const {
+        const auto& columns = table_->columns();
+        return time && options_.channels.empty() && columns.size() <= 3 && std::any_of(columns.begin(), columns.end(), [](const Column& c) {
+            return same_letters(c.name, "unit") || same_letters(c.name, "afferent");
+        });
+    }
+
+    Result<void> add_channels(const std::vector<Placed>& chosen, const std::vector<double>& gains) {
         hum_table_ = std::make_unique<HumTable>(clock_);
         std::vector<std::string> unitless;
-        for (const auto& placed : chosen)
-            if (auto ok = add_channel(placed, unitless); !ok) return ok;
+        for (std::size_t c = 0; c < chosen.size(); ++c)
+            if (auto ok = add_channel(chosen[c], gains[c], unitless); !ok) return ok;
         if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
         if (!unitless.empty()) remarks_.push_back(fmt::format("no unit for {}: taken as newtons", fmt::join(unitless, ", ")));
         return {};
@@ -193,16 +210,19 @@ public:
     Result<void> open() {
         const auto time = choose_time(*table_, options_.time, path_);
         if (!time) return time.error();
+        if (holds_spikes(*time)) return bad_input("this is a file of spikes, not of force; 'corpuscle compare' reads it", {path_});
         const auto chosen = choose(*time);
         if (!chosen) return chosen.error();
         if (chosen->size() > most_channels)
             return bad_input(
                 fmt::format("{} channels are more than {} at a time; --channel 1-1000 takes some of them", chosen->size(), most_channels),
                 {path_});
+        const auto gains = gains_of(*chosen);
+        if (!gains) return gains.error();
         std::vector<std::size_t> columns;
         for (const auto& p : *chosen) columns.push_back(p.column);
         if (auto ok = set_clock(*time, columns); !ok) return ok;
-        if (auto ok = add_channels(*chosen); !ok) return ok;
+        if (auto ok = add_channels(*chosen, *gains); !ok) return ok;
         if (row_clock_.by_times) times_.emplace();
         rows_.emplace(*table_, options_, columns, row_clock_.by_times ? *time : std::nullopt);
         ready_.resize(columns.size() + (times_ ? 1 : 0));

@@ -73,7 +73,8 @@ Result<Outcome> study_resolution(const StudyOptions& options) {
         by_bits.series.push_back(std::move(bits)), by_rate.series.push_back(std::move(rate));
     }
     out.plots = {std::move(by_bits), std::move(by_rate)};
-    out.notes = {"Spikes of a digital afferent stand on its samples, so half a sample of error is in its grid alone: 29 % of a period rms.",
+    out.notes = {"A digital afferent's spikes stand on its samples: up to a period late, 58 % of it rms, by its grid alone; backward Euler, which takes a "
+                 "step's current from its end, is early by about half of one, and some of it cancels.",
                  "Words are 32 bits with 20 behind the point here; the converter spans 0 to 5 N. Spikes further than 50 ms apart are not taken "
                  "for each other."};
     return out;

@@ -1,0 +1,122 @@
+// Real recordings: every command of doc/real-recordings.md, what a first wrong command is told, and raw against cleaned files.
+
+#include <sys/wait.h>
+
+#include <cmath>
+#include <map>
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+
+const std::string root = CORPUSCLE_ROOT;
+
+struct Ran {
+    int status;
+    std::string out, err;
+};
+
+/// Runs in `folder`, in which the recordings' folders stand.
+Ran run(const Folder& folder, const std::string& words) {
+    const auto out = folder / ".out", err = folder / ".err";
+    const int status =
+        std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+    return {WEXITSTATUS(status), test::read_file(out), test::read_file(err)};
+}
+
+void link_recordings(const Folder& folder) {
+    for (const char* name : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
+        std::filesystem::create_symlink(std::filesystem::absolute(test::shared(name)), folder / name);
+}
+
+std::vector<std::string> commands() {
+    std::istringstream text(test::read_file(root + "/doc/real-recordings.md"));
+    std::vector<std::string> out;
+    for (std::string line; std::getline(text, line);) {
+        if (!line.starts_with("corpuscle ")) continue;
+        if (const auto at = line.find("LAYOUT"); at != std::string::npos) line.replace(at, 6, root + "/examples/layouts");
+        out.push_back(line.substr(std::string("corpuscle ").size()));
+    }
+    return out;
+}
+
+TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
+    CORPUSCLE_NEEDS(test::shared("grip_force_ati"));
+    const Folder folder;
+    link_recordings(folder);
+    std::string all;
+    for (const auto& words : commands()) {
+        const auto ran = run(folder, words);
+        EXPECT_EQ(ran.status, 0) << words << '\n' << ran.err;
+        all += words + " ";
+        if (words.find("--report") != std::string::npos) {
+            EXPECT_TRUE(std::filesystem::exists(folder / "answer/report.html")) << words;
+        }
+    }
+    for (const char* set : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
+        for (const auto& file : std::filesystem::directory_iterator(test::shared(set))) {
+            const auto name = file.path().filename().string();
+            if (name.ends_with(".csv") || (name.ends_with(".txt") && name != "ATTRIBUTION.txt")) {
+                EXPECT_NE(all.find(name), std::string::npos) << name << " has no command";
+            }
+        }
+}
+
+TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {
+    CORPUSCLE_NEEDS(test::shared("grip_force_ati"));
+    const Folder folder;
+    link_recordings(folder);
+    const struct {
+        const char *words, *told;
+    } traps[] = {
+        {"fbg_eskin_press/fbg_press_S6_T16.csv", "'fbg01' is in nm, which is no force; say --scale S"},
+        {"fbg_eskin_press/fbg_press_S6_T16.csv --scale 40", "Say --rate 100.04Hz to take the samples as evenly spaced, or --resample 100Hz"},
+        {"fbg_eskin_press/motor_spikes_S6_T16.csv", "this is a file of spikes, not of force; 'corpuscle compare' reads it"},
+        {"gait_insole_vgrf/GaCo01_01.txt", "where the models are fitted to 0.2 to 4 N; --scale S brings"},
+        {"gait_insole_vgrf/GaCo01_01.txt", "'ch17' is the sum of 'ch1' to 'ch8', no sensor of its own; --channel or --layout leaves it out"},
+        {"grip_force_ati/grip_02_raw.csv", "say --rate, such as --rate 1kHz"},
+        {"grip_force_ati/grip_02_raw.csv --rate 242.6Hz -c Fz", "stand alone, far from those before and after, as torn readings do"},
+        {"grip_force_ati/grip_02_clean.csv -c 1 --scale 0.002", "hum at 50 Hz is"},
+        {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "say --time-unit ms if they are milliseconds"},
+        {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "'proximity2': reads 65535, the highest a 16-bit converter can say"},
+    };
+    for (const auto& trap : traps) {
+        const auto ran = run(folder, std::string("respond ") + trap.words);
+        EXPECT_NE(ran.err.find(trap.told), std::string::npos) << trap.words << '\n' << ran.err;
+    }
+}
+
+/// Spikes of sa1 in each second.
+std::map<int, int> by_second(const std::string& path) {
+    std::istringstream text(test::read_file(path));
+    std::map<int, int> counts;
+    for (std::string line; std::getline(text, line);)
+        if (line.starts_with("sa1,")) ++counts[static_cast<int>(std::stod(line.substr(line.rfind(',') + 1)))];
+    return counts;
+}
+
+TEST(RealRecordings, TornFilesMendedGiveWhatTheCleanedOnesGive) {
+    CORPUSCLE_NEEDS(test::shared("grip_force_ati"));
+    const Folder folder;
+    link_recordings(folder);
+    for (const auto& [file, rate] : {std::pair{"02", "242.64Hz"}, {"04", "242.94Hz"}, {"12", "242.38Hz"}}) {
+        const std::string grip = std::string("respond grip_force_ati/grip_") + file;
+        const auto raw = run(folder, grip + "_raw.csv -c Fz --rate " + rate + " --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz -o raw");
+        const auto clean = run(folder, grip + "_clean.csv -c fz_abs_counts --scale 0.002 --notch 50Hz -o clean");
+        ASSERT_EQ(raw.status + clean.status, 0) << raw.err << clean.err;
+        auto ours = by_second(folder / "raw/spikes.csv"), theirs = by_second(folder / "clean/spikes.csv");
+        int all = 0, more = 0;
+        for (int second = 0; second < 50; ++second) {
+            EXPECT_LE(std::abs(ours[second] - theirs[second]), 2) << file << ", second " << second;
+            all += theirs[second], more += ours[second] - theirs[second];
+        }
+        EXPECT_GT(all, 700);
+        EXPECT_LE(std::abs(more), 0.035 * all) << file;
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle
