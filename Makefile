@@ -1,5 +1,5 @@
 # The commands of the README. Each does its own set-up; see setup/packages for what is installed.
-.PHONY: demo build test bench fuzz format lint install picture setup-run setup-test release asan fuzzers clean
+.PHONY: demo build test bench fuzz format lint install pictures setup-run setup-test release asan fuzzers clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -45,8 +45,15 @@ lint: release
 install: build
 	cmake --install build/release --prefix $(PREFIX)
 
-picture: release
-	/usr/bin/python3 doc/picture.py $(corpuscle) doc/press.png
+# The pictures of README and doc/; those of real recordings need them: CORPUSCLE_DATA, else ../shared/data.
+CORPUSCLE_DATA ?= ../shared/data
+draw = /usr/bin/python3 doc/picture.py $(corpuscle)
+pictures: release
+	$(draw) doc/press.png press
+	$(draw) doc/pictures/grip.png $(CORPUSCLE_DATA)/grip_force_ati/grip_02_raw.csv --channel Fz --rate 242.64Hz --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz
+	$(draw) doc/pictures/insole.png $(CORPUSCLE_DATA)/gait_insole_vgrf/GaCo01_01.txt --layout examples/layouts/insole.csv --scale 0.008
+	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
+	$(draw) doc/pictures/fabric.png $(CORPUSCLE_DATA)/fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3-18 --scale 0.01
 
 setup-run:
 	@setup/install run

@@ -1,4 +1,4 @@
-"""Renders the README's picture from a report of the press, force and spikes only: doc/picture.py CORPUSCLE OUT.png"""
+"""Renders force and spikes of a report as a picture: doc/picture.py CORPUSCLE OUT.png WORDS..., where WORDS follow `corpuscle respond`."""
 
 import pathlib
 import subprocess
@@ -14,10 +14,10 @@ FLAGS = ("--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-ru
          "--disable-background-networking --disable-component-update --disable-sync --window-size=1000,2600").split()
 
 
-def main(corpuscle, picture):
+def main(corpuscle, picture, *words):
     with tempfile.TemporaryDirectory() as folder:
-        report = pathlib.Path(folder) / "press.html"
-        subprocess.run([corpuscle, "respond", "press", "--report", report, "--quiet"], check=True)
+        report = pathlib.Path(folder) / "report.html"
+        subprocess.run([corpuscle, "respond", *words, "--report", report, "--quiet"], check=True)
         options = Options()
         options.binary_location = "/usr/bin/chromium"
         for flag in [*FLAGS, f"--user-data-dir={folder}/profile"]:
@@ -30,7 +30,8 @@ def main(corpuscle, picture):
                 for (const inner of sections.slice(1, -1)) inner.remove();  // currents and membranes: the report has them
                 document.querySelector('#figures').style.padding = '0 12px';""")
             browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
-            browser.find_element(By.ID, "figures").screenshot(picture)
+            if not browser.find_element(By.ID, "figures").screenshot(picture):
+                sys.exit(f"{picture} cannot be written")
         finally:
             browser.quit()
 

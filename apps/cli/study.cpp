@@ -24,7 +24,8 @@ Result<std::vector<Study>> chosen(const std::vector<std::string>& names) {
     std::vector<Study> out;
     for (const auto& name : names) {
         if (std::find(known.begin(), known.end(), name) == known.end())
-            return bad_usage(fmt::format("study: none is called '{}'{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+            return bad_usage(
+                fmt::format("study: none is called '{}'{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
         for (const auto& s : studies)
             if (name == "all" || name == s.name) out.push_back(s);
     }
@@ -36,8 +37,15 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json document_of(const Study& study, const Outcome& outcome) {
     Json claims = Json::array();
     for (const auto& c : outcome.claims)
-        claims.push_back({{"what", c.what}, {"made", number(c.made)}, {"unit", c.unit}, {"printed", number(c.printed)}, {"low", number(c.low)},
-                          {"high", number(c.high)}, {"holds", c.judged() ? Json(c.holds()) : Json(nullptr)}, {"source", c.source}, {"note", c.note}});
+        claims.push_back({{"what", c.what},
+                          {"made", number(c.made)},
+                          {"unit", c.unit},
+                          {"printed", number(c.printed)},
+                          {"low", number(c.low)},
+                          {"high", number(c.high)},
+                          {"holds", c.judged() ? Json(c.holds()) : Json(nullptr)},
+                          {"source", c.source},
+                          {"note", c.note}});
     return {{"name", study.name}, {"title", study.title}, {"question", study.question}, {"claims", claims}, {"notes", outcome.notes}};
 }
 
@@ -50,7 +58,9 @@ std::string text_of(const Study& study, const Outcome& outcome) {
     for (const auto& c : outcome.claims)
         rows.push_back({c.what, quantity(c.made, c), quantity(c.printed, c),
                         c.judged() ? fmt::format("{} .. {}", quantity(c.low, c), quantity(c.high, c)) : "-",
-                        !c.judged() ? "" : c.holds() ? "holds" : "does not hold"});
+                        !c.judged() ? ""
+                        : c.holds() ? "holds"
+                                    : "does not hold"});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, table(rows));
     for (const auto& n : outcome.notes) text += fmt::format("\n{}\n", n);
     return text;

@@ -14,7 +14,8 @@ struct Common {
 
 struct RespondWords {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise, bin;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise,
+        bin;
     std::vector<std::string> notch;
     std::string layout;
     std::string method = "exact";

@@ -33,7 +33,7 @@ function showQuality({sentences, columns, rows}) {
     if (section.hidden) return;
     section.querySelector("ul").innerHTML = sentences.map(({text, grave}) => `<li${grave ? ' class="grave"' : ""}>${escaped(text)}</li>`).join("") ||
         "<li>Nothing that would mislead was found.</li>";
-    fillRates(section.querySelector(".scroll"), {columns, rows}, null);
+    fillRates(section.querySelector(".scroll"), {columns, decimals: [], rows}, null);
 }
 
 function showParameters(afferents) {

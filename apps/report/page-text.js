@@ -24,11 +24,11 @@ function quantity(value, unit, short = false) {
     return (short ? String(Number(digits)) : digits).replace("-", "−") + (suffix && "\u00a0" + suffix);
 }
 
-/// Table cells: numbers with the decimals of their column.
+/// Table cells: numbers with the decimals of their column, or with four digits where it has none.
 function cellText(value, decimals) {
     if (value === null || value === undefined) return "–";
     if (typeof value !== "number") return String(value);
-    return value.toFixed(decimals).replace("-", "−");
+    return (decimals === undefined ? String(Number(value.toPrecision(4))) : value.toFixed(decimals)).replace("-", "−");
 }
 
 /// A time written as finely as `resolution` seconds asks for.

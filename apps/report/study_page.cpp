@@ -20,10 +20,17 @@ Json numbers(const std::vector<double>& values) {
 }
 
 Json claim_document(const Claim& c) {
-    return {{"what", c.what},       {"made", number(c.made)}, {"unit", c.unit},
-            {"printed", number(c.printed)}, {"low", number(c.low)},   {"high", number(c.high)},
-            {"verdict", !c.judged() ? "" : c.holds() ? "holds" : "does not hold"},
-            {"source", c.source},   {"note", c.note}};
+    return {{"what", c.what},
+            {"made", number(c.made)},
+            {"unit", c.unit},
+            {"printed", number(c.printed)},
+            {"low", number(c.low)},
+            {"high", number(c.high)},
+            {"verdict", !c.judged() ? ""
+                        : c.holds() ? "holds"
+                                    : "does not hold"},
+            {"source", c.source},
+            {"note", c.note}};
 }
 
 Json plot_document(const Plot& p) {
@@ -42,8 +49,12 @@ std::string study_page(std::span<const Study> studies, std::span<const Outcome> 
         Json claims = Json::array(), plots = Json::array();
         for (const auto& c : outcomes[k].claims) claims.push_back(claim_document(c));
         for (const auto& p : outcomes[k].plots) plots.push_back(plot_document(p));
-        all.push_back({{"name", studies[k].name}, {"title", studies[k].title}, {"question", studies[k].question},
-                       {"claims", claims}, {"plots", plots}, {"notes", outcomes[k].notes}});
+        all.push_back({{"name", studies[k].name},
+                       {"title", studies[k].title},
+                       {"question", studies[k].question},
+                       {"claims", claims},
+                       {"plots", plots},
+                       {"notes", outcomes[k].notes}});
     }
     const std::string title = studies.size() == 1 ? std::string(studies[0].title) : "Studies";
     const Json document = {{"title", title}, {"program", "corpuscle " + std::string(version)}, {"command", command}, {"studies", all}};

@@ -106,8 +106,8 @@ class Recording final : public Source {
     bool holds_spikes(std::optional<std::size_t> time) const {
         const auto& columns = table_->columns();
         return time && options_.channels.empty() && columns.size() <= 3 && std::any_of(columns.begin(), columns.end(), [](const Column& c) {
-            return same_letters(c.name, "unit") || same_letters(c.name, "afferent");
-        });
+                   return same_letters(c.name, "unit") || same_letters(c.name, "afferent");
+               });
     }
 
     Result<void> add_channels(const std::vector<Placed>& chosen, const std::vector<double>& gains) {

@@ -73,10 +73,12 @@ TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {
         const char *words, *told;
     } traps[] = {
         {"fbg_eskin_press/fbg_press_S6_T16.csv", "'fbg01' is in nm, which is no force; say --scale S"},
-        {"fbg_eskin_press/fbg_press_S6_T16.csv --scale 40", "Say --rate 100.04Hz to take the samples as evenly spaced, or --resample 100Hz"},
+        {"fbg_eskin_press/fbg_press_S6_T16.csv --scale 40",
+         "Say --rate 100.04Hz to take the samples as evenly spaced, or --resample 100Hz"},
         {"fbg_eskin_press/motor_spikes_S6_T16.csv", "this is a file of spikes, not of force; 'corpuscle compare' reads it"},
         {"gait_insole_vgrf/GaCo01_01.txt", "where the models are fitted to 0.2 to 4 N; --scale S brings"},
-        {"gait_insole_vgrf/GaCo01_01.txt", "'ch17' is the sum of 'ch1' to 'ch8', no sensor of its own; --channel or --layout leaves it out"},
+        {"gait_insole_vgrf/GaCo01_01.txt",
+         "'ch17' is the sum of 'ch1' to 'ch8', no sensor of its own; --channel or --layout leaves it out"},
         {"grip_force_ati/grip_02_raw.csv", "say --rate, such as --rate 1kHz"},
         {"grip_force_ati/grip_02_raw.csv --rate 242.6Hz -c Fz", "stand alone, far from those before and after, as torn readings do"},
         {"grip_force_ati/grip_02_clean.csv -c 1 --scale 0.002", "hum at 50 Hz is"},
@@ -104,7 +106,8 @@ TEST(RealRecordings, TornFilesMendedGiveWhatTheCleanedOnesGive) {
     link_recordings(folder);
     for (const auto& [file, rate] : {std::pair{"02", "242.64Hz"}, {"04", "242.94Hz"}, {"12", "242.38Hz"}}) {
         const std::string grip = std::string("respond grip_force_ati/grip_") + file;
-        const auto raw = run(folder, grip + "_raw.csv -c Fz --rate " + rate + " --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz -o raw");
+        const auto raw =
+            run(folder, grip + "_raw.csv -c Fz --rate " + rate + " --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz -o raw");
         const auto clean = run(folder, grip + "_clean.csv -c fz_abs_counts --scale 0.002 --notch 50Hz -o clean");
         ASSERT_EQ(raw.status + clean.status, 0) << raw.err << clean.err;
         auto ours = by_second(folder / "raw/spikes.csv"), theirs = by_second(folder / "clean/spikes.csv");

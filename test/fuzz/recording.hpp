@@ -59,6 +59,8 @@ inline int recording(const std::uint8_t* data, std::size_t size, const std::stri
     if (data[0] & 8) options.channels = {"1-2"};
     if (data[0] & 16) options.time = "none";
     options.absolute = data[0] & 32;
+    if (data[0] & 64) options.bad_fields = BadFields::interpolate, options.despike.emplace(), options.notch = {12}, options.lowpass = 9;
+    if (data[0] & 128) options.bad_fields = BadFields::drop, options.range = std::pair{-1e6, 1e6}, options.offset = 3;
     read_all(path, options, lines);
     return 0;
 }

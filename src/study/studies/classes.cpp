@@ -30,7 +30,8 @@ Result<Outcome> study_classes(const StudyOptions& options) {
         const auto train = train_of(asked);
         if (!train) return train.error();
         const std::string source = "thesis fig. 3, its shape";
-        out.claims.push_back({std::string(name) + ": spikes in the first 250 ms of the step", count(*train, on, later), "", none, 1, none, source});
+        out.claims.push_back(
+            {std::string(name) + ": spikes in the first 250 ms of the step", count(*train, on, later), "", none, 1, none, source});
         out.claims.push_back({std::string(name) + ": spikes in its last 250 ms", count(*train, later, off), "", none, holds ? 2.0 : 0.0,
                               holds ? none : 0.0, source});
         out.claims.push_back({std::string(name) + ": spikes within 100 ms of its end", count(*train, off, off + 0.1), "", none,
@@ -39,9 +40,10 @@ Result<Outcome> study_classes(const StudyOptions& options) {
         if (!options.keep_on(done += 0.25)) return Error{Code::interrupted, "interrupted"};
     }
     out.plots = {std::move(force), std::move(spikes)};
-    out.notes = {"A step has no slope that a sensor could show; these rise within one sample of 0.1 ms. What SA-II makes of the step's end is "
-                 "the |F'| of SA-IA, which the thesis calls more suitable to SA-II (3.1).",
-                 "Values of sa2 and fa2 are a choice: the thesis has none."};
+    out.notes = {
+        "A step has no slope that a sensor could show; these rise within one sample of 0.1 ms. What SA-II makes of the step's end is "
+        "the |F'| of SA-IA, which the thesis calls more suitable to SA-II (3.1).",
+        "Values of sa2 and fa2 are a choice: the thesis has none."};
     return out;
 }
 

@@ -49,10 +49,11 @@ Result<Outcome> study_earlier(const StudyOptions& options) {
     out.claims.push_back({"fa1-lee: spikes in the plateau's last 100 ms", measure<SpikeCount>(trains[3].x, late), "", none, 0, 0, told});
     out.claims.push_back({"fa1-lee: spikes going down", measure<SpikeCount>(trains[3].x, down), "", none, 1, none, told});
     out.plots = {std::move(spikes), std::move(rates)};
-    out.notes = {"SA-IA adds the size of the force's slope whatever its sign, so Kim's system answers release as it answers touch; the thesis "
-                 "calls that more suitable to SA-II and replaces it by high-passes that keep their sign.",
-                 "FA-IA is the bare slope, which ends with the ramp; FA-IB's high-pass of 2 Hz goes on for some 130 ms.",
-                 "Neither paper's values are in the thesis. Sensor, converter (12 bits, 1 kHz) and words are a choice: corpuscle list sa1-kim."};
+    out.notes = {
+        "SA-IA adds the size of the force's slope whatever its sign, so Kim's system answers release as it answers touch; the thesis "
+        "calls that more suitable to SA-II and replaces it by high-passes that keep their sign.",
+        "FA-IA is the bare slope, which ends with the ramp; FA-IB's high-pass of 2 Hz goes on for some 130 ms.",
+        "Neither paper's values are in the thesis. Sensor, converter (12 bits, 1 kHz) and words are a choice: corpuscle list sa1-kim."};
     return out;
 }
 

@@ -31,7 +31,8 @@ double current_for(double interval) {
 std::pair<double, double> line() {
     double depth = 0, current = 0, product = 0, square = 0;
     for (const auto& h : holds) depth += h.depth / 3, current += current_for(h.interval) / 3;
-    for (const auto& h : holds) product += (h.depth - depth) * (current_for(h.interval) - current), square += (h.depth - depth) * (h.depth - depth);
+    for (const auto& h : holds)
+        product += (h.depth - depth) * (current_for(h.interval) - current), square += (h.depth - depth) * (h.depth - depth);
     return {current - product / square * depth, product / square};
 }
 
@@ -41,11 +42,14 @@ Result<Outcome> study_kim(const StudyOptions& options) {
     Outcome out;
     const auto [beta, slope] = line();
     const double contact = -beta / slope;  // mm: below it the line's current is negative
-    Plot plot{"Interval in the hold", "depth (mm)", "interval (ms)",
+    Plot plot{"Interval in the hold",
+              "depth (mm)",
+              "interval (ms)",
               {{"printed", {}, {}, Plot::Style::points}, {"made", {}, {}, Plot::Style::line}}};
     for (const auto& h : holds) {
         const double F = h.depth - contact;  // 1 N stands for a millimetre beyond contact
-        const auto train = train_of({"sa1a+lif-a", "ramp-hold",
+        const auto train = train_of({"sa1a+lif-a",
+                                     "ramp-hold",
                                      {fmt::format("sa1a+lif-a.k_s={}", slope), "sa1a+lif-a.beta=0", "sa1a+lif-a.k_d=0",
                                       fmt::format("ramp-hold.F_max={}", F), "ramp-hold.t_hold=5"}});
         if (!train) return train.error();
@@ -64,12 +68,13 @@ Result<Outcome> study_kim(const StudyOptions& options) {
                               std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(), source,
                               "which ramps they were is not in the abstract"});
     out.plots.push_back(std::move(plot));
-    out.notes = {fmt::format("A current that is a straight line in depth (contact at {:.3f} mm, {:.3g} A/mm) gives all three intervals within "
-                             "their printed standard deviations: two numbers fitted to three.",
-                             contact, slope),
-                 "The ramps cannot be checked: their speeds are not printed with the intervals, so one k_d fits one of them, and the others "
-                 "only say what the ratio of the speeds would have to be.",
-                 "The abstract does not say which intervals are the model's and which the mouse's."};
+    out.notes = {
+        fmt::format("A current that is a straight line in depth (contact at {:.3f} mm, {:.3g} A/mm) gives all three intervals within "
+                    "their printed standard deviations: two numbers fitted to three.",
+                    contact, slope),
+        "The ramps cannot be checked: their speeds are not printed with the intervals, so one k_d fits one of them, and the others "
+        "only say what the ratio of the speeds would have to be.",
+        "The abstract does not say which intervals are the model's and which the mouse's."};
     return out;
 }
 

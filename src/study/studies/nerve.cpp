@@ -19,8 +19,8 @@ Result<void> press(Outcome& out) {
     if (!sa1) return sa1.error();
     if (!fa1) return fa1.error();
     const std::string shape = "Birznieks et al. 2001 as told in thesis 1.2; the gate is ours";
-    out.claims.push_back({"SA-I: peak in protraction over the plateau's end", measure<PeakRate>(*sa1, up) / measure<LastRate>(*sa1, plateau), "",
-                          none, 2, 3, shape});
+    out.claims.push_back({"SA-I: peak in protraction over the plateau's end",
+                          measure<PeakRate>(*sa1, up) / measure<LastRate>(*sa1, plateau), "", none, 2, 3, shape});
     out.claims.push_back({"SA-I: spikes after 40 % of retraction", measure<SpikeCount>(*sa1, {0.675, 0.75}), "", none, 0, 1, shape});
     out.claims.push_back({"FA-I: peak going up over peak going down", measure<PeakRate>(*fa1, up) / measure<PeakRate>(*fa1, down), "", none,
                           1.2, 1.5, shape});
@@ -33,9 +33,11 @@ Result<double> least_amplitude(const std::string& afferent, double f, double rat
     double low = 1e-4, high = 4;
     for (int k = 0; k < 14; ++k) {
         const double middle = std::sqrt(low * high);
-        const auto train = train_of({afferent, "sine",
-                                     {fmt::format("sine.f={}", f), fmt::format("sine.F_amp={}", middle), "sine.F_mean=0.2", "sine.duration=1"},
-                                     rate});
+        const auto train =
+            train_of({afferent,
+                      "sine",
+                      {fmt::format("sine.f={}", f), fmt::format("sine.F_amp={}", middle), "sine.F_mean=0.2", "sine.duration=1"},
+                      rate});
         if (!train) return train.error();
         (measure<SpikeCount>(*train, {0.5, 1.0}) > 0 ? high : low) = middle;
     }
@@ -82,11 +84,13 @@ Result<Outcome> study_nerve(const StudyOptions& options) {
         plot.series.push_back(std::move(*curve));
     }
     out.plots.push_back(std::move(plot));
-    out.notes = {"Papers move the skin by a depth, here it is a force about 0.2 N, the least that the models are fitted to; between the two lies the skin, which is not modelled.",
-                 "Most sensitive: at most a tenth more than the least amplitude; answered is a spike between 0.5 and 1 s.",
-                 "sa1 and fa1 are the thesis's: behind their high-passes they rectify, so that any faster vibration adds the same mean current, and "
-                 "above their corner they are equally sensitive to all. The nerve is not: the skin and the receptor are low-passes, which these "
-                 "models leave out."};
+    out.notes = {
+        "Papers move the skin by a depth, here it is a force about 0.2 N, the least that the models are fitted to; between the two lies "
+        "the skin, which is not modelled.",
+        "Most sensitive: at most a tenth more than the least amplitude; answered is a spike between 0.5 and 1 s.",
+        "sa1 and fa1 are the thesis's: behind their high-passes they rectify, so that any faster vibration adds the same mean current, and "
+        "above their corner they are equally sensitive to all. The nerve is not: the skin and the receptor are low-passes, which these "
+        "models leave out."};
     return out;
 }
 

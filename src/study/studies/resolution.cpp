@@ -58,25 +58,28 @@ Result<Outcome> study_resolution(const StudyOptions& options) {
             const auto a = digital(name, b, 10e3);
             if (!a) return a.error();
             bits.x.push_back(b), bits.y.push_back(1e3 * a->rms);
-            out.claims.push_back({fmt::format("{}: {:g} bits, 10 kHz: rms error of spike times", name, b), a->rms, "s", none, none, none, "",
-                                  fmt::format("{:g} spikes without a partner", a->unmatched)});
+            out.claims.push_back({fmt::format("{}: {:g} bits, 10 kHz: rms error of spike times", name, b), a->rms, "s", none, none, none,
+                                  "", fmt::format("{:g} spikes without a partner", a->unmatched)});
             if (!options.keep_on(done += 1.0 / 28)) return Error{Code::interrupted, "interrupted"};
         }
         for (const double f : rates) {
             const auto a = digital(name, 16, f);
             if (!a) return a.error();
             rate.x.push_back(f), rate.y.push_back(1e3 * a->rms);
-            out.claims.push_back({fmt::format("{}: 16 bits, {}: rms error of spike times", name, f < 1e3 ? fmt::format("{:g} Hz", f) : fmt::format("{:g} kHz", f / 1e3)),
+            out.claims.push_back({fmt::format("{}: 16 bits, {}: rms error of spike times", name,
+                                              f < 1e3 ? fmt::format("{:g} Hz", f) : fmt::format("{:g} kHz", f / 1e3)),
                                   a->rms, "s", none, none, none, "", fmt::format("{:g} spikes without a partner", a->unmatched)});
             if (!options.keep_on(done += 1.0 / 28)) return Error{Code::interrupted, "interrupted"};
         }
         by_bits.series.push_back(std::move(bits)), by_rate.series.push_back(std::move(rate));
     }
     out.plots = {std::move(by_bits), std::move(by_rate)};
-    out.notes = {"A digital afferent's spikes stand on its samples: up to a period late, 58 % of it rms, by its grid alone; backward Euler, which takes a "
-                 "step's current from its end, is early by about half of one, and some of it cancels.",
-                 "Words are 32 bits with 20 behind the point here; the converter spans 0 to 5 N. Spikes further than 50 ms apart are not taken "
-                 "for each other."};
+    out.notes = {
+        "A digital afferent's spikes stand on its samples: up to a period late, 58 % of it rms, by its grid alone; backward Euler, which "
+        "takes a "
+        "step's current from its end, is early by about half of one, and some of it cancels.",
+        "Words are 32 bits with 20 behind the point here; the converter spans 0 to 5 N. Spikes further than 50 ms apart are not taken "
+        "for each other."};
     return out;
 }
 
