@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
+#include <unordered_map>
 #include <utility>
 
-#include "io/channel_path.hpp"
 #include "io/columns.hpp"
+#include "io/force_rows.hpp"
 #include "io/formats.hpp"
 #include "io/layout.hpp"
 #include "io/row_clock.hpp"
-#include "io/rows.hpp"
 #include "io/verdict.hpp"
 #include "signal/text.hpp"
 
@@ -26,16 +26,10 @@ class Recording final : public Source {
     RowClock row_clock_;
     Clock clock_;
     std::vector<Channel> channels_;
+    std::unordered_map<std::string, int> called_;  // how many channels have a name
     std::vector<std::string> remarks_;
     std::unique_ptr<HumTable> hum_table_;
-    std::vector<ChannelPath> paths_;
-    SumCheck sums_;
-    std::optional<Rows> rows_;
-    std::optional<GapFiller> times_;          // if rows are placed by their own times
-    std::vector<std::vector<double>> block_;  // as read
-    std::vector<std::vector<double>> ready_;  // of each channel, newtons; then the times
-    std::size_t taken_ = 0;                   // of what is ready
-    bool ended_ = false;
+    std::optional<ForceRows> rows_;
     std::int64_t row_number_ = 0;  // rows taken so far
     // when resampling: the rows before and at the instant looked for
     std::vector<double> before_, at_;
@@ -74,21 +68,16 @@ class Recording final : public Source {
         return {};
     }
 
-    Result<void> add_channel(const Placed& placed, double gain, std::vector<std::string>& unitless) {
+    void add_channel(const Placed& placed, std::vector<std::string>& unitless) {
         const auto& column = table_->columns()[placed.column];
         if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
         if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
             remarks_.push_back(
                 fmt::format("the header says '{}' is in {}; read as {}, as --unit says", column.name, column.unit, *options_.unit));
         const auto& name = placed.name.empty() ? column.name : placed.name;
-        const auto same = std::count_if(channels_.begin(), channels_.end(),
-                                        [&](const auto& c) { return c.name == name || c.name.starts_with(name + " ("); });
+        const int same = ++called_[name];
         channels_.push_back(
-            {static_cast<std::uint32_t>(channels_.size()), same == 0 ? name : fmt::format("{} ({})", name, same + 1), placed.position});
-        auto path = ChannelPath::make(options_, gain, row_clock_.by_times ? clock_ : row_clock_.clock, !row_clock_.by_times, *hum_table_);
-        if (!path) return path.error();
-        paths_.push_back(std::move(*path));
-        return {};
+            {static_cast<std::uint32_t>(channels_.size()), same == 1 ? name : fmt::format("{} ({})", name, same), placed.position});
     }
 
     /// Newtons per unit of each channel, before anything is read: a unit that is no force is soon told.
@@ -110,64 +99,36 @@ class Recording final : public Source {
                });
     }
 
-    Result<void> add_channels(const std::vector<Placed>& chosen, const std::vector<double>& gains) {
-        hum_table_ = std::make_unique<HumTable>(clock_);
+    void add_channels(const std::vector<Placed>& chosen) {
         std::vector<std::string> unitless;
-        for (std::size_t c = 0; c < chosen.size(); ++c)
-            if (auto ok = add_channel(chosen[c], gains[c], unitless); !ok) return ok;
+        for (const auto& placed : chosen) add_channel(placed, unitless);
         if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
         if (!unitless.empty()) remarks_.push_back(fmt::format("no unit for {}: taken as newtons", fmt::join(unitless, ", ")));
-        return {};
     }
 
-    std::size_t ready() const {
-        std::size_t least = ready_[0].size();
-        for (const auto& r : ready_) least = std::min(least, r.size());
-        return least - taken_;
-    }
-
-    Error of_channel(std::size_t c, Error error) const {
-        error.sentence = fmt::format("'{}': {}", c < channels_.size() ? channels_[c].name : "time", error.sentence);
-        if (error.place.file.empty()) error.place = {path_};
-        return error;
-    }
-
-    /// A block of rows through all channels' paths; at the end of the file what these still hold.
-    Result<void> pull() {
-        for (auto& r : ready_) r.erase(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(taken_));
-        taken_ = 0;
-        const auto rows = rows_->next(block_);
-        if (!rows) return rows.error();
-        ended_ = *rows == 0;
-        sums_.add(block_);
-        for (std::size_t c = 0; c < paths_.size(); ++c)
-            if (auto ok = ended_ ? paths_[c].finish(ready_[c]) : paths_[c].push(block_[c], ready_[c]); !ok)
-                return of_channel(c, ok.error());
-        if (!times_) return {};
-        if (auto ok = times_->push({block_.back().data(), *rows}, ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
-        if (ended_)
-            if (auto ok = times_->finish(ready_.back()); !ok) return of_channel(paths_.size(), ok.error());
-        return {};
-    }
-
-    /// Makes sure of some rows; false at the end.
-    Result<bool> more() {
-        while (ready() == 0) {
-            if (ended_) return false;
-            if (auto ok = pull(); !ok) return ok.error();
+    /// The filters run on the rows, if these are evenly spaced, else on what is made of them.
+    Result<std::vector<ChannelPath>> paths_of(const std::vector<double>& gains) {
+        hum_table_ = std::make_unique<HumTable>(clock_);
+        const bool even = !row_clock_.by_times;
+        std::vector<ChannelPath> paths;
+        for (const double gain : gains) {
+            auto path = ChannelPath::make(options_, gain, even ? row_clock_.clock : clock_, even, *hum_table_);
+            if (!path) return path.error();
+            paths.push_back(std::move(*path));
         }
-        return true;
+        return paths;
     }
 
     Result<bool> advance_to_next_row() {
-        const auto some = more();
+        const auto some = rows_->more();
         if (!some || !*some) return some;
         before_ = at_, t_before_ = t_at_;
         at_.resize(channels_.size());
-        for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = ready_[c][taken_];
-        t_at_ = times_ ? ready_.back()[taken_] * row_clock_.seconds_per_unit
-                       : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
-        ++taken_, ++row_number_;
+        for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = rows_->force(c);
+        t_at_ = row_clock_.by_times ? rows_->time() * row_clock_.seconds_per_unit
+                                    : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
+        rows_->next();
+        ++row_number_;
         return true;
     }
 
@@ -190,14 +151,14 @@ class Recording final : public Source {
 
     Result<void> read_rows(Frames& block) {
         while (block.count < block.capacity) {
-            const auto some = more();
+            const auto some = rows_->more();
             if (!some) return some.error();
             if (!*some) return {};
-            const auto n = std::min(ready(), block.capacity - block.count);
+            const auto n = std::min(rows_->ready(), block.capacity - block.count);
             for (std::size_t c = 0; c < channels_.size(); ++c)
-                std::copy_n(ready_[c].begin() + static_cast<std::ptrdiff_t>(taken_), n,
-                            block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
-            block.count += n, taken_ += n;
+                std::copy_n(rows_->ready_of(c), n, block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
+            block.count += n;
+            rows_->next(n);
         }
         return {};
     }
@@ -222,10 +183,13 @@ public:
         std::vector<std::size_t> columns;
         for (const auto& p : *chosen) columns.push_back(p.column);
         if (auto ok = set_clock(*time, columns); !ok) return ok;
-        if (auto ok = add_channels(*chosen, *gains); !ok) return ok;
-        if (row_clock_.by_times) times_.emplace();
-        rows_.emplace(*table_, options_, columns, row_clock_.by_times ? *time : std::nullopt);
-        ready_.resize(columns.size() + (times_ ? 1 : 0));
+        add_channels(*chosen);
+        auto paths = paths_of(*gains);
+        if (!paths) return paths.error();
+        std::vector<std::string> names;
+        for (const auto& c : channels_) names.push_back(c.name);
+        rows_.emplace(Rows(*table_, options_, columns, row_clock_.by_times ? *time : std::nullopt), std::move(*paths), path_,
+                      std::move(names), row_clock_.by_times);
         return {};
     }
 
@@ -235,7 +199,8 @@ public:
     double done() const override { return table_->done(); }
     std::vector<Fact> facts() const override {
         std::vector<Fact> all;
-        for (std::size_t c = 0; c < channels_.size(); ++c) all.push_back({channels_[c].name + ": newtons per unit", paths_[c].gain(), "N"});
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            all.push_back({channels_[c].name + ": newtons per unit", rows_->paths()[c].gain(), "N"});
         all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
         if (options_.offset != 0) all.push_back({"offset", options_.offset, ""});
         if (options_.range)
@@ -251,12 +216,14 @@ public:
                            std::filesystem::path(path_).filename().string(), clock_.rate());
     }
     std::vector<std::string> remarks() const override { return remarks_; }
-    Quality quality() const override { return verdict(channels_, paths_, row_clock_, {rows_->dropped, rows_->out_of_range}, sums_); }
+    Quality quality() const override {
+        return verdict(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+    }
 
     Result<void> read(Frames& block) override {
         block.count = 0;
         if (auto ok = options_.resample ? read_resampled(block) : read_rows(block); !ok) return ok;
-        for (std::size_t c = 0; c < paths_.size(); ++c) paths_[c].complete({block.force[c].data(), block.count});
+        for (std::size_t c = 0; c < channels_.size(); ++c) rows_->paths()[c].complete({block.force[c].data(), block.count});
         return {};
     }
 };

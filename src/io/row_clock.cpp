@@ -133,7 +133,6 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     if (!times) return times.error();
     out.seconds_per_unit = *unit;
     if (times->gaps() * 20 < times->count()) out.gaps = times->gaps();  // more than that is how this clock runs
-    out.spread = times->spread();
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.column].name;
     auto clock = options.rate ? by_rate(*options.rate, name, *times, out.remarks) : by_own_times(name, *times, options, out);

@@ -16,7 +16,6 @@ struct RowClock {
     bool by_times = false;              ///< rows stand at their own uneven times; else on the clock
     Clock clock;
     std::int64_t gaps = 0;  ///< steps longer than one and a half times the median step
-    double spread = 0;      ///< s, from the earliest to the latest that a row comes, against an even clock
     std::vector<std::string> remarks;
 };
 

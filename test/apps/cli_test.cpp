@@ -1,13 +1,11 @@
 // The program as people use it: what it prints, writes and returns.
 
-#include <sys/wait.h>
-
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "support/support.hpp"
+#include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
@@ -15,20 +13,7 @@ namespace {
 using test::Folder;
 using Json = nlohmann::json;
 
-struct Ran {
-    int status;
-    std::string out, err;
-};
-
-Ran run(const Folder& folder, const std::string& words) {
-    const auto out = folder / ".out", err = folder / ".err";
-    const int status =
-        std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
-    Ran ran{WEXITSTATUS(status), test::read_file(out), test::read_file(err)};
-    std::filesystem::remove(out);
-    std::filesystem::remove(err);
-    return ran;
-}
+using test::run;
 
 TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
     const Folder folder;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "support/support.hpp"
+#include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
@@ -34,9 +34,8 @@ TEST(Readme, EveryCommandItShowsRuns) {
     for (const auto& command : shown) {
         if (!real && command.find("fbg_press") != std::string::npos) continue;
         const auto words = command.substr(std::string("corpuscle").size());
-        EXPECT_EQ(std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "'" + words + " > .out 2> .err").c_str()), 0)
-            << command << '\n'
-            << test::read_file(folder / ".err");
+        const auto ran = test::run(folder, words);
+        EXPECT_EQ(ran.status, 0) << command << '\n' << ran.err;
     }
     CORPUSCLE_NEEDS(press);  // all but the real recording was run
 }

@@ -1,11 +1,9 @@
 // Real recordings: every command of doc/real-recordings.md, what a first wrong command is told, and raw against cleaned files.
 
-#include <sys/wait.h>
-
 #include <cmath>
 #include <map>
 
-#include "support/support.hpp"
+#include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
@@ -14,19 +12,9 @@ using test::Folder;
 
 const std::string root = CORPUSCLE_ROOT;
 
-struct Ran {
-    int status;
-    std::string out, err;
-};
+using test::run;
 
-/// Runs in `folder`, in which the recordings' folders stand.
-Ran run(const Folder& folder, const std::string& words) {
-    const auto out = folder / ".out", err = folder / ".err";
-    const int status =
-        std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
-    return {WEXITSTATUS(status), test::read_file(out), test::read_file(err)};
-}
-
+/// `folder` gets the recordings' folders.
 void link_recordings(const Folder& folder) {
     for (const char* name : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
         std::filesystem::create_symlink(std::filesystem::absolute(test::shared(name)), folder / name);

@@ -6,6 +6,7 @@
 
 #include "io/archive.hpp"
 #include "support/recordings.hpp"
+#include "support/writers.hpp"
 
 namespace corpuscle {
 namespace {

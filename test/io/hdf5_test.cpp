@@ -7,6 +7,7 @@
 #include "io/hdf5_table.hpp"
 #include "support/property.hpp"
 #include "support/recordings.hpp"
+#include "support/writers.hpp"
 
 namespace corpuscle {
 namespace {

@@ -6,9 +6,8 @@
 #include <numbers>
 
 #include "io/dialect.hpp"
-#include "io/recording.hpp"
 #include "support/property.hpp"
-#include "support/support.hpp"
+#include "support/recordings.hpp"
 
 namespace corpuscle {
 namespace {
@@ -16,41 +15,13 @@ namespace {
 using test::Folder;
 using Rows = std::vector<std::vector<double>>;
 
-struct Read {
-    Rows force;
-    std::vector<Channel> channels;
-    Quality quality;
-    Clock clock;
-    std::vector<std::string> remarks;
-};
+using Read = test::WholeRecording;
+using test::try_recording;
 
-Result<Read> try_read(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
-    auto source = open_recording(path, options);
-    if (!source) return source.error();
-    Read out{{}, (*source)->channels(), {}, (*source)->clock(), {}};
-    out.force.resize(out.channels.size());
-    for (Frames frames(out.channels.size(), block);;) {
-        if (auto ok = (*source)->read(frames); !ok) return ok.error();
-        if (frames.count == 0) break;
-        for (std::size_t c = 0; c < out.force.size(); ++c)
-            out.force[c].insert(out.force[c].end(), frames.force[c].begin(),
-                                frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
-    }
-    out.quality = (*source)->quality();
-    out.remarks = (*source)->remarks();
-    return out;
-}
-
-Read read(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
-    return test::sure(try_read(path, options, block));
-}
+Read read(const std::string& path, const RecordingOptions& options, std::size_t block = 5) { return test::recording(path, options, block); }
 
 std::string said(const Folder& folder, const std::string& text, const RecordingOptions& options) {
-    const auto path = folder.write("x.csv", text);
-    const auto made = try_read(path, options);
-    auto sentence = made ? "read" : made.error().text();
-    if (const auto at = sentence.find(path); at != std::string::npos) sentence.replace(at, path.size(), "x.csv");
-    return sentence;
+    return test::refusal(folder.write("x.csv", text), options);
 }
 
 bool mentions(const std::vector<std::string>& sentences, const std::string& words) {
@@ -87,7 +58,7 @@ TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
         right.push_back(k);
     }
     const auto path = folder.write("x.csv", text);
-    const auto refused = try_read(path, {.bad_fields = BadFields::drop});
+    const auto refused = try_recording(path, {.bad_fields = BadFields::drop});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().sentence.find("not evenly spaced"), std::string::npos);
     EXPECT_EQ(read(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (Rows{right}));
@@ -159,7 +130,7 @@ TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
     const auto path = folder.write("x.csv", "time_s,a_N,b_N\n0,1,2\n1,1,2\n");
     const auto wrong = [&](const std::string& text) {
         const auto layout = folder.write("l.csv", text);
-        auto sentence = try_read(path, {.layout = layout}).error().text();
+        auto sentence = try_recording(path, {.layout = layout}).error().text();
         return sentence.substr(sentence.find("l.csv"));
     };
     EXPECT_EQ(wrong("sensor,x,y\nc,1,2\n"), "l.csv:2:1: no channel 'c'; did you mean 'a'?; there are 2: a, b");

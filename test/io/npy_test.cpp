@@ -10,6 +10,7 @@
 #include "io/npy.hpp"
 #include "support/property.hpp"
 #include "support/recordings.hpp"
+#include "support/writers.hpp"
 
 namespace corpuscle {
 namespace {

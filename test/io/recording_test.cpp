@@ -9,46 +9,20 @@
 #include "io/clock_check.hpp"
 #include "io/formats.hpp"
 #include "support/property.hpp"
-#include "support/support.hpp"
+#include "support/recordings.hpp"
 
 namespace corpuscle {
 namespace {
 
 using test::Folder;
 
-struct Read {
-    std::vector<std::string> names, remarks;
-    std::vector<std::vector<double>> force;
-    Clock clock;
-};
+using Read = test::WholeRecording;
+using test::try_recording;
 
-Result<Read> try_read(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
-    auto source = open_recording(path, options);
-    if (!source) return source.error();
-    Read out{{}, {}, {}, (*source)->clock()};
-    for (const auto& c : (*source)->channels()) out.names.push_back(c.name);
-    out.force.resize(out.names.size());
-    for (Frames frames(out.names.size(), block);;) {
-        if (auto ok = (*source)->read(frames); !ok) return ok.error();
-        if (frames.count == 0) break;
-        for (std::size_t c = 0; c < out.force.size(); ++c)
-            out.force[c].insert(out.force[c].end(), frames.force[c].begin(),
-                                frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
-    }
-    out.remarks = (*source)->remarks();
-    return out;
-}
+Read read(const std::string& path, const RecordingOptions& options = {}) { return test::recording(path, options); }
 
-Read read(const std::string& path, const RecordingOptions& options = {}) { return test::sure(try_read(path, options)); }
-
-/// What is said of a file that cannot be read, with its path taken out.
 std::string said(const Folder& folder, const std::string& text, const RecordingOptions& options = {}) {
-    const auto path = folder.write("x.csv", text);
-    const auto made = try_read(path, options);
-    if (made) return "read";
-    auto sentence = made.error().text();
-    if (const auto at = sentence.find(path); at != std::string::npos) sentence.replace(at, path.size(), "x.csv");
-    return sentence;
+    return test::refusal(folder.write("x.csv", text), options);
 }
 
 using Rows = std::vector<std::vector<double>>;
@@ -106,7 +80,7 @@ TEST(Recording, IsReadInEveryStyle) {
     };
     for (const auto& c : cases) {
         const Folder folder;
-        const auto made = try_read(folder.write("x.csv", c.text), c.options);
+        const auto made = try_recording(folder.write("x.csv", c.text), c.options);
         ASSERT_TRUE(made) << c.style << ": " << made.error().text();
         EXPECT_EQ(made->names, c.names) << c.style;
         EXPECT_NEAR(made->clock.rate(), c.rate, 1e-9) << c.style;
@@ -154,8 +128,8 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
         "x.csv: the time column 't' is in 'N', which is no time; --time-unit says what it is in, --time names another column, or none");
     EXPECT_EQ(said(folder, "t,F\n0,1\n1,1\n", {.time = "z"}), "x.csv: no column 'z' to take as time; give its name, its number or 'none'");
     EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}), "--unit and --scale both say what is read: give one");
-    EXPECT_EQ(try_read(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
-    EXPECT_EQ(try_read(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
+    EXPECT_EQ(try_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
+    EXPECT_EQ(try_recording(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
 }
 
 TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
@@ -295,7 +269,7 @@ TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
             }
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-round-trip-{}.csv", ::getpid())).string();
         std::ofstream(path, std::ios::binary) << text;
-        const auto made = try_read(path, {.time = "none", .rate = 100});
+        const auto made = try_recording(path, {.time = "none", .rate = 100});
         std::filesystem::remove(path);
         RC_ASSERT(static_cast<bool>(made));
         RC_ASSERT(made->force == values);
@@ -320,8 +294,8 @@ TEST(ClockCheck, FindsTheFarthestSampleInOnePass) {
 TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
     const auto path = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
-    EXPECT_NE(try_read(path).error().text().find("is in nm, which is no force"), std::string::npos);
-    const auto refused = try_read(path, {.scale = 40});
+    EXPECT_NE(try_recording(path).error().text().find("is in nm, which is no force"), std::string::npos);
+    const auto refused = try_recording(path, {.scale = 40});
     ASSERT_FALSE(refused) << "its clock comes in bursts";
     EXPECT_NE(refused.error().text().find("not evenly spaced: mean rate 100.0"), std::string::npos) << refused.error().text();
     const auto press = read(path, {.rate = 100, .scale = 40});

@@ -3,6 +3,7 @@
 #include "io/formats.hpp"
 #include "support/property.hpp"
 #include "support/recordings.hpp"
+#include "support/writers.hpp"
 
 namespace corpuscle {
 namespace {

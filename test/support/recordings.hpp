@@ -1,10 +1,5 @@
 #pragma once
-// Recordings read whole, and files of samples made by the libraries that others write them with.
-
-#include <fmt/format.h>
-
-#include <hdf5.h>
-#include <sndfile.h>
+// Recordings read whole, and what is said of those that cannot be read.
 
 #include "io/recording.hpp"
 #include "support/support.hpp"
@@ -15,15 +10,17 @@ struct WholeRecording {
     std::vector<std::string> names, remarks;
     std::vector<std::vector<double>> force;
     Clock clock;
+    std::vector<Channel> channels;
+    Quality quality = {};
 };
 
-inline Result<WholeRecording> try_recording(const std::string& path, const RecordingOptions& options = {}) {
+inline Result<WholeRecording> try_recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
     auto source = open_recording(path, options);
     if (!source) return source.error();
-    WholeRecording out{{}, {}, {}, (*source)->clock()};
-    for (const auto& c : (*source)->channels()) out.names.push_back(c.name);
+    WholeRecording out{{}, {}, {}, (*source)->clock(), (*source)->channels()};
+    for (const auto& c : out.channels) out.names.push_back(c.name);
     out.force.resize(out.names.size());
-    for (Frames frames(out.names.size(), 1000);;) {
+    for (Frames frames(out.names.size(), block);;) {
         if (auto ok = (*source)->read(frames); !ok) return ok.error();
         if (frames.count == 0) break;
         for (std::size_t c = 0; c < out.force.size(); ++c)
@@ -31,11 +28,12 @@ inline Result<WholeRecording> try_recording(const std::string& path, const Recor
                                 frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
     }
     out.remarks = (*source)->remarks();
+    out.quality = (*source)->quality();
     return out;
 }
 
-inline WholeRecording recording(const std::string& path, const RecordingOptions& options = {}) {
-    return sure(try_recording(path, options));
+inline WholeRecording recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
+    return sure(try_recording(path, options, block));
 }
 
 /// What is said of a file that cannot be read, without the folder.
@@ -47,87 +45,5 @@ inline std::string refusal(const std::string& path, const RecordingOptions& opti
         sentence.replace(at, path.size(), std::filesystem::path(path).filename().string());
     return sentence;
 }
-
-/// NPY of any type, as NumPy writes it.
-inline std::string npy(const std::string& type, const std::string& shape, const std::string& data, bool by_columns = false,
-                       int version = 1) {
-    auto header = fmt::format("{{'descr': {}, 'fortran_order': {}, 'shape': {}, }}", type, by_columns ? "True" : "False", shape);
-    header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
-    header += '\n';
-    std::string out = "\x93NUMPY";
-    out += {static_cast<char>(version), '\0', static_cast<char>(header.size() & 255), static_cast<char>(header.size() >> 8)};
-    return out + (version > 1 ? std::string(2, '\0') : "") + header + data;
-}
-
-/// Values of whole numbers are parts of full scale, in steps of 2^-31 or what the format keeps of them.
-inline void write_sound(const std::string& path, int format, int rate, const std::vector<std::vector<double>>& channels) {
-    SF_INFO info{};
-    info.channels = static_cast<int>(channels.size()), info.samplerate = rate, info.format = format;
-    SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
-    if (!file) throw std::runtime_error(sf_strerror(nullptr));
-    const int kind = format & SF_FORMAT_SUBMASK;
-    for (std::size_t k = 0; k < channels[0].size(); ++k) {
-        std::vector<double> frame;
-        std::vector<int> whole;
-        for (const auto& c : channels) {
-            frame.push_back(c[k]);
-            whole.push_back(static_cast<int>(std::clamp(c[k] * 0x1p31, -0x1p31, 0x1p31 - 1)));
-        }
-        const bool real = kind == SF_FORMAT_FLOAT || kind == SF_FORMAT_DOUBLE;
-        real ? sf_writef_double(file, frame.data(), 1) : sf_writef_int(file, whole.data(), 1);
-    }
-    sf_close(file);
-}
-
-/// An HDF5 file being written; names are paths, groups are made on the way.
-class Hdf5File {
-    hid_t file_, links_;
-
-    hid_t object(const std::string& name) const { return H5Oopen(file_, name.c_str(), H5P_DEFAULT); }
-    void attribute(const std::string& of, const std::string& name, hid_t type, hid_t space, const void* value) {
-        const hid_t where = object(of), a = H5Acreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT);
-        H5Awrite(a, type, value);
-        H5Aclose(a), H5Oclose(where), H5Sclose(space);
-    }
-
-public:
-    explicit Hdf5File(const std::string& path)
-        : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)), links_(H5Pcreate(H5P_LINK_CREATE)) {
-        H5Pset_create_intermediate_group(links_, 1);
-    }
-    Hdf5File(const Hdf5File&) = delete;
-    Hdf5File& operator=(const Hdf5File&) = delete;
-    ~Hdf5File() { H5Pclose(links_), H5Fclose(file_); }
-
-    void raw(const std::string& name, hid_t type, hid_t memory, const std::vector<hsize_t>& shape, const void* values,
-             const std::vector<hsize_t>& chunk = {}) {
-        const hid_t space = shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
-        const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
-        if (!chunk.empty()) H5Pset_chunk(how, static_cast<int>(chunk.size()), chunk.data()), H5Pset_deflate(how, 4);
-        const hid_t d = H5Dcreate2(file_, name.c_str(), type, space, links_, how, H5P_DEFAULT);
-        if (values) H5Dwrite(d, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-        H5Dclose(d), H5Pclose(how), H5Sclose(space);
-    }
-    void numbers(const std::string& name, const std::vector<hsize_t>& shape, const std::vector<double>& values,
-                 hid_t type = H5T_NATIVE_DOUBLE, const std::vector<hsize_t>& chunk = {}) {
-        raw(name, type, H5T_NATIVE_DOUBLE, shape, values.data(), chunk);
-    }
-    void attribute(const std::string& of, const std::string& name, double value) {
-        attribute(of, name, H5T_NATIVE_DOUBLE, H5Screate(H5S_SCALAR), &value);
-    }
-    void attribute(const std::string& of, const std::string& name, const std::string& value) {
-        const hid_t type = H5Tcopy(H5T_C_S1);
-        H5Tset_size(type, value.size() + 1);
-        attribute(of, name, type, H5Screate(H5S_SCALAR), value.c_str());
-        H5Tclose(type);
-    }
-    void words(const std::string& of, const std::string& name, const std::vector<const char*>& words) {
-        const hid_t type = H5Tcopy(H5T_C_S1);
-        H5Tset_size(type, H5T_VARIABLE), H5Tset_cset(type, H5T_CSET_UTF8);
-        const hsize_t count = words.size();
-        attribute(of, name, type, H5Screate_simple(1, &count, nullptr), words.data());
-        H5Tclose(type);
-    }
-};
 
 }  // namespace corpuscle::test

@@ -1,0 +1,25 @@
+#pragma once
+// The program as people use it, run in a folder of the test's own.
+
+#include <sys/wait.h>
+
+#include "support/support.hpp"
+
+namespace corpuscle::test {
+
+struct Ran {
+    int status;
+    std::string out, err;
+};
+
+inline Ran run(const Folder& folder, const std::string& words) {
+    const auto out = folder / ".out", err = folder / ".err";
+    const int status =
+        std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+    Ran ran{WEXITSTATUS(status), read_file(out), read_file(err)};
+    std::filesystem::remove(out);
+    std::filesystem::remove(err);
+    return ran;
+}
+
+}  // namespace corpuscle::test
