@@ -6,7 +6,8 @@
 namespace corpuscle {
 
 ForceRows::ForceRows(Rows rows, std::vector<ChannelPath> paths, std::string path, std::vector<std::string> names, bool timed)
-    : rows_(std::move(rows)), paths_(std::move(paths)), path_(std::move(path)), names_(std::move(names)), ready_(paths_.size() + (timed ? 1 : 0)) {
+    : rows_(std::move(rows)), paths_(std::move(paths)), path_(std::move(path)), names_(std::move(names)),
+      ready_(paths_.size() + (timed ? 1 : 0)) {
     if (timed) times_.emplace();
 }
 

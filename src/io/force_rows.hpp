@@ -13,9 +13,9 @@ namespace corpuscle {
 class ForceRows {
     Rows rows_;
     std::vector<ChannelPath> paths_;
-    std::string path_;                        // of the file, and
-    std::vector<std::string> names_;          // of the channels, for errors
-    std::optional<GapFiller> times_;          // if rows stand at their own times
+    std::string path_;                // of the file, and
+    std::vector<std::string> names_;  // of the channels, for errors
+    std::optional<GapFiller> times_;  // if rows stand at their own times
     SumCheck sums_;
     std::vector<std::vector<double>> block_;  // as read
     std::vector<std::vector<double>> ready_;  // of each channel, newtons; then the times

@@ -15,10 +15,10 @@ namespace corpuscle {
 struct Claim {
     std::string what;
     double made = 0;
-    std::string unit;
+    std::string unit = {};
     double printed = std::numeric_limits<double>::quiet_NaN();          ///< NaN: only the range, or nothing, was printed
     double low = std::numeric_limits<double>::quiet_NaN(), high = low;  ///< what is allowed, if that is said
-    std::string source;                                                 ///< of what was printed
+    std::string source = {};                                                 ///< of what was printed
     std::string note = {};                                              ///< why it differs, where it does
 
     bool judged() const { return low == low || high == high; }

@@ -6,6 +6,7 @@ show with the data they carry. Leaves OUTDIR/press.png and OUTDIR/press-zoomed.p
 """
 import base64
 import json
+import math
 import pathlib
 import re
 import shutil
@@ -432,7 +433,48 @@ class Million(Page):
             return [Math.min(...values), Math.max(...values)]""", panel, column)
 
 
+class Recorded(Page):
+    @classmethod
+    def report(cls):
+        """A recording with hum, and a reading in fifty torn."""
+        rows = "\n".join(str(9000 if k % 50 == 7 else round(1000 + 500 * math.sin(k / 90) + 100 * math.sin(math.tau * 50 * k / 242.6))) for k in range(3000))
+        recording = OUT / "recorded.csv"
+        recording.write_text("fz\n" + rows + "\n")
+        path = OUT / "recorded.html"
+        subprocess.run([CORPUSCLE, "respond", str(recording), "--rate", "242.6Hz", "--scale", "0.002", "--report", str(path), "--quiet"], check=True,
+                       stderr=subprocess.DEVNULL)
+        return path
+
+    def test_the_page_says_how_well_it_was_recorded(self):
+        section = self.browser.find_element(By.ID, "quality")
+        self.assertIn("stand alone, far from those before and after, as torn readings do", section.find_element(By.TAG_NAME, "ul").text)
+        cells = dict(zip((th.text for th in section.find_elements(By.TAG_NAME, "th")), (td.text for td in section.find_elements(By.TAG_NAME, "td"))))
+        self.assertEqual(cells["channel"], "fz")
+        self.assertAlmostEqual(float(cells["strays"]), 0.02, delta=0.001)
+        self.assertAlmostEqual(float(cells["force_max (N)"]), 18, delta=0.01)
+
+
 del Page  # not a test by itself
+
+
+class Studies(unittest.TestCase):
+    def test_every_claim_has_a_row_and_every_plot_is_drawn(self):
+        path = OUT / "studies.html"
+        subprocess.run([CORPUSCLE, "study", "classes", "kim", "--report", str(path), "--quiet"], check=True)
+        data = data_of(path)
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+            options = webdriver.ChromeOptions()
+            options.binary_location = shutil.which("chromium")
+            for flag in [*FLAGS, "--user-data-dir=" + profile]:
+                options.add_argument(flag)
+            browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+            self.addCleanup(browser.quit)
+            browser.get(path.as_uri())
+            self.assertEqual(browser.get_log("browser"), [])
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "tbody tr")), sum(len(study["claims"]) for study in data["studies"]))
+            points = browser.execute_script("return charts.map((chart) => chart.numRows())")
+            self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
+            self.assertGreater(min(points), 2)
 
 if __name__ == "__main__":
     CORPUSCLE, OUT = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()

@@ -1,0 +1,93 @@
+// How fast is a recording as text read, and in how much memory? bench-read MEGABYTES FOLDER
+//
+// Method: a CSV of a time and 16 channels of steps of a foot, two decimals, is written to FOLDER, then read to its end, once each way:
+// its bytes alone (the limit: what fread gives), its numbers (every column into blocks), and as a recording of force with everything
+// that is looked at on the way, on a rate that is given (one pass) and on its own clock (two). Bytes of the file over wall seconds;
+// the peak of memory is the process's so far.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+
+#include "io/recording.hpp"
+#include "io/text_table.hpp"
+
+namespace {
+
+using namespace corpuscle;
+
+void write_steps(const std::string& path, double megabytes) {
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    std::string text = "time_s";
+    for (int c = 1; c <= 16; ++c) text += fmt::format(",ch{}_N", c);
+    double written = 0;
+    for (std::int64_t k = 0; written < megabytes * 1e6; ++k) {
+        text += fmt::format("\n{:.2f}", static_cast<double>(k) * 0.01);
+        for (int c = 0; c < 16; ++c) {
+            const double F = 400 * std::sin(0.06 * static_cast<double>(k) + 0.4 * c);
+            F > 0 ? fmt::format_to(std::back_inserter(text), ",{:.2f}", F) : fmt::format_to(std::back_inserter(text), ",0");
+        }
+        if (text.size() < (1U << 20)) continue;
+        written += static_cast<double>(std::fwrite(text.data(), 1, text.size(), file));
+        text.clear();
+    }
+    std::fclose(file);
+}
+
+void report(const char* what, double bytes, const std::function<std::int64_t()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto rows = work();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    rusage used{};
+    ::getrusage(RUSAGE_SELF, &used);
+    fmt::print("{:44} {:6.0f} MB/s {:6.2f} s {:12} rows, {:4} MB at the peak\n", what, bytes / seconds / 1e6, seconds, rows, used.ru_maxrss / 1024);
+}
+
+std::int64_t bytes_alone(const std::string& path) {
+    std::FILE* file = std::fopen(path.c_str(), "rb");
+    std::vector<char> block(1U << 20);
+    std::int64_t blocks = 0;
+    while (std::fread(block.data(), 1, block.size(), file) > 0) ++blocks;
+    std::fclose(file);
+    return blocks;
+}
+
+std::int64_t numbers(const std::string& path) {
+    const auto table = open_text_table(path);
+    std::vector<std::size_t> all((*table)->columns().size());
+    for (std::size_t c = 0; c < all.size(); ++c) all[c] = c;
+    std::vector<std::vector<double>> block(all.size());
+    std::int64_t rows = 0;
+    for (auto read = (*table)->read(all, rows_a_block, block); read && *read > 0; read = (*table)->read(all, rows_a_block, block))
+        rows += static_cast<std::int64_t>(*read);
+    return rows;
+}
+
+std::int64_t force(const std::string& path, const RecordingOptions& options) {
+    const auto source = open_recording(path, options);
+    Frames block((*source)->channels().size(), 4096);
+    std::int64_t rows = 0;
+    while ((*source)->read(block) && block.count > 0) rows += static_cast<std::int64_t>(block.count);
+    return rows;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const double megabytes = argc > 1 ? std::atof(argv[1]) : 200;
+    const std::string path = std::string(argc > 2 ? argv[2] : ".") + "/bench-read.csv";
+    write_steps(path, megabytes);
+    const auto bytes = static_cast<double>(std::filesystem::file_size(path));
+    bytes_alone(path);  // once before, so that the file is in memory for all alike if it fits
+    report("bytes alone (blocks of 1 MB)", bytes, [&] { return bytes_alone(path); });
+    report("numbers", bytes, [&] { return numbers(path); });
+    report("force, --time none --rate 100Hz: one pass", bytes,
+           [&] { return force(path, {.channels = {"2-17"}, .time = "none", .rate = 100, .scale = 0.008}); });
+    report("force, on its own clock: two passes", bytes, [&] { return force(path, {.scale = 0.008}); });
+    std::filesystem::remove(path);
+}

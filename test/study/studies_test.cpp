@@ -1,0 +1,85 @@
+#include "study/studies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+Outcome run(std::string_view name) {
+    const auto study = std::find_if(std::begin(studies), std::end(studies), [&](const Study& s) { return s.name == name; });
+    return test::sure(study->run({}));
+}
+
+const Claim& claim(const Outcome& outcome, const std::string& what) {
+    for (const auto& c : outcome.claims)
+        if (c.what == what) return c;
+    throw std::runtime_error("no claim '" + what + "'");
+}
+
+TEST(Studies, EachSaysWhatItMadeAndShowsIt) {
+    std::set<std::string_view> names;
+    for (const auto& s : studies) {
+        EXPECT_TRUE(names.insert(s.name).second) << s.name;
+        double last = 0;
+        const auto outcome = s.run({[&](double share) {
+            EXPECT_GE(share, last);
+            EXPECT_LE(share, 1 + 1e-9);
+            last = share;
+            return true;
+        }});
+        ASSERT_TRUE(static_cast<bool>(outcome)) << s.name;
+        EXPECT_GT(last, 0.9) << s.name;
+        EXPECT_FALSE(outcome->claims.empty() || outcome->plots.empty() || outcome->notes.empty()) << s.name;
+        for (const auto& c : outcome->claims) {
+            EXPECT_TRUE(std::isfinite(c.made)) << s.name << ": " << c.what;
+            EXPECT_TRUE(!c.judged() || !c.source.empty()) << c.what << " is judged by nobody";
+        }
+        for (const auto& p : outcome->plots)
+            for (const auto& series : p.series) EXPECT_TRUE(series.style == Plot::Style::raster || series.x.size() == series.y.size()) << p.title;
+    }
+}
+
+TEST(Studies, StopWhenTheyAreTold) {
+    for (const auto& s : studies) {
+        const auto outcome = s.run({[](double) { return false; }});
+        ASSERT_FALSE(outcome) << s.name;
+        EXPECT_EQ(outcome.error().code, Code::interrupted) << s.name;
+    }
+}
+
+TEST(Studies, TheFourClassesFireWhereTheFigureShowsThem) {
+    for (const auto& c : run("classes").claims) EXPECT_TRUE(!c.judged() || c.holds()) << c.what << ": " << c.made;
+}
+
+TEST(Studies, KimsHoldIsWithinHisSpread) {
+    const auto outcome = run("kim");
+    for (const auto& c : outcome.claims) EXPECT_TRUE(!c.judged() || c.holds()) << c.what << ": " << c.made;
+    EXPECT_NEAR(claim(outcome, "interval in the hold at 1.3 mm").made, 56.8e-3, 0.5e-3);
+}
+
+TEST(Studies, MoreBitsAndSamplesMakeSmallerErrors) {
+    const auto outcome = run("resolution");
+    for (const char* name : {"sa1", "fa1"}) {
+        const auto at = [&](const char* what) { return claim(outcome, std::string(name) + what + ": rms error of spike times").made; };
+        EXPECT_GT(at(": 4 bits, 10 kHz"), 10 * at(": 12 bits, 10 kHz"));
+        EXPECT_LT(at(": 16 bits, 10 kHz"), 0.2e-3);
+        EXPECT_GT(at(": 16 bits, 100 Hz"), 5 * at(": 16 bits, 1 kHz"));
+    }
+}
+
+TEST(Studies, AClaimIsJudgedByWhatIsAllowedAndByNothingElse) {
+    Claim c{.what = "x", .made = 2};
+    EXPECT_FALSE(c.judged());
+    c.high = 1;
+    EXPECT_TRUE(c.judged());
+    EXPECT_FALSE(c.holds());
+    c.high = 2, c.low = 2;
+    EXPECT_TRUE(c.holds());
+}
+
+}  // namespace
+}  // namespace corpuscle
