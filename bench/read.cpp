@@ -45,7 +45,8 @@ void report(const char* what, double bytes, const std::function<std::int64_t()>&
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     rusage used{};
     ::getrusage(RUSAGE_SELF, &used);
-    fmt::print("{:44} {:6.0f} MB/s {:6.2f} s {:12} rows, {:4} MB at the peak\n", what, bytes / seconds / 1e6, seconds, rows, used.ru_maxrss / 1024);
+    fmt::print("{:44} {:6.0f} MB/s {:6.2f} s {:12} rows, {:4} MB at the peak\n", what, bytes / seconds / 1e6, seconds, rows,
+               used.ru_maxrss / 1024);
 }
 
 std::int64_t bytes_alone(const std::string& path) {

@@ -18,7 +18,7 @@ struct Claim {
     std::string unit = {};
     double printed = std::numeric_limits<double>::quiet_NaN();          ///< NaN: only the range, or nothing, was printed
     double low = std::numeric_limits<double>::quiet_NaN(), high = low;  ///< what is allowed, if that is said
-    std::string source = {};                                                 ///< of what was printed
+    std::string source = {};                                            ///< of what was printed
     std::string note = {};                                              ///< why it differs, where it does
 
     bool judged() const { return low == low || high == high; }

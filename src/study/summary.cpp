@@ -14,6 +14,9 @@ using Json = nlohmann::ordered_json;
 
 std::string key_of(const Measure& m) { return m.unit.empty() ? std::string(m.name) : std::string(m.name) + "_" + std::string(m.unit); }
 
+/// A key that the object does not have yet: with 100,000 channels it is not looked for.
+void add(Json& object, std::string key, Json value) { object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)}); }
+
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json afferent_document(const AfferentPlan& plan) {
@@ -31,14 +34,21 @@ Json afferent_document(const AfferentPlan& plan) {
 Json position_document(const Summary::InputFacts& input) {
     Json out = Json::object();
     for (std::size_t c = 0; c < input.sensors.size(); ++c)
-        if (const auto& p = input.sensors[c].position) out[input.channels[c]] = {p->x, p->y, p->z};
+        if (const auto& p = input.sensors[c].position) add(out, input.channels[c], {p->x, p->y, p->z});
     return out;
 }
 
 Json quality_document(const Summary::InputFacts& input) {
     Json channels = Json::object();
-    for (const auto& f : input.quality.findings)
-        channels[input.channels[f.channel]][f.unit.empty() ? std::string(f.name) : fmt::format("{}_{}", f.name, f.unit)] = number(f.value);
+    const auto& findings = input.quality.findings;  // channel by channel
+    for (std::size_t k = 0; k < findings.size();) {
+        Json one = Json::object();
+        const auto channel = findings[k].channel;
+        for (; k < findings.size() && findings[k].channel == channel; ++k)
+            add(one, findings[k].unit.empty() ? std::string(findings[k].name) : fmt::format("{}_{}", findings[k].name, findings[k].unit),
+                number(findings[k].value));
+        add(channels, input.channels[channel], std::move(one));
+    }
     return {{"warnings", input.quality.warnings}, {"sentences", input.quality.sentences}, {"channels", channels}};
 }
 
@@ -46,7 +56,7 @@ Json input_document(const Summary::InputFacts& input) {
     Json phases = Json::array();
     for (const auto& p : input.phases) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
     Json facts = Json::object();
-    for (const auto& f : input.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
+    for (const auto& f : input.facts) add(facts, f.name, {{"value", f.value}, {"unit", f.unit}});
     return {{"name", input.name},
             {"parameters", facts},
             {"force_min_N", input.least},

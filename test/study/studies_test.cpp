@@ -39,7 +39,8 @@ TEST(Studies, EachSaysWhatItMadeAndShowsIt) {
             EXPECT_TRUE(!c.judged() || !c.source.empty()) << c.what << " is judged by nobody";
         }
         for (const auto& p : outcome->plots)
-            for (const auto& series : p.series) EXPECT_TRUE(series.style == Plot::Style::raster || series.x.size() == series.y.size()) << p.title;
+            for (const auto& series : p.series)
+                EXPECT_TRUE(series.style == Plot::Style::raster || series.x.size() == series.y.size()) << p.title;
     }
 }
 
