@@ -7,10 +7,13 @@
 namespace corpuscle {
 
 void Levels::add(std::span<const double> force) {
+    double low = least, high = greatest;  // locals: kept in registers
+    std::int64_t beneath = 0, over = 0, under_zero = 0;
     for (const double F : force) {
-        least = std::min(least, F), greatest = std::max(greatest, F);
-        below += F < 0.2, above += F > 4, negative += F < 0;
+        low = F < low ? F : low, high = F > high ? F : high;
+        beneath += F < 0.2, over += F > 4, under_zero += F < 0;
     }
+    least = low, greatest = high, below += beneath, above += over, negative += under_zero;
     count += static_cast<std::int64_t>(force.size());
 }
 

@@ -88,14 +88,21 @@ std::int64_t StrayCheck::count() const {
 }
 
 void SaturationCheck::add(std::span<const double> x) {
+    double most = -1e308;
+    double least = lowest_;
+    for (const double value : x) least = value < least ? value : least, most = value > most ? value : most;
+    lowest_ = least;
+    seen_ += static_cast<std::int64_t>(x.size());
+    if (most < highest_) {  // none of these is of interest
+        if (!x.empty()) run_ = 0;
+        return;
+    }
     for (const double value : x) {
-        if (value < lowest_) lowest_ = value;
         if (value > highest_) highest_ = value, run_ = 0, runs_ = 0, at_highest_ = 0;
         run_ = value == highest_ ? run_ + 1 : 0;
         at_highest_ += value == highest_;
         runs_ += run_ == 3;
     }
-    seen_ += static_cast<std::int64_t>(x.size());
 }
 
 void SumCheck::add(const std::vector<std::vector<double>>& block) {

@@ -36,9 +36,9 @@ class TextTable final : public Table {
     bool header_ = false, commented_ = false, skip_header_ = false;
     std::string comment_;  // the last before the data
     Fields fields_;
-    std::vector<long> numbers_;          // line numbers of the last block's rows
-    std::vector<std::ptrdiff_t> slots_;  // of each column: its place among those wanted, or -1
-    std::size_t wanted_end_ = 0;         // behind the last column wanted
+    std::vector<long> numbers_;   // line numbers of the last block's rows
+    std::vector<double*> to_;     // of each column: where its block of numbers goes, or nowhere
+    std::size_t wanted_end_ = 0;  // behind the last column wanted
 
     Error at(std::string sentence, long column = 0) const {
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
@@ -107,9 +107,9 @@ class TextTable final : public Table {
         return rewind();
     }
 
-    void set_slots(const std::vector<std::size_t>& wanted) {
-        slots_.assign(columns_.size(), -1);
-        for (std::size_t i = 0; i < wanted.size(); ++i) slots_[wanted[i]] = static_cast<std::ptrdiff_t>(i);
+    void set_columns(const std::vector<std::size_t>& wanted, std::vector<std::vector<double>>& out) {
+        to_.assign(columns_.size(), nullptr);
+        for (std::size_t i = 0; i < wanted.size(); ++i) to_[wanted[i]] = out[i].data();
         wanted_end_ = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end()) + 1;
     }
 
@@ -121,30 +121,30 @@ class TextTable final : public Table {
     }
 
     /// A line as most are, read in one go; false if it needs a closer look.
-    bool read_plain_row(std::string_view line, std::size_t row, std::vector<std::vector<double>>& out) const {
+    bool read_plain_row(std::string_view line, std::size_t row) const {
         const char *p = line.data(), *const end = p + line.size();
         const char separator = dialect_.separator;
-        for (std::size_t c = 0; c < slots_.size(); ++c) {
+        for (std::size_t c = 0; c < to_.size(); ++c) {
             if (c > 0) {
                 if (p == end) return false;
                 ++p;
             }
-            if (c == wanted_end_ && separator != ' ') return ends_after(p, end, slots_.size() - c);
-            if (slots_[c] < 0 && separator != ' ') {
+            if (c == wanted_end_ && separator != ' ') return ends_after(p, end, to_.size() - c);
+            if (!to_[c] && separator != ' ') {
                 while (p < end && *p != separator && *p != '"') ++p;
                 if (p < end && *p == '"') return false;
                 continue;
             }
             double value;
             if (!dialect_.plain_number(p, end, value)) return false;
-            if (slots_[c] >= 0) out[static_cast<std::size_t>(slots_[c])][row] = value;
+            if (to_[c]) to_[c][row] = value;
         }
         return p == end;
     }
 
     Result<void> read_row(std::string_view line, std::size_t row, const std::vector<std::size_t>& wanted,
                           std::vector<std::vector<double>>& out) {
-        if (read_plain_row(line, row, out)) return {};
+        if (read_plain_row(line, row)) return {};
         split(line);
         if (fields_.size() != columns_.size()) {
             if (!gaps_allowed_) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_.size()));
@@ -197,7 +197,7 @@ public:
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
         for (auto& column : out) column.resize(rows);
         numbers_.clear();
-        set_slots(wanted);
+        set_columns(wanted, out);
         std::size_t row = 0;
         for (std::string_view line; row < rows; ++row) {
             const auto more = next_row(line);
