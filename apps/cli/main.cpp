@@ -19,6 +19,7 @@ constexpr const char* first_steps = R"(First steps:
   corpuscle respond press --report press.html            ... and a page to look at
   corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
   corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
+  corpuscle study --report studies.html                  what others printed, made again
   corpuscle list                                         every afferent, stimulus and parameter
 
 Exit status: 0 done, 1 bad input, 2 bad usage, 3 did not converge, 130 interrupted.)";
@@ -27,13 +28,15 @@ constexpr const char* respond_examples =
     R"(FORCE is a file of numbers in columns (- for standard input), or a stimulus by name: press, ramp-hold, step, sine,
 chirp, noise, grating, or a sum of them: press+noise (a shorter one holds its last value). AFFERENT is a name (sa1 fa1
 sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a transduction and a neuron: sa1b+izhikevich; before either may
-stand a sensor, a transducer, a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b. 'corpuscle list' shows them all, with every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
+stand a sensor, a transducer, a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b. 'corpuscle list' shows them all, with
+every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
 
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
   corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
   corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out answer --report
   corpuscle respond eskin.csv --rate 100Hz --scale 40      a clock that comes in bursts: rows taken as even
+  corpuscle respond grip.csv --rate 250Hz --scale 0.002 --range 0..4095 --despike 200 --notch 50Hz     torn, and with hum
 
 A recording's unit stands in its header (fz_N, "fz [mN]"); say --unit if it does not, or --scale S if what is read
 times S is newtons. Its clock is its time column (name it with --time), or --rate.)";

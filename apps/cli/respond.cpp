@@ -8,16 +8,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "io/recording.hpp"
-#include "report/report.hpp"
+#include "outputs.hpp"
+#include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
-#include "study/bins_file.hpp"
-#include "study/clicks_file.hpp"
-#include "study/npz_file.hpp"
-#include "study/stale.hpp"
 #include "study/summary.hpp"
-#include "study/vectors.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -35,68 +30,6 @@ struct Job {
     RespondOptions options;
     std::vector<std::string> warnings;
 };
-
-Result<std::optional<double>> quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option) {
-    if (!text) return std::optional<double>();
-    const auto value = parse_quantity(*text, unit);
-    if (!value) return bad_usage(fmt::format("{} {}", option, value.error().sentence));
-    return std::optional<double>(*value);
-}
-
-/// "LO..HI"
-Result<std::pair<double, double>> range_of(const std::string& text) {
-    const auto dots = text.find("..");
-    const auto low = parse_quantity(text.substr(0, dots), ""),
-               high = dots == std::string::npos ? low : parse_quantity(text.substr(dots + 2), "");
-    if (dots == std::string::npos || !low || !high || !(*low < *high))
-        return bad_usage(fmt::format("--range {}: write LO..HI with LO below HI, such as 0..4095, in what is read", text));
-    return std::pair{*low, *high};
-}
-
-/// Words that are more than one number.
-Result<void> read_words(const RespondWords& w, RecordingOptions& options) {
-    if (w.range) {
-        const auto range = range_of(*w.range);
-        if (!range) return range.error();
-        options.range = *range;
-    }
-    if (w.bad_fields)
-        options.bad_fields = *w.bad_fields == "error"  ? BadFields::error
-                             : *w.bad_fields == "drop" ? BadFields::drop
-                                                       : BadFields::interpolate;
-    if (w.despike) {
-        const auto limit = *w.despike == "auto" ? Result<double>(1) : parse_quantity(*w.despike, "");
-        if (!limit || !(*limit > 0))
-            return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in what is read", *w.despike));
-        options.despike.emplace();
-        if (*w.despike != "auto") options.despike->limit = *limit;
-    }
-    for (const auto& text : w.notch) {
-        const auto f = parse_quantity(text, "Hz");
-        if (!f) return bad_usage(fmt::format("--notch {}", f.error().sentence));
-        options.notch.push_back(*f);
-    }
-    return {};
-}
-
-Result<RecordingOptions> recording_options(const RespondWords& w) {
-    RecordingOptions options{.table = {w.dataset}, .channels = w.channels, .time = w.time, .time_unit = w.time_unit, .unit = w.unit};
-    options.absolute = w.absolute;
-    options.layout = w.layout;
-    std::optional<double> offset;
-    for (const auto& [text, unit, option, to] : {std::tuple{&w.rate, "Hz", "--rate", &options.rate},
-                                                 {&w.resample, "Hz", "--resample", &options.resample},
-                                                 {&w.scale, "", "--scale", &options.scale},
-                                                 {&w.offset, "", "--offset", &offset},
-                                                 {&w.lowpass, "Hz", "--lowpass", &options.lowpass}}) {
-        const auto value = quantity(*text, unit, option);
-        if (!value) return value.error();
-        *to = *value;
-    }
-    options.offset = offset.value_or(0);
-    if (auto ok = read_words(w, options); !ok) return ok.error();
-    return options;
-}
 
 /// A stimulus by name goes before a file of that name; ./press is the file.
 Result<std::unique_ptr<Source>> open_source(const std::string& force, const RecordingOptions& options, const Job& job, std::uint64_t seed) {
@@ -118,31 +51,6 @@ Result<void> check_wishes(const Job& job) {
     for (const auto& w : job.wishes)
         if (!w.used)
             return bad_usage(fmt::format("--set {}: no afferent or stimulus '{}' takes part{}", w.text(), w.of, did_you_mean(w.of, names)));
-    return {};
-}
-
-/// What is said of recordings must find one.
-Result<void> check_recording_words(const RespondWords& w) {
-    if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},
-                                                  {"--dataset", w.dataset.has_value()},
-                                                  {"--time", w.time.has_value()},
-                                                  {"--time-unit", w.time_unit.has_value()},
-                                                  {"--unit", w.unit.has_value()},
-                                                  {"--scale", w.scale.has_value()},
-                                                  {"--abs", w.absolute},
-                                                  {"--resample", w.resample.has_value()},
-                                                  {"--offset", w.offset.has_value()},
-                                                  {"--range", w.range.has_value()},
-                                                  {"--bad-fields", w.bad_fields.has_value()},
-                                                  {"--despike", w.despike.has_value()},
-                                                  {"--notch", !w.notch.empty()},
-                                                  {"--lowpass", w.lowpass.has_value()},
-                                                  {"--layout", !w.layout.empty()}};
-    for (const auto& [word, said] : words)
-        if (said)
-            return bad_usage(fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word,
-                                         w.forces[0], w.forces[0]));
     return {};
 }
 
@@ -224,103 +132,6 @@ std::string rate_table(const Summary& summary) {
     return text;
 }
 
-/// The files of one run: made before it, put in their places after it.
-class Outputs {
-    std::string directory_;
-    std::vector<std::unique_ptr<WrittenFile>> files_;
-    std::optional<Report> report_;
-    std::optional<OutputFile> summary_file_, report_file_;
-    std::vector<std::string> removed_;
-
-    static Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
-        if (auto ok = file->write(text); !ok) return ok;
-        return file->commit();
-    }
-
-    template <class F, class... A>
-    Result<void> add(const char* name, A... how) {
-        auto file = OutputFile::create(directory_ + "/" + name);
-        if (!file) return file.error();
-        files_.push_back(std::make_unique<F>(std::move(*file), how...));
-        return {};
-    }
-
-    Result<void> open_directory(const RespondWords& w, std::optional<double> bin) {
-        if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
-        if (w.npz)
-            if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
-        if (bin)
-            if (auto ok = add<BinsFile>("psth.csv", *bin); !ok) return ok;
-        if (w.wav) files_.push_back(std::make_unique<ClicksFile>(directory_));
-        if (w.traces) files_.push_back(std::make_unique<TracesFile>(directory_));
-        if (w.vectors) files_.push_back(std::make_unique<VectorsFile>(directory_));
-        auto summary = OutputFile::create(directory_ + "/summary.json");
-        if (!summary) return summary.error();
-        summary_file_ = std::move(*summary);
-        return {};
-    }
-
-    std::vector<std::string> paths() const {
-        std::vector<std::string> all;
-        for (const auto& file : files_)
-            for (auto& path : file->paths()) all.push_back(std::move(path));
-        if (summary_file_) all.push_back(summary_file_->path());
-        if (report_file_) all.push_back(report_file_->path());
-        return all;
-    }
-
-public:
-    Result<void> open(const RespondWords& w) {
-        const std::pair<const char*, bool> words[] = {
-            {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
-        for (const auto& [word, said] : words)
-            if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
-        const auto bin = quantity(w.bin, "s", "--bin");
-        if (!bin) return bin.error();
-        if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
-        directory_ = w.out;
-        if (!w.out.empty())
-            if (auto ok = open_directory(w, *bin); !ok) return ok;
-        if (!w.report) return {};
-        auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
-        if (!page) return page.error();
-        report_file_ = std::move(*page);
-        report_.emplace();
-        return {};
-    }
-
-    void listen(std::vector<Listener*>& listeners) {
-        for (auto& file : files_) listeners.push_back(&*file);
-        if (report_) listeners.push_back(&*report_);
-    }
-
-    /// What is written into the directory, by name.
-    std::vector<std::string> names() const {
-        std::vector<std::string> all;
-        for (const auto& path : paths())
-            if (!directory_.empty() && path.starts_with(directory_ + "/") && path.find('/', directory_.size() + 1) == path.npos)
-                all.push_back(std::filesystem::path(path).filename().string());
-        return all;
-    }
-
-    Result<void> commit(const Summary& summary, const Job& job, const std::string& document, const std::string& command) {
-        if (report_)
-            if (auto ok = put(report_file_, report_->page(summary, job.afferents, command, job.warnings)); !ok) return ok;
-        for (auto& file : files_)
-            if (auto ok = file->commit(); !ok) return ok;
-        if (!summary_file_) return {};
-        removed_ = remove_stale(directory_, names());
-        return put(summary_file_, document);
-    }
-
-    std::string told() const {
-        const auto all = paths();
-        if (all.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
-        const auto gone = removed_.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed_, ", "));
-        return fmt::format("Written: {}\n{}", fmt::join(all, ", "), gone);
-    }
-};
-
 /// Warnings are printed always, remarks unless it is to be quiet.
 void print_remarks(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
@@ -362,7 +173,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     answer["files"] = outputs.names();
     const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes
-    if (auto ok = outputs.commit(summary, *job, document, common.command); !ok) return ok;
+    if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command); !ok) return ok;
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)

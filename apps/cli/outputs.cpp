@@ -1,0 +1,105 @@
+#include "outputs.hpp"
+
+#include <fmt/format.h>
+#include <filesystem>
+
+#include "recording_words.hpp"
+#include "study/bins_file.hpp"
+#include "study/clicks_file.hpp"
+#include "study/npz_file.hpp"
+#include "study/stale.hpp"
+#include "study/vectors.hpp"
+
+namespace corpuscle {
+namespace {
+
+Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
+    if (auto ok = file->write(text); !ok) return ok;
+    return file->commit();
+}
+
+}  // namespace
+
+template <class F, class... A>
+Result<void> Outputs::add(const char* name, A... how) {
+    auto file = OutputFile::create(directory_ + "/" + name);
+    if (!file) return file.error();
+    files_.push_back(std::make_unique<F>(std::move(*file), how...));
+    return {};
+}
+
+Result<void> Outputs::open_directory(const RespondWords& w, std::optional<double> bin) {
+    if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
+    if (w.npz)
+        if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
+    if (bin)
+        if (auto ok = add<BinsFile>("psth.csv", *bin); !ok) return ok;
+    if (w.wav) files_.push_back(std::make_unique<ClicksFile>(directory_));
+    if (w.traces) files_.push_back(std::make_unique<TracesFile>(directory_));
+    if (w.vectors) files_.push_back(std::make_unique<VectorsFile>(directory_));
+    auto summary = OutputFile::create(directory_ + "/summary.json");
+    if (!summary) return summary.error();
+    summary_file_ = std::move(*summary);
+    return {};
+}
+
+std::vector<std::string> Outputs::paths() const {
+    std::vector<std::string> all;
+    for (const auto& file : files_)
+        for (auto& path : file->paths()) all.push_back(std::move(path));
+    if (summary_file_) all.push_back(summary_file_->path());
+    if (report_file_) all.push_back(report_file_->path());
+    return all;
+}
+
+Result<void> Outputs::open(const RespondWords& w) {
+    const std::pair<const char*, bool> words[] = {
+        {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
+    for (const auto& [word, said] : words)
+        if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
+    const auto bin = quantity(w.bin, "s", "--bin");
+    if (!bin) return bin.error();
+    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
+    directory_ = w.out;
+    if (!w.out.empty())
+        if (auto ok = open_directory(w, *bin); !ok) return ok;
+    if (!w.report) return {};
+    auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
+    if (!page) return page.error();
+    report_file_ = std::move(*page);
+    report_.emplace();
+    return {};
+}
+
+void Outputs::listen(std::vector<Listener*>& listeners) {
+    for (auto& file : files_) listeners.push_back(&*file);
+    if (report_) listeners.push_back(&*report_);
+}
+
+std::vector<std::string> Outputs::names() const {
+    std::vector<std::string> all;
+    for (const auto& path : paths())
+        if (!directory_.empty() && path.starts_with(directory_ + "/") && path.find('/', directory_.size() + 1) == path.npos)
+            all.push_back(std::filesystem::path(path).filename().string());
+    return all;
+}
+
+Result<void> Outputs::commit(const Summary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
+                             const std::string& document, const std::string& command) {
+    if (report_)
+        if (auto ok = put(report_file_, report_->page(summary, afferents, command, warnings)); !ok) return ok;
+    for (auto& file : files_)
+        if (auto ok = file->commit(); !ok) return ok;
+    if (!summary_file_) return {};
+    removed_ = remove_stale(directory_, names());
+    return put(summary_file_, document);
+}
+
+std::string Outputs::told() const {
+    const auto all = paths();
+    if (all.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
+    const auto gone = removed_.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed_, ", "));
+    return fmt::format("Written: {}\n{}", fmt::join(all, ", "), gone);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/report.hpp"
+#include "study/files.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+
+/// The files of one run: made before it, put in their places after it.
+class Outputs {
+    std::string directory_;
+    std::vector<std::unique_ptr<WrittenFile>> files_;
+    std::optional<Report> report_;
+    std::optional<OutputFile> summary_file_, report_file_;
+    std::vector<std::string> removed_;
+
+    template <class F, class... A>
+    Result<void> add(const char* name, A... how);
+    Result<void> open_directory(const RespondWords&, std::optional<double> bin);
+    std::vector<std::string> paths() const;
+
+public:
+    Result<void> open(const RespondWords&);
+    void listen(std::vector<Listener*>&);
+    /// What is written into the directory, by name.
+    std::vector<std::string> names() const;
+    Result<void> commit(const Summary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings, const std::string& document,
+                        const std::string& command);
+    std::string told() const;
+};
+
+}  // namespace corpuscle
