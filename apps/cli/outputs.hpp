@@ -29,8 +29,8 @@ public:
     void listen(std::vector<Listener*>&);
     /// What is written into the directory, by name.
     std::vector<std::string> names() const;
-    Result<void> commit(const Summary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings, const std::string& document,
-                        const std::string& command);
+    Result<void> commit(const Summary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings,
+                        const std::string& document, const std::string& command);
     std::string told() const;
 };
 

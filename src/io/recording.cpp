@@ -12,6 +12,7 @@
 #include "io/layout.hpp"
 #include "io/row_clock.hpp"
 #include "io/verdict.hpp"
+#include "signal/afferent.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -30,7 +31,7 @@ class Recording final : public Source {
     std::vector<std::string> remarks_;
     std::unique_ptr<HumTable> hum_table_;
     std::optional<ForceRows> rows_;
-    std::int64_t row_number_ = 0;  // rows taken so far
+    std::int64_t row_number_ = 0, samples_ = 0;  // rows taken, samples given so far
     // when resampling: the rows before and at the instant looked for
     std::vector<double> before_, at_;
     double t_before_ = 0, t_at_ = 0;
@@ -223,7 +224,16 @@ public:
     Result<void> read(Frames& block) override {
         block.count = 0;
         if (auto ok = options_.resample ? read_resampled(block) : read_rows(block); !ok) return ok;
-        for (std::size_t c = 0; c < channels_.size(); ++c) rows_->paths()[c].complete({block.force[c].data(), block.count});
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            const std::span<double> force(block.force[c].data(), block.count);
+            rows_->paths()[c].complete(force);
+            if (const auto bad = first_not_finite(force); bad < force.size())
+                return bad_input(
+                    fmt::format("'{}': sample {} comes out as no finite number: a reading is too large for --scale or the filters",
+                                channels_[c].name, samples_ + static_cast<std::int64_t>(bad)),
+                    {path_});
+        }
+        samples_ += static_cast<std::int64_t>(block.count);
         return {};
     }
 };

@@ -111,6 +111,14 @@ TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
     EXPECT_NEAR(slower.force[0][100], whole.force[0][250], 1e-9);
 }
 
+TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
+    const Folder folder;
+    RecordingOptions options{.rate = 100};
+    options.notch = {12};
+    EXPECT_EQ(said(folder, "F_N\n0\n-1.7e308\n1.7e308\n-1.7e308\n1.7e308\n", options),
+              "x.csv: 'F': sample 2 comes out as no finite number: a reading is too large for --scale or the filters");
+}
+
 TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
     const Folder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N,total_N\n0,1,2,3\n1,1,2,3\n");
