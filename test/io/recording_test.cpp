@@ -291,6 +291,40 @@ TEST(ClockCheck, FindsTheFarthestSampleInOnePass) {
     }));
 }
 
+TEST(ClockCheck, AClockThatSlowsSteadilyIsJudgedInLittleMemory) {  // every sample lies on the hull, which is thinned
+    ClockCheck check;
+    std::vector<double> t;
+    for (int k = 0; k < 300'000; ++k) t.push_back(1e-3 * k + 1e-11 * k * static_cast<double>(k)), check.add(t.back());
+    const double step = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
+    double early = 0;
+    for (std::size_t k = 0; k < t.size(); ++k) early = std::min(early, t[k] - static_cast<double>(k) * step);
+    EXPECT_NEAR(check.spread(), -early, 1e-6 * -early);
+}
+
+TEST(ClockCheck, CountsGapsAgainstTheUsualStep) {
+    ClockCheck check;
+    double t = 0;
+    for (int k = 0; k < 1000; ++k) check.add(t), t += k % 100 == 50 ? 0.03 : 0.01;
+    EXPECT_EQ(check.gaps(), 10);
+}
+
+TEST(Recording, TheFirstPassThroughTheTimesCanBeStopped) {
+    const Folder folder;
+    RecordingOptions options;
+    options.keep_on = [](double) { return false; };
+    const auto made = try_recording(folder.write("x.csv", "t_s,F_N\n0,1\n1,2\n2,3\n"), options);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, Code::interrupted);
+}
+
+TEST(Recording, MoreChannelsThanCanBeAnsweredAtOnceAreRefused) {
+    const Folder folder;
+    std::string text;
+    for (int c = 0; c < 140'000; ++c) text += c ? ",1" : "1";
+    EXPECT_EQ(said(folder, text + "\n", {.rate = 10}),
+              "x.csv: 140000 channels are more than 131072 at a time; --channel 1-1000 takes some of them");
+}
+
 TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
     const auto path = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
