@@ -20,14 +20,6 @@ std::vector<Card> cards(PartList<M...>) {
     return {card_of<M>()...};
 }
 
-/// Calls f with the member that has this name.
-template <class List, class F>
-void with_named(List list, std::string_view name, const F& f) {
-    each(list, [&]<template <class> class M>(Model<M> m) {
-        if (M<double>::name == name) f(m);
-    });
-}
-
 template <class List, class F>
 void with_part(List list, std::string_view name, const F& f) {
     each(list, [&]<class M>(Part<M> m) {

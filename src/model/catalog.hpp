@@ -1,5 +1,5 @@
 #pragma once
-// Every transduction, every neuron, and the afferents that have a name. To add one: its include and its name here.
+// What can stand before a transduction, and the afferents that have a name. To add a sensor: its include and its name here.
 
 #include <memory>
 #include <optional>
@@ -9,16 +9,7 @@
 #include <vector>
 
 #include "model/chain.hpp"
-#include "model/neuron/adaptive.hpp"
-#include "model/neuron/adex.hpp"
-#include "model/neuron/izhikevich.hpp"
-#include "model/neuron/lif_a.hpp"
-#include "model/neuron/lif_b.hpp"
-#include "model/receptor/fa1a.hpp"
-#include "model/receptor/fa1b.hpp"
-#include "model/receptor/sa1a.hpp"
-#include "model/receptor/sa1b.hpp"
-#include "model/receptor/vibration.hpp"
+#include "model/models.hpp"
 #include "model/sensor/adc.hpp"
 #include "model/sensor/f2i.hpp"
 #include "model/sensor/f2v.hpp"
@@ -26,16 +17,6 @@
 #include "signal/settings.hpp"
 
 namespace corpuscle {
-
-template <template <class> class... M>
-struct ModelList {};
-/// A model without its kind of number, to be handed to a function.
-template <template <class> class M>
-struct Model {};
-template <template <class> class... M, class F>
-void each(ModelList<M...>, const F& f) {
-    (f(Model<M>{}), ...);
-}
 
 /// What stands before a transduction; these know no kind of number but double.
 template <class... M>
@@ -50,8 +31,6 @@ void each(PartList<M...>, const F& f) {
 using Sensors = PartList<Fsr>;
 using Transducers = PartList<F2v, F2i>;
 using Converters = PartList<Adc>;
-using Receptors = ModelList<Sa1a, Sa1b, Fa1a, Fa1b, Vibration>;
-using Neurons = ModelList<LifA, LifB, Adaptive, Izhikevich, Adex>;
 
 /// An afferent with a name: a transduction, a neuron, and the parameters that differ from theirs.
 struct NamedAfferent {

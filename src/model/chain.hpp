@@ -1,5 +1,5 @@
 #pragma once
-// A transduction joined to a neuron: the kernel, for any kind of number, and the afferent it makes with double.
+// A transduction joined to a neuron: one afferent at a time, in double.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -11,73 +11,6 @@
 #include "signal/random.hpp"
 
 namespace corpuscle {
-
-/// The equations of R and N over a block. POD and pointers only: the same text is compiled for lanes.
-template <template <class> class R, template <class> class N, class T>
-struct Kernel {
-    using Receptor = R<T>;
-    using Neuron = N<T>;
-    static constexpr int outputs = Receptor::outputs;
-    static constexpr int receptor_parts = [] {
-        if constexpr (requires { Receptor::parts; })
-            return static_cast<int>(std::size(Receptor::parts));
-        else
-            return 0;
-    }();
-    static constexpr int neuron_parts = static_cast<int>(std::size(Neuron::parts));
-    static constexpr int probes = receptor_parts + outputs + outputs * neuron_parts;
-
-    struct State {
-        typename Receptor::State receptor;
-        typename Neuron::State neuron[outputs];
-    };
-
-    Receptor receptor;
-    Neuron neuron;
-    Method method;
-
-    State start(T force) const {
-        State s;
-        s.receptor = receptor.start(force);
-        for (auto& n : s.neuron) n = neuron.start();
-        return s;
-    }
-
-    /// One sample; disturb(i) may change the currents on their way; fired(mask, offset) for each spike. Returns where a neuron's cap
-    /// cut it short.
-    template <class Disturb, class Fired>
-    num::Mask<T> step(State& s, T force, Current<T> (&i)[outputs], Disturb&& disturb, Fired&& fired) const {
-        receptor.step(s.receptor, force, i);
-        disturb(i);
-        auto capped = neuron.step(s.neuron[0], i[0], fired);
-        for (int k = 1; k < outputs; ++k) capped = capped | neuron.step(s.neuron[k], i[k], fired);
-        return capped;
-    }
-
-    /// The first sample: the force before it was the same. Backward Euler takes a step there, as the algorithms do, and puts its
-    /// spikes on the sample: there is no time before it. Exact has no time to cover yet.
-    template <class Disturb, class Fired>
-    num::Mask<T> first(State& s, T force, Current<T> (&i)[outputs], Disturb&& disturb, Fired&& fired) const {
-        if (method == Method::backward_euler) return step(s, force, i, disturb, [&](num::Mask<T> who, T) { fired(who, T(1.0)); });
-        receptor.step(s.receptor, force, i);
-        return num::none<T>();
-    }
-
-    /// What the probes show, in their order: components of the current, the currents, each neuron's own.
-    void show(const State& s, const Current<T> (&i)[outputs], T (&out)[probes]) const {
-        if constexpr (receptor_parts > 0) {
-            T parts[receptor_parts];
-            receptor.show(s.receptor, parts);
-            for (int p = 0; p < receptor_parts; ++p) out[p] = parts[p];
-        }
-        for (int k = 0; k < outputs; ++k) {
-            out[receptor_parts + k] = i[k].to;
-            T parts[neuron_parts];
-            neuron.show(s.neuron[k], parts);
-            for (int p = 0; p < neuron_parts; ++p) out[receptor_parts + outputs + k * neuron_parts + p] = parts[p];
-        }
-    }
-};
 
 /// How a chain is run.
 struct Run {
@@ -93,11 +26,37 @@ inline constexpr double noise_band = 1e3;  ///< Hz
 
 template <template <class> class R, template <class> class N>
 class Chain final : public Afferent {
-    using K = Kernel<R, N, double>;
-    using Values = typename K::State;
+    using Receptor = R<double>;
+    using Neuron = N<double>;
+    static constexpr int outputs = Receptor::outputs;
+    using Currents = Current<double>[outputs];
+
+    static constexpr std::size_t receptor_parts = [] {
+        if constexpr (requires { Receptor::parts; })
+            return std::size(Receptor::parts);
+        else
+            return std::size_t{0};
+    }();
+    static constexpr std::size_t neuron_parts = std::size(Neuron::parts);
+    static constexpr std::size_t shown_parts = receptor_parts + outputs * (1 + neuron_parts);
+
+    struct Values {
+        typename Receptor::State receptor;
+        typename Neuron::State neuron[outputs];
+    };
     static_assert(std::is_trivially_copyable_v<Values> && sizeof(Values) % sizeof(double) == 0, "a state is doubles and nothing else");
 
-    K kernel_;
+    /// Where the spikes of one step go.
+    struct Into {
+        Answer& answer;
+        bool sampled;
+        std::int64_t step;
+        void operator()(bool, double x) { answer.spikes.push_back({step, sampled ? 1.0 : x, answer.unit}); }
+    };
+
+    Receptor receptor_;
+    Neuron neuron_;
+    Method method_;
     bool sampled_;
     double noise_;  // standard deviation of one step's current, A: white up to 1/(2T)
     std::uint64_t seed_;
@@ -107,68 +66,108 @@ class Chain final : public Afferent {
 
     void name_probes() {
         const auto sign = [](int k) {
-            if constexpr (requires { R<double>::signs; })
-                return "_" + std::string(R<double>::signs[k]);
+            if constexpr (requires { Receptor::signs; })
+                return "_" + std::string(Receptor::signs[k]);
             else
                 return (void)k, std::string();
         };
         std::vector<std::string_view> units;
         const auto add = [&](std::string name, std::string_view unit) { names_.push_back(std::move(name)), units.push_back(unit); };
-        if constexpr (K::receptor_parts > 0)
-            for (const auto& p : R<double>::parts) add(std::string(p.name), p.unit);
-        for (int k = 0; k < K::outputs; ++k) add("I" + sign(k), "A");
-        for (int k = 0; k < K::outputs; ++k)
-            for (const auto& p : N<double>::parts) add(std::string(p.name) + sign(k), p.unit);
+        if constexpr (receptor_parts > 0)
+            for (const auto& p : Receptor::parts) add(std::string(p.name), p.unit);
+        for (int k = 0; k < outputs; ++k) add("I" + sign(k), "A");
+        for (int k = 0; k < outputs; ++k)
+            for (const auto& p : Neuron::parts) add(std::string(p.name) + sign(k), p.unit);
         for (std::size_t k = 0; k < names_.size(); ++k) probes_.push_back({names_[k], units[k]});
     }
 
-    /// A neuron's noise in a step; it depends on what it is for alone: seed, unit, neuron and step.
-    [[gnu::noinline]] double drawn(std::uint32_t unit, int neuron, std::int64_t step) const {
+    /// Noise on each neuron's current; it depends on what it is for alone: seed, unit, neuron and step.
+    void disturb(Currents& i, std::uint32_t unit, std::int64_t step) const {
         constexpr std::uint32_t purpose = 0x6d656d00;  // membranes' own streams, one a neuron
-        return noise_ * normal(seed_, unit, purpose + static_cast<std::uint32_t>(neuron), static_cast<std::uint64_t>(step));
+        for (std::uint32_t n = 0; n < outputs; ++n) {
+            const double x = noise_ * normal(seed_, unit, purpose + n, static_cast<std::uint64_t>(step));
+            i[n] = {i[n].from + x, i[n].to + x};
+        }
     }
 
-    template <bool Probed>
-    void run(std::span<const double> force, std::int64_t first, Values& state, Answer& answer) const {
-        Values s = state;  // a local: kept in registers
-        Current<double> i[K::outputs] = {};
-        for (std::size_t k = 0; k < force.size(); ++k) {
-            const auto fired = [&](bool, double x) {
-                answer.spikes.push_back({first + static_cast<std::int64_t>(k), sampled_ ? 1.0 : x, answer.unit});
-            };
-            const auto noise = [&](Current<double>(&to)[K::outputs]) {
-                for (int n = 0; noise_ > 0 && n < K::outputs; ++n) {
-                    const double x = drawn(answer.unit, n, first + static_cast<std::int64_t>(k));
-                    to[n] = {to[n].from + x, to[n].to + x};
-                }
-            };
-            [[maybe_unused]] const std::size_t seen = answer.spikes.size();
-            const bool capped = first + static_cast<std::int64_t>(k) == 0 ? kernel_.first(s, force[k], i, noise, fired)
-                                                                          : kernel_.step(s, force[k], i, noise, fired);
-            if (capped) ++answer.capped;
-            if constexpr (K::outputs > 1) sort_from(seen, answer.spikes);
-            if constexpr (Probed) show(s, i, k, answer);
+    /// What the probes show, in their order: components of the current, the currents, each neuron's own.
+    void show(const Values& s, const Currents& i, double (&out)[shown_parts]) const {
+        std::size_t at = 0;
+        const auto add = [&](const auto& model, const auto& state, auto& parts) {
+            model.show(state, parts);
+            for (const double p : parts) out[at++] = p;
+        };
+        if constexpr (receptor_parts > 0) {
+            double parts[receptor_parts];
+            add(receptor_, s.receptor, parts);
+        }
+        for (const auto& c : i) out[at++] = c.to;
+        for (const auto& n : s.neuron) {
+            double parts[neuron_parts];
+            add(neuron_, n, parts);
+        }
+    }
+
+    /// Shows sample k, if somebody watches.
+    void show(const Values& s, const Currents& i, std::size_t k, Answer& answer) const {
+        if (answer.probes.empty()) return;
+        double shown[shown_parts];
+        show(s, i, shown);
+        for (std::size_t p = 0; p < shown_parts; ++p) answer.probes[p][k] = shown[p];
+    }
+
+    /// Currents into neurons. Returns whether a cap on spikes cut the step short.
+    [[gnu::always_inline]] bool fire(typename Neuron::State (&n)[outputs], const Currents& i, Into& into) const {
+        if constexpr (outputs == 1) {
+            return neuron_.step(n[0], i[0], into);
+        } else {
+            const std::size_t seen = into.answer.spikes.size();
+            bool capped = false;
+            for (int k = 0; k < outputs; ++k) capped |= neuron_.step(n[k], i[k], into);
+            auto& spikes = into.answer.spikes;
+            if (spikes.size() > seen + 1) std::sort(spikes.begin() + static_cast<std::ptrdiff_t>(seen), spikes.end());
+            return capped;
+        }
+    }
+
+    /// The first sample: the force before it was the same. Backward Euler takes a step there, as the algorithms do, and puts its
+    /// spikes on the sample: there is no time before it. Exact has no time to cover yet.
+    void begin(double force, Values& s, Answer& answer) const {
+        s.receptor = receptor_.start(force);
+        for (auto& n : s.neuron) n = neuron_.start();
+        Currents i;
+        receptor_.step(s.receptor, force, i);
+        if (method_ == Method::backward_euler) {
+            if (noise_ > 0) disturb(i, answer.unit, 0);
+            Into into{answer, true, 0};
+            answer.capped += fire(s.neuron, i, into);
+        }
+        show(s, i, 0, answer);
+    }
+
+    /// Samples from `from` on. Where nobody watches and there is no noise, the state stays in registers.
+    template <bool Watched>
+    void run(std::span<const double> force, std::size_t from, std::int64_t first, Values& state, Answer& answer) const {
+        Values s = state;
+        Into into{answer, sampled_, 0};
+        for (std::size_t k = from; k < force.size(); ++k) {
+            Currents i;
+            receptor_.step(s.receptor, force[k], i);
+            into.step = first + static_cast<std::int64_t>(k);
+            if constexpr (Watched)
+                if (noise_ > 0) disturb(i, answer.unit, into.step);
+            if (fire(s.neuron, i, into)) ++answer.capped;
+            if constexpr (Watched) show(s, i, k, answer);
         }
         state = s;
-    }
-
-    /// The spikes of several neurons in one step, put in order.
-    static void sort_from(std::size_t seen, std::vector<Spike>& spikes) {
-        if (spikes.size() > seen + 1) std::sort(spikes.begin() + static_cast<std::ptrdiff_t>(seen), spikes.end());
-    }
-
-    void show(const Values& s, const Current<double> (&i)[K::outputs], std::size_t k, Answer& answer) const {
-        double shown[K::probes];
-        kernel_.show(s, i, shown);
-        for (int p = 0; p < K::probes; ++p) answer.probes[static_cast<std::size_t>(p)][k] = shown[p];
     }
 
 public:
     template <class RP, class NP>
     Chain(const RP& r, const NP& n, const Run& run)
-        : kernel_{R<double>(Same<RP>{r}, run.dt, run.method), N<double>(Same<NP>{n}, run.dt, run.method), run.method},
-          sampled_(run.sampled), noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
-          name_(fmt::format("{}+{}", R<double>::name, N<double>::name)), format_(fmt::format("{}/1, T = {} s", name_, run.dt)) {
+        : receptor_(Same<RP>{r}, run.dt, run.method), neuron_(Same<NP>{n}, run.dt, run.method), method_(run.method), sampled_(run.sampled),
+          noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
+          name_(fmt::format("{}+{}", Receptor::name, Neuron::name)), format_(fmt::format("{}/2, T = {} s", name_, run.dt)) {
         name_probes();
     }
 
@@ -180,8 +179,10 @@ public:
         if (force.empty()) return {};
         Values s;
         std::memcpy(&s, state.values.data(), sizeof s);
-        if (state.step == 0) s = kernel_.start(force[0]);
-        answer.probes.empty() ? run<false>(force, state.step, s, answer) : run<true>(force, state.step, s, answer);
+        const bool beginning = state.step == 0;
+        if (beginning) begin(force[0], s, answer);
+        const auto rest = answer.probes.empty() && noise_ == 0 ? &Chain::run<false> : &Chain::run<true>;
+        (this->*rest)(force, beginning ? 1 : 0, state.step, s, answer);
         std::memcpy(state.values.data(), &s, sizeof s);
         if (first_not_finite(state.values) < state.values.size())
             return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "

@@ -13,17 +13,33 @@ enum class Method { exact, backward_euler };
 template <class T>
 struct Current {
     T from, to;
+    T mean() const { return T(0.5) * (from + to); }
+    /// Where it begins below a level and ends above it.
+    num::Mask<T> rises_through(T level) const { return (from < level) & (to > level); }
+    bool rises_somewhere_through(T level) const { return num::any(rises_through(level)); }
 };
 
-/// High-pass of unit gain, x' + 2 pi f x = F', under a force that is a straight line in each step.
-/// Backward Euler has the same form with other constants: x[n] = k (F[n] - F[n-1] + x[n-1]), k = 1 / (1 + 2 pi f T).
+/// A current of one shape for all lanes, times each lane's own gain; the shape's mean is worked out once.
+template <class T>
+struct Scaled {
+    T gain;
+    const Current<T>& shape;
+    T middle;
+    bool rising;  ///< the shape does
+    operator Current<T>() const { return {gain * shape.from, gain * shape.to}; }
+    T mean() const { return gain * middle; }
+    bool rises_somewhere_through(T level) const { return rising && Current<T>(*this).rises_somewhere_through(level); }
+};
+
+/// High-pass x' + 2 pi f x = K F', under a force that is a straight line in each step.
+/// Backward Euler has the same form with other constants: x[n] = k (K (F[n] - F[n-1]) + x[n-1]), k = 1 / (1 + 2 pi f T).
 template <class T>
 struct HighPass {
     T keep, gain;
-    HighPass(T f, double dt, Method method) {
+    HighPass(T f, double dt, Method method, T K = T(1.0)) {
         const T theta = f * T(6.283185307179586 * dt);
         keep = method == Method::exact ? num::exp(-theta) : T(1.0) / (T(1.0) + theta);
-        gain = method == Method::exact ? num::exprel(-theta) : keep;
+        gain = K * (method == Method::exact ? num::exprel(-theta) : keep);
     }
     T next(T x, T dF) const { return keep * x + gain * dF; }
 };
@@ -33,6 +49,8 @@ template <class P>
 struct Same {
     const P& p;
     double operator()(double P::* at) const { return p.*at; }
+    /// A value that is one for all lanes.
+    double one(double P::* at) const { return p.*at; }
 };
 
 /// A dual in one chosen parameter: everything derived from it carries the slope.
@@ -41,6 +59,7 @@ struct Seeded {
     const P& p;
     double P::* by;
     num::Dual operator()(double P::* at) const { return {p.*at, at == by ? 1.0 : 0.0}; }
+    double one(double P::* at) const { return p.*at; }
 };
 
 }  // namespace corpuscle

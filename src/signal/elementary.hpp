@@ -11,10 +11,10 @@ Dual log(Dual x);
 Dual sin_turns(Dual x);
 Dual cos_turns(Dual x);
 
-/// e^x. x beyond +-700 is taken as +-700: nothing here needs more, and no infinity can arise.
+/// e^x. x beyond +-exp_reach (700) is taken as that.
 template <class T>
 T exp(T x) {
-    x = num::min(num::max(x, T(-700.0)), T(700.0));
+    x = num::min(num::max(x, T(-exp_reach<T>)), T(exp_reach<T>));
     const T k = num::nearest(x * T(1.4426950408889634));
     const T r = (x - k * T(6.93147180369123816490e-01)) - k * T(1.90821492927058770002e-10);  // ln 2 in two pieces
     // Taylor to r^13; |r| <= 0.347, so what is left out is below 4e-18. Pairs first (Estrin): short chains, not one long one.

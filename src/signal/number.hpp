@@ -15,9 +15,20 @@ template <class T>
 struct MaskOf {
     using type = bool;
 };
+/// e^x is not followed beyond +-this: nothing needs more, and no infinity can arise.
+template <class T>
+inline constexpr double exp_reach = 700;
 /// What a comparison of two T gives: bool, or a mask of lanes.
 template <class T>
 using Mask = typename MaskOf<T>::type;
+
+}  // namespace corpuscle::num
+
+#ifdef CORPUSCLE_ISA  // in a file compiled for one instruction set
+#include "signal/lanes.hpp"
+#endif
+
+namespace corpuscle::num {
 
 inline bool any(bool m) { return m; }
 inline double select(bool m, double yes, double no) { return m ? yes : no; }
@@ -86,7 +97,7 @@ T abs(T a) {
 /// max{x, 0}, the thesis's rectifier (eq. 4).
 template <class T>
 T positive(T x) {
-    return num::select(x > T(0.0), x, T(0.0));
+    return num::max(x, T(0.0));
 }
 
 }  // namespace corpuscle::num

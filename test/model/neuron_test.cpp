@@ -22,7 +22,8 @@ Shown run(typename N<double>::Params p, const std::function<double(double)>& cur
     for (long k = 1; k <= std::lround(seconds / dt); ++k) {
         const double end = current(static_cast<double>(k) * dt),
                      from = method == Method::exact ? current(static_cast<double>(k - 1) * dt) : end;
-        out.capped += neuron.step(state, {from, end}, [&](bool, double x) { out.times.push_back((static_cast<double>(k - 1) + x) * dt); });
+        out.capped += neuron.step(state, Current<double>{from, end},
+                                  [&](bool, double x) { out.times.push_back((static_cast<double>(k - 1) + x) * dt); });
         double parts[std::size(N<double>::parts)];
         neuron.show(state, parts);
         out.membrane.push_back(parts[0]);

@@ -51,7 +51,7 @@ struct Adex : AdexFacts {
         : C_m(value(&Params::C_m)), g_L(value(&Params::g_L)), E_L(value(&Params::E_L)), V_T(value(&Params::V_T)),
           Delta_T(value(&Params::Delta_T)), a(value(&Params::a)), b(value(&Params::b)), tau_w(value(&Params::tau_w)),
           V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)), gain(value(&Params::gain)), dt(dt),
-          count(substeps_of(dt, num::value(value(&Params::substep)))) {}
+          count(substeps_of(dt, value.one(&Params::substep))) {}
 
     State start() const {  // the exponential lifts the rest a little above E_L: Newton from there
         T v = E_L, step = T(0.0);

@@ -41,7 +41,7 @@ struct Izhikevich : IzhikevichFacts {
     template <class Values>
     Izhikevich(const Values& value, double dt, Method)
         : a(value(&Params::a)), b(value(&Params::b)), c(value(&Params::c)), d(value(&Params::d)), V_peak(value(&Params::V_peak)),
-          gain(value(&Params::gain)), dt(dt), count(substeps_of(dt, num::value(value(&Params::substep)))) {}
+          gain(value(&Params::gain)), dt(dt), count(substeps_of(dt, value.one(&Params::substep))) {}
 
     /// At its stable rest, dv/dt = dw/dt = 0; where there is none, at c.
     State start() const {

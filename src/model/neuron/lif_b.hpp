@@ -41,34 +41,60 @@ struct LifB : LifBFacts {
     template <class Values>
     LifB(const Values& value, double dt, Method)
         : k(T(dt) / value(&Params::C_m)), I_leak0(value(&Params::I_leak0)), E_L(value(&Params::E_L)), V_th(value(&Params::V_th)),
-          V_reset(value(&Params::V_reset)), ref(value(&Params::t_ref) / dt) {}
+          V_reset(value(&Params::V_reset)), drop(V_th - V_reset), ref(value(&Params::t_ref) / dt), refractory(num::any(ref > T(0.0))) {}
 
     State start() const { return {E_L, T(0.0)}; }
     void show(const State& s, T (&out)[1]) const { out[0] = s.u; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.
-    template <class Fired>
-    num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        T x = num::min(s.wait, T(1.0));
-        s.wait = s.wait - x;
-        const Parabola<T> rise{(i.from - I_leak0) * k, (i.to - i.from) * k};
-        T base = num::max(s.u - rise.at(x), E_L - rise.least_after(x));  // u(x) = base + rise.at(x), never below E_L
-        s.u = base + rise.at(T(1.0));
-        auto over = s.u > V_th;
-        for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
-            x = num::select(over, offset_from(rise.rises_through(V_th - base), x), x);
-            fired(over, x);
-            const T free = x + ref, from = num::min(free, T(1.0));
-            s.wait = num::select(over, free - from, s.wait);
-            base = num::select(over, V_reset - rise.at(from), base);
-            s.u = num::select(over, num::max(base + rise.at(T(1.0)), E_L), s.u);
-            over = over & (s.u > V_th);
+    template <class I, class Fired>
+    [[gnu::always_inline]] num::Mask<T> step(State& s, const I& i, Fired&& fired) const {
+        const T gain = (i.mean() - I_leak0) * k, end = num::max(s.u + gain, E_L);  // of the whole step
+        if (num::any(end > V_th) || i.rises_somewhere_through(I_leak0) || (refractory && num::any(s.wait > T(0.0)))) {
+            const auto [now, over] = inside(s, gain, i, fired);
+            s = now;
+            return over;
         }
-        return over;
+        s.u = end;
+        return num::none<T>();
     }
 
 private:
-    T k, I_leak0, E_L, V_th, V_reset, ref;
+    T k, I_leak0, E_L, V_th, V_reset, drop, ref;
+    bool refractory;
+
+    struct Stepped {
+        State now;
+        num::Mask<T> over;
+    };
+
+    /// The same step looked into: u(x) = base + rise.at(x), never below E_L; from where it is no longer held, and between spikes.
+    template <class Fired>
+    [[gnu::noinline, gnu::cold]] Stepped inside(State s, T gain, Current<T> i, Fired& fired) const {
+        const T a = (i.from - I_leak0) * k;
+        const Parabola<T> rise{a, T(2.0) * (gain - a)};
+        T x = num::min(s.wait, T(1.0)), base = s.u;
+        s.wait = s.wait - x;
+        s.u = num::max(base + gain, E_L);
+        const num::Mask<T> bends = i.rises_through(I_leak0) | (x > T(0.0));
+        base = num::select(bends, num::max(base - rise.at(x), E_L - rise.least_after(x)), base);
+        s.u = num::select(bends, num::max(base + gain, E_L), s.u);
+        num::Mask<T> over = s.u > V_th;
+        for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
+            x = num::select(over, offset_from(rise.rises_through(V_th - base), x), x);
+            fired(over, x);
+            T next = base - drop;
+            if (refractory) {
+                const T free = x + ref, from = num::min(free, T(1.0));
+                s.wait = num::select(over, free - from, s.wait);
+                next = num::select(ref > T(0.0), V_reset - rise.at(from), next);
+            }
+            base = num::select(over, next, base);
+            s.u = num::select(over, num::max(base + gain, E_L), s.u);
+            over = over & (s.u > V_th);
+        }
+        return {s, over};
+    }
 };
 
 }  // namespace corpuscle

@@ -18,6 +18,7 @@ struct Fa1aFacts {
         {"k", &Params::k, "A s/N", 0, 1, "gain from slope of force to current"},
     };
     static constexpr int outputs = 2;
+    static constexpr bool scales = true;  ///< twice the force is twice the current
     static constexpr std::string_view signs[] = {"+", "-"};
 };
 

@@ -20,6 +20,7 @@ struct Fa1bFacts {
         {"f", &Params::f, "Hz", 1e-6, 1e6, "corner of the high-pass"},
     };
     static constexpr int outputs = 1;
+    static constexpr bool scales = true;  ///< twice the force is twice the current
     static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}};
 };
 

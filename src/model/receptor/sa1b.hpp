@@ -25,31 +25,33 @@ struct Sa1bFacts {
         {"f_C", &Params::f_C, "Hz", 1e-6, 1e6, "corner of the slow part"},
     };
     static constexpr int outputs = 1;
+    static constexpr bool scales = true;  ///< twice the force is twice the current
     static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
 };
 
 template <class T>
 struct Sa1b : Sa1bFacts {
     struct State {
-        T F, x_B, x_C, I;  // x: high-passed force, N
+        T F, I_B, I_C, I;
     };
 
     template <class Values>
     Sa1b(const Values& value, double dt, Method method)
-        : k_A(value(&Params::k_A)), K_B(value(&Params::K_B)), K_C(value(&Params::K_C)), B(value(&Params::f_B), dt, method),
-          C(value(&Params::f_C), dt, method), hold(method == Method::exact) {}
+        : k_A(value(&Params::k_A)), B(value(&Params::f_B), dt, method, value(&Params::K_B)),
+          C(value(&Params::f_C), dt, method, value(&Params::K_C)), hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0), k_A * F}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         const T dF = F - s.F, before = s.I;
-        s = {F, B.next(s.x_B, dF), C.next(s.x_C, dF), T(0.0)};
-        s.I = k_A * F + num::positive(K_B * s.x_B) + num::positive(K_C * s.x_C);
+        s.I_B = B.next(s.I_B, dF), s.I_C = C.next(s.I_C, dF);
+        s.I = k_A * F + num::positive(s.I_B) + num::positive(s.I_C);
+        s.F = F;
         i[0] = {hold ? before : s.I, s.I};
     }
-    void show(const State& s, T (&out)[3]) const { out[0] = k_A * s.F, out[1] = K_B * s.x_B, out[2] = K_C * s.x_C; }
+    void show(const State& s, T (&out)[3]) const { out[0] = k_A * s.F, out[1] = s.I_B, out[2] = s.I_C; }
 
 private:
-    T k_A, K_B, K_C;
+    T k_A;
     HighPass<T> B, C;
     bool hold;
 };

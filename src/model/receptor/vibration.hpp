@@ -23,6 +23,7 @@ struct VibrationFacts {
         {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "corner of the low-pass"},
     };
     static constexpr int outputs = 1;
+    static constexpr bool scales = true;  ///< twice the force is twice the current
 };
 
 template <class T>

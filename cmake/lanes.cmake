@@ -1,0 +1,22 @@
+# A file compiled once for each instruction set that lanes are chosen from at run time (CORPUSCLE_ISA names the set inside). What it
+# makes must not leave it: no exceptions, no contraction, and a test looks at its symbols.
+function(add_lanes target)
+  set(sets baseline)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND sets avx2 avx512)
+  endif()
+  set(flags_avx2 -march=x86-64-v3)
+  set(flags_avx512 -march=x86-64-v4)
+  foreach(set IN LISTS sets)
+    set(object ${target}-lanes-${set})
+    add_library(${object} OBJECT ${ARGN})
+    target_include_directories(${object} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
+    target_compile_definitions(${object} PRIVATE CORPUSCLE_ISA=${set})
+    # -O2 at the least, so that small functions are not left as symbols; g++ 12 warns falsely in its own headers of AVX-512.
+    target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions -Wno-conversion -Wno-float-conversion
+      $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-Wno-uninitialized;-Wno-maybe-uninitialized>)
+    target_link_libraries(${object} PRIVATE corpuscle_ways)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
+    set_property(GLOBAL APPEND PROPERTY lane_objects ${object})
+  endforeach()
+endfunction()

@@ -1,0 +1,288 @@
+#pragma once
+// A population of one precision: its models and states in tiles of 64 units, its blocks cut into chunks that stay in the cache.
+
+#include <fmt/format.h>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include "model/lanes/buffer.hpp"
+#include "model/lanes/gather.hpp"
+#include "model/lanes/kernel.hpp"
+#include "model/lanes/profile.hpp"
+#include "model/population.hpp"
+
+namespace corpuscle::lanes {
+
+/// What a crowd is made of, found and checked.
+template <class V>
+struct Cast {
+    const ReceptorLanes<V>* receptor;
+    const NeuronLanes<V>* neuron;
+    int lanes;
+    std::size_t units;
+    Buffer<std::byte> receptors, neurons;              ///< models: one, or a tile's after a tile's
+    std::unique_ptr<ProfileTransduction> once;         ///< if all share one transduction
+    bool scales;
+    std::vector<std::uint32_t> numbers;
+    std::string name;
+};
+
+template <class V>
+class Crowd final : public Population {
+    static constexpr int chunk = chunk_steps<V>;
+    static constexpr std::size_t tiles_a_job = 16;  // 1024 units: a piece of work for one thread
+
+    /// What one thread needs for itself.
+    struct Scratch {
+        Buffer<V> from{most_outputs * chunk * tile_units}, to{most_outputs * chunk * tile_units}, rows{chunk * tile_units}, gain{tile_units};
+        Buffer<Firing> firings{record_room};
+        Buffer<V> offsets{record_room * 16};
+    };
+
+    /// What one job found.
+    struct Job {
+        std::vector<Event> events;
+        std::int64_t capped = 0, unmarked = 0;
+        bool strange = false;  // some force may be no number
+    };
+
+    /// A list of firings that empties itself into a job, or into marks.
+    struct Collector : FiringList<V> {
+        Job& job;
+        std::uint64_t* marks;  // of this tile, from the chunk's first step on; or null
+        std::uint32_t unit, step;
+        int lanes;
+
+        void empty() {
+            for (int k = 0; k < this->count; ++k) marks ? mark(this->firings[k]) : list(this->firings[k], this->offsets ? this->offsets + k * lanes : nullptr);
+            this->count = 0;
+        }
+        void mark(const Firing& f) {
+            auto& word = marks[f.step];
+            const auto bits = f.bits << f.unit;
+            job.unmarked += std::popcount(word & bits);
+            word |= bits;
+        }
+        void list(const Firing& f, const V* offsets) {
+            for (auto bits = f.bits; bits != 0; bits &= bits - 1) {
+                const int lane = std::countr_zero(bits);
+                job.events.push_back({step + static_cast<std::uint32_t>(f.step), unit + static_cast<std::uint32_t>(f.unit + lane),
+                                      offsets ? static_cast<double>(offsets[lane]) : 1.0});
+            }
+        }
+    };
+
+    /// A block at work.
+    struct Block {
+        const PopulationForce& force;
+        std::size_t steps;
+        bool once;  // its profile's currents are worked out
+        std::uint64_t* marks;
+    };
+
+    Cast<V> cast_;
+    Method method_;
+    bool sampled_;
+    std::size_t tiles_;
+    Buffer<V> receptor_states_, neuron_states_;
+    std::int64_t step_ = 0;
+    std::optional<std::size_t> kind_;
+    std::array<ProfileCurrents, most_outputs> currents_;
+    std::array<std::array<Buffer<V>, 3>, most_outputs> currents_in_v_;  // from, to, mean
+    Buffer<V> profile_;
+    std::vector<Scratch> scratch_;
+    std::vector<Job> jobs_;
+
+    std::size_t receptor_state_size() const { return cast_.receptor->state_values * tile_units; }
+    std::size_t neuron_state_size() const { return cast_.neuron->state_values * tile_units; }
+
+    /// A tile's models, and how far they are apart.
+    template <class L>
+    std::pair<const std::byte*, std::size_t> models(const Buffer<std::byte>& all, const L& of, std::size_t tile) const {
+        if (all.size() == of.model_bytes) return {all.data(), 0};
+        return {all.data() + tile * (tile_units / static_cast<std::size_t>(cast_.lanes)) * of.model_bytes, of.model_bytes};
+    }
+
+    std::uint64_t valid(std::size_t tile) const {
+        const std::size_t here = cast_.units - tile * tile_units;
+        return here >= tile_units ? ~std::uint64_t{0} : (std::uint64_t{1} << here) - 1;
+    }
+
+    /// The profile of a block, in V; its currents, if they are worked out once.
+    void prepare(const ForceProfile& profile, bool once) {
+        const auto in_v = [](const std::vector<double>& values, Buffer<V>& out) {
+            if (out.size() < values.size()) out = Buffer<V>(values.size());
+            std::transform(values.begin(), values.end(), out.data(), [](double x) { return static_cast<V>(x); });
+        };
+        if (!once) return in_v({profile.force.begin(), profile.force.end()}, profile_);
+        cast_.once->run(profile.force, step_ == 0, currents_);
+        for (int k = 0; k < cast_.receptor->outputs; ++k) {
+            auto& [from, to, mean] = currents_in_v_[static_cast<std::size_t>(k)];
+            const auto& c = currents_[static_cast<std::size_t>(k)];
+            in_v(c.from, from), in_v(c.to, to), in_v(c.mean, mean);
+        }
+    }
+
+    /// The gains of a tile, 1 where none are given.
+    static void gains_of(const ForceProfile& profile, std::size_t first, V* out) {
+        for (std::size_t u = 0; u < tile_units; ++u)
+            out[u] = profile.gain.empty() ? V(1) : first + u < profile.gain.size() ? static_cast<V>(profile.gain[first + u]) : V(0);
+    }
+
+    /// Columns of force become rows, a chunk at a time.
+    void rows_of(const ForceColumns& columns, std::size_t first, std::size_t step, int steps, V* rows) const {
+        for (std::size_t u = 0; u < tile_units; ++u) {
+            const double* column = columns.of[std::min(first + u, cast_.units - 1)] + step;
+            for (int t = 0; t < steps; ++t) rows[static_cast<std::size_t>(t) * tile_units + u] = static_cast<V>(column[t]);
+        }
+    }
+
+    TransductionCall<V> transduction(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
+        const auto [models, stride] = this->models(cast_.receptors, *cast_.receptor, tile);
+        TransductionCall<V> c{};
+        c.models = models, c.stride = stride, c.state = receptor_states_.data() + tile * receptor_state_size(), c.steps = steps;
+        c.from = s.from.data(), c.to = s.to.data(), c.gain = s.gain.data();
+        const std::size_t row = (tile * b.steps + step) * tile_units;
+        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) {
+            rows_of(*columns, tile * tile_units, step, steps, s.rows.data());
+            c.feed = Feed::rows, c.rows = s.rows.data();
+        } else if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) {
+            c.feed = Feed::rows, c.rows = tiles->rows + row;
+        } else if (const auto* words = std::get_if<ForceWords>(&b.force)) {
+            c.feed = Feed::words, c.words = words->rows + row, c.scale = static_cast<V>(words->scale);
+        } else {
+            c.feed = Feed::profile, c.profile = profile_.data() + step;
+        }
+        return c;
+    }
+
+    NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector& fired) const {
+        const auto [models, stride] = this->models(cast_.neurons, *cast_.neuron, tile);
+        NeuronCall<V> c{};
+        c.models = models, c.stride = stride, c.steps = steps, c.fired = &fired;
+        c.state = neuron_states_.data() + (tile * static_cast<std::size_t>(cast_.receptor->outputs) + static_cast<std::size_t>(output)) * neuron_state_size();
+        if (b.once) {
+            const auto& [from, to, mean] = currents_in_v_[static_cast<std::size_t>(output)];
+            c.from = from.data() + step, c.to = to.data() + step, c.mean = mean.data() + step, c.gain = s.gain.data();
+        } else {
+            c.from = s.from.data() + output * chunk * tile_units, c.to = s.to.data() + output * chunk * tile_units;
+        }
+        return c;
+    }
+
+    /// Some steps of a tile. The first of all: the force before it was the same; backward Euler takes a step there, with its spikes
+    /// on the sample; exact has no time to cover yet.
+    void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, Job& job) const {
+        const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
+        if (!b.once) {
+            auto c = transduction(b, tile, step, steps, s);
+            if (first) cast_.receptor->start(c);
+            cast_.receptor->run(c);
+            if (!std::isfinite(c.sum)) job.strange = true;
+        }
+        Collector fired{{s.firings.data(), sampled_ || first ? nullptr : s.offsets.data(), 0, 0, valid(tile), 0,
+                         [](FiringList<V>& list) { static_cast<Collector&>(list).empty(); }},
+                        job,
+                        b.marks ? b.marks + tile * b.steps + step : nullptr,
+                        static_cast<std::uint32_t>(tile * tile_units),
+                        static_cast<std::uint32_t>(step),
+                        cast_.lanes};
+        for (int k = 0; k < cast_.receptor->outputs; ++k) {
+            const auto c = firing(b, tile, k, step, steps, s, fired);
+            if (first) cast_.neuron->start(c);
+            if (!silent) cast_.neuron->run(c);
+            fired.empty();
+        }
+        job.capped += fired.capped;
+    }
+
+    void run_job(const Block& b, std::size_t number, Scratch& s) {
+        auto& job = jobs_[number];
+        job.events.clear(), job.capped = job.unmarked = 0, job.strange = false;
+        for (std::size_t tile = number * tiles_a_job; tile < std::min(tiles_, (number + 1) * tiles_a_job); ++tile) {
+            if (const auto* profile = std::get_if<ForceProfile>(&b.force)) gains_of(*profile, tile * tile_units, s.gain.data());
+            for (std::size_t step = 0; step < b.steps;) {
+                const int steps = step_ == 0 && step == 0 ? 1 : static_cast<int>(std::min<std::size_t>(chunk, b.steps - step));
+                run_chunk(b, tile, step, steps, s, job);
+                step += static_cast<std::size_t>(steps);
+            }
+        }
+    }
+
+    /// The force of a unit at a step of the block, as it was handed in.
+    double force_of(const Block& b, std::size_t unit, std::size_t step) const {
+        const std::size_t at = (unit / tile_units * b.steps + step) * tile_units + unit % tile_units;
+        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->of[unit][step];
+        if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) return static_cast<double>(tiles->rows[at]);
+        if (const auto* profile = std::get_if<ForceProfile>(&b.force)) return profile->force[step];
+        return 0;  // integers are always numbers
+    }
+
+    std::optional<Error> no_force(const Block& b) const {
+        for (std::size_t unit = 0; unit < cast_.units; ++unit)
+            for (std::size_t step = 0; step < b.steps; ++step)
+                if (const double f = force_of(b, unit, step); !std::isfinite(f))
+                    return bad_input(fmt::format("{}: the force of sample {} is {}", cast_.name, step_ + static_cast<std::int64_t>(step), f));
+        return {};
+    }
+
+    std::optional<Error> lost(const Block& b) const {
+        const auto finite = [](const Buffer<V>& states) {  // of padding, too, whose forces are zero or another unit's
+            return std::all_of(states.data(), states.data() + states.size(), [](V x) { return std::isfinite(x); });
+        };
+        if (finite(receptor_states_) && finite(neuron_states_)) return {};
+        return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "
+                                                      "gain is far too large, or the substep too long",
+                                                      cast_.name, step_, step_ + static_cast<std::int64_t>(b.steps))};
+    }
+
+    Result<void> unsuited(const PopulationForce& force) {
+        if (kind_ && *kind_ != force.index()) return bad_input(fmt::format("{}: its force came in another way before", cast_.name));
+        kind_ = force.index();
+        if (!std::is_same_v<V, double> && std::holds_alternative<ForceTiles<double>>(force))
+            return bad_input(fmt::format("{}: tiles of double were handed to a population in float", cast_.name));
+        if (!std::is_same_v<V, float> && std::holds_alternative<ForceTiles<float>>(force))
+            return bad_input(fmt::format("{}: tiles of float were handed to a population in double", cast_.name));
+        if (const auto* profile = std::get_if<ForceProfile>(&force)) {
+            if (!profile->gain.empty() && profile->gain.size() != cast_.units)
+                return bad_input(fmt::format("{}: {} gains for {} units", cast_.name, profile->gain.size(), cast_.units));
+            for (const double g : profile->gain)
+                if (!(g >= 0 && std::isfinite(g))) return bad_input(fmt::format("{}: a gain of {} is not in [0, inf)", cast_.name, g));
+        }
+        return {};
+    }
+
+public:
+    Crowd(Cast<V> cast, const Run& run)
+        : cast_(std::move(cast)), method_(run.method), sampled_(run.sampled), tiles_((cast_.units + tile_units - 1) / tile_units),
+          receptor_states_(tiles_ * receptor_state_size()),
+          neuron_states_(tiles_ * neuron_state_size() * static_cast<std::size_t>(cast_.receptor->outputs)), jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
+
+    std::size_t units() const override { return cast_.units; }
+
+    Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationAnswer& answer, Pool& pool) override {
+        if (auto ok = unsuited(force); !ok) return ok;
+        if (steps == 0) return {};
+        Block block{force, steps, false, nullptr};
+        if (const auto* profile = std::get_if<ForceProfile>(&force)) {
+            block.once = cast_.once && (profile->gain.empty() || cast_.scales);
+            if (const auto wrong = first_not_finite(profile->force.first(steps)); wrong < steps) return *no_force(block);
+            prepare({profile->force.first(steps), profile->gain}, block.once);
+        }
+        if (answer.marks) answer.marks->assign(tiles_ * steps, 0), block.marks = answer.marks->data();
+        while (scratch_.size() < pool.threads()) scratch_.emplace_back();
+        pool.each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
+        bool strange = false;
+        for (const auto& job : jobs_) answer.capped += job.capped, answer.unmarked += job.unmarked, strange |= job.strange;
+        if (strange)
+            if (auto wrong = no_force(block)) return *wrong;
+        if (auto wrong = lost(block)) return *wrong;
+        if (answer.spikes) gather(jobs_, steps, step_, cast_.numbers, *answer.spikes);
+        step_ += static_cast<std::int64_t>(steps);
+        return {};
+    }
+};
+
+}  // namespace corpuscle::lanes

@@ -1,0 +1,42 @@
+#pragma once
+// Every transduction and every neuron. To add one: its include and its name here.
+
+#include <string_view>
+
+#include "model/neuron/adaptive.hpp"
+#include "model/neuron/adex.hpp"
+#include "model/neuron/izhikevich.hpp"
+#include "model/neuron/lif_a.hpp"
+#include "model/neuron/lif_b.hpp"
+#include "model/receptor/fa1a.hpp"
+#include "model/receptor/fa1b.hpp"
+#include "model/receptor/sa1a.hpp"
+#include "model/receptor/sa1b.hpp"
+#include "model/receptor/vibration.hpp"
+
+namespace corpuscle {
+
+template <template <class> class... M>
+struct ModelList {
+    static constexpr int size = sizeof...(M);
+};
+/// A model without its kind of number, to be handed to a function.
+template <template <class> class M>
+struct Model {};
+template <template <class> class... M, class F>
+void each(ModelList<M...>, const F& f) {
+    (f(Model<M>{}), ...);
+}
+
+/// Calls f with the member that has this name.
+template <class List, class F>
+void with_named(List list, std::string_view name, const F& f) {
+    each(list, [&]<template <class> class M>(Model<M> m) {
+        if (M<double>::name == name) f(m);
+    });
+}
+
+using Receptors = ModelList<Sa1a, Sa1b, Fa1a, Fa1b, Vibration>;
+using Neurons = ModelList<LifA, LifB, Adaptive, Izhikevich, Adex>;
+
+}  // namespace corpuscle

@@ -1,0 +1,137 @@
+#pragma once
+// SIMD lanes as a kind of number: what number.hpp offers for double, for xsimd's batches of double and float. Included by
+// number.hpp alone, and only in files compiled for one instruction set (see cmake/lanes.cmake).
+
+#include <xsimd/xsimd.hpp>
+
+#include <cstdint>
+
+namespace corpuscle::num {
+
+/// As many numbers as a register of this instruction set holds.
+template <class V>
+using Lanes = xsimd::batch<V>;
+
+template <class V>
+struct MaskOf<Lanes<V>> {
+    using type = xsimd::batch_bool<V>;
+};
+
+template <class V>
+bool any(xsimd::batch_bool<V> m) {
+    return xsimd::any(m);
+}
+template <class V>
+Lanes<V> select(xsimd::batch_bool<V> m, Lanes<V> yes, Lanes<V> no) {
+    return xsimd::select(m, yes, no);
+}
+template <class V>
+Lanes<V> sqrt(Lanes<V> x) {
+    return xsimd::sqrt(x);
+}
+
+/// a > b ? a : b and a < b ? a : b: what the instructions do, with equal zeros and what is no number, too.
+template <class V>
+Lanes<V> max(Lanes<V> a, Lanes<V> b) {
+    return xsimd::max(a, b);
+}
+template <class V>
+Lanes<V> min(Lanes<V> a, Lanes<V> b) {
+    return xsimd::min(a, b);
+}
+
+/// A bit for each lane, the first lowest.
+template <class V>
+std::uint64_t bits(xsimd::batch_bool<V> m) {
+#if defined(__AVX512F__)
+    return m.data;
+#elif defined(__AVX2__)
+    if constexpr (sizeof(V) == 8)
+        return static_cast<unsigned>(_mm256_movemask_pd(m.data));
+    else
+        return static_cast<unsigned>(_mm256_movemask_ps(m.data));
+#else
+    alignas(64) bool lanes[Lanes<V>::size];
+    m.store_aligned(lanes);
+    std::uint64_t all = 0;
+    for (std::size_t l = 0; l < Lanes<V>::size; ++l) all |= std::uint64_t{lanes[l]} << l;
+    return all;
+#endif
+}
+
+/// Integers of 16 bits, as many as there are lanes.
+template <class V>
+Lanes<V> of_words(const std::int16_t* words) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(V) == 8)
+        return _mm512_cvtepi32_pd(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(words))));
+    else
+        return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(words))));
+#elif defined(__AVX2__)
+    if constexpr (sizeof(V) == 8)
+        return _mm256_cvtepi32_pd(_mm_cvtepi16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(words))));
+    else
+        return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(words))));
+#else
+    alignas(64) V lanes[Lanes<V>::size];
+    for (std::size_t l = 0; l < Lanes<V>::size; ++l) lanes[l] = static_cast<V>(words[l]);
+    return Lanes<V>::load_aligned(lanes);
+#endif
+}
+
+template <class T>
+Mask<T> none();
+template <>
+inline xsimd::batch_bool<double> none<Lanes<double>>() {
+    return xsimd::batch_bool<double>(false);
+}
+template <>
+inline xsimd::batch_bool<float> none<Lanes<float>>() {
+    return xsimd::batch_bool<float>(false);
+}
+
+// How each precision is laid out in its bits; the rest of the arithmetic below follows from it.
+template <class V>
+struct Layout;
+template <>
+struct Layout<double> {
+    using Bits = std::uint64_t;
+    static constexpr int digits = 52, bias = 1023;
+    static constexpr double integers_from = 0x1p52;
+};
+template <>
+struct Layout<float> {
+    using Bits = std::uint32_t;
+    static constexpr int digits = 23, bias = 127;
+    static constexpr float integers_from = 0x1p23F;
+};
+
+template <class V>
+Lanes<V> nearest(Lanes<V> x) {
+    const Lanes<V> big(V(1.5) * Layout<V>::integers_from);
+    return (x + big) - big;
+}
+template <class V>
+Lanes<V> times_power_of_two(Lanes<V> x, Lanes<V> k) {
+    using Bits = typename Layout<V>::Bits;  // an integer below 2^52 added to 2^52 stands in the lowest bits
+    const auto shifted = xsimd::bitwise_cast<xsimd::batch<Bits>>(k + Lanes<V>(Layout<V>::integers_from + V(Layout<V>::bias)));
+    return x * xsimd::bitwise_cast<Lanes<V>>(shifted << Layout<V>::digits);
+}
+template <class V>
+Lanes<V> mantissa(Lanes<V> x) {
+    using Bits = typename Layout<V>::Bits;
+    const xsimd::batch<Bits> below((Bits{1} << Layout<V>::digits) - 1), one(Bits{Layout<V>::bias} << Layout<V>::digits);
+    return xsimd::bitwise_cast<Lanes<V>>((xsimd::bitwise_cast<xsimd::batch<Bits>>(x) & below) | one);
+}
+template <class V>
+Lanes<V> exponent(Lanes<V> x) {
+    using Bits = typename Layout<V>::Bits;
+    const auto integers = xsimd::bitwise_cast<xsimd::batch<Bits>>(Lanes<V>(Layout<V>::integers_from));
+    const auto raised = (xsimd::bitwise_cast<xsimd::batch<Bits>>(x) >> Layout<V>::digits) | integers;
+    return xsimd::bitwise_cast<Lanes<V>>(raised) - Lanes<V>(Layout<V>::integers_from + V(Layout<V>::bias));
+}
+
+template <>
+inline constexpr double exp_reach<Lanes<float>> = 87;
+
+}  // namespace corpuscle::num
