@@ -5,8 +5,8 @@ share is a TimedArray in time, so the transduction of `shared` costs nothing; th
 afferent, fetched in a `run_regularly` of its own, for in one with the rest the compiler finds no lanes. Time is Brian2's own, of
 the loop over steps alone (processor time): not the making and compiling of code, not reading the forces, not writing the spikes.
 The same program runs again and again; the median of the runs is the number. Spikes are kept as time and afferent (monitor: spikes);
-`count` only counts them for each afferent, `rate` for each step, `none` lets the reset count them. Brian2's own flags but for
-`unrolled`: the search for spikes is one afferent at a time, and gains a quarter by it.
+`count` only counts them for each afferent, `rate` for each step, `none` lets the reset count them. Flags: `default` are Brian2's
+own, `strict` keeps the order of sums, `unrolled` is the fastest: the search for spikes has no lanes and gains by it.
 
     brian2_standalone.py [--work shared ...] [--dtype float32 ...] [--form folded ...] [--n 100000] [--runs 5]
                          [--flags unrolled | default | strict | =FLAGS] [--monitor spikes | count | rate | none] [--rectify clip | int | abs]
