@@ -1,5 +1,5 @@
 # The commands of the README. Each does its own set-up; see setup/packages for what is installed.
-.PHONY: demo build test bench fuzz format lint install pictures setup-run setup-test release asan fuzzers clean
+.PHONY: demo build test bench fuzz format lint install pictures setup-run setup-test setup-bench release asan fuzzers clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -33,7 +33,7 @@ fuzzers: setup-test
 fuzz: fuzzers
 	test/fuzz/run build/fuzz $(FUZZ_SECONDS)
 
-bench: release
+bench: setup-bench release
 	bench/run build/release
 
 format: setup-test
@@ -60,6 +60,9 @@ setup-run:
 
 setup-test:
 	@setup/install run test
+
+setup-bench:
+	@setup/install run test bench
 
 clean:
 	rm -rf build out

@@ -1,0 +1,132 @@
+"""How many afferents does Brian2 step a second, on one core, doing the works of work.py?
+
+Method: C++ standalone, no OpenMP. One group; a step is one `run_regularly`, then threshold, monitor and reset. What all afferents
+share is a TimedArray in time, so the transduction of `shared` costs nothing; the forces of `streamed` are a TimedArray in time and
+afferent, fetched in a `run_regularly` of its own, for in one with the rest the compiler finds no lanes. Time is Brian2's own, of
+the loop over steps alone (processor time): not the making and compiling of code, not reading the forces, not writing the spikes.
+The same program runs again and again; the median of the runs is the number. Spikes are kept as time and afferent (monitor: spikes);
+`count` only counts them for each afferent, `rate` for each step, `none` lets the reset count them. Flags: `default` are Brian2's
+own, `strict` keeps the order of sums, `unrolled` is the fastest: the search for spikes has no lanes and gains by it.
+
+    brian2_standalone.py [--work shared ...] [--dtype float32 ...] [--form folded ...] [--n 100000] [--runs 5]
+                         [--flags unrolled | default | strict | =FLAGS] [--monitor spikes | count | rate | none] [--rectify clip | int | abs]
+"""
+
+import tempfile
+import warnings
+
+import numpy as np
+import work
+
+warnings.simplefilter("ignore")  # of the libraries, about each other
+import brian2 as b2  # noqa: E402
+
+FLAGS = {
+    "unrolled": "-w -O3 -ffast-math -fno-finite-math-only -march=native -funroll-loops -mprefer-vector-width=256 -std=c++11",
+    "default": "-w -O3 -ffast-math -fno-finite-math-only -march=native -std=c++11",  # Brian2's own
+    "strict": "-w -O3 -march=native -ffp-contract=off -std=c++11",
+}
+# max{x, 0}, three ways to say it
+RECTIFY = {"clip": "clip({0}, 0, inf)", "int": "int(({0}) > 0)*({0})", "abs": "0.5*(({0}) + abs({0}))"}
+
+
+FETCH = "F_before = F\nF = frames(t, i)"
+
+
+def step_of(name, folded, rectify):
+    """What happens in a step of the work: the transduction, then the rise of u, held at E_L = 0. Before that of `streamed`, FETCH."""
+    positive = RECTIFY[rectify].format
+    if name == "shared":
+        lines = ["du = g*current_k(t) - leak_k" if folded else "du = (g*current(t) - I_leak0)*k"]
+    else:
+        change = "g*change(t)" if folded else "F - g*press(t - dt)"
+        lines = ["F = g*press(t)", f"dF = {change}"] if name == "own" else ["dF = F - F_before"]
+        if folded:
+            lines += ["x_B = keep_B*(x_B + dF)", "x_C = keep_C*(x_C + dF)"]
+            lines += [f"du = k_A_k*F + K_B_k*{positive('x_B')} + K_C_k*{positive('x_C')} - leak_k"]
+        else:
+            lines += ["x_B = keep_B*x_B + keep_B*dF", "x_C = keep_C*x_C + keep_C*dF"]
+            lines += [f"du = (k_A*F + {positive('K_B*x_B')} + {positive('K_C*x_C')} - I_leak0)*k"]
+    return "\n".join([*lines, "v = u + du", f"u = {positive('v')}"])
+
+
+def constants(name, n):
+    """By their names in the steps. Variables of the group, most of one value: as literals they would be doubles among floats."""
+    k = work.K
+    return {"k": k, "k_A": work.K_A, "K_B": work.K_B, "K_C": work.K_C, "I_leak0": work.I_LEAK0, "keep_C": work.keep(work.F_C),
+            "k_A_k": work.K_A * k, "K_B_k": work.K_B * k, "K_C_k": work.K_C * k, "leak_k": work.I_LEAK0 * k,
+            "keep_B": work.keep(work.corners(n) if name == "own" else work.F_B), "g": work.gains(n)}
+
+
+def forces(name, n, dtype):
+    """What is felt, as functions of time."""
+    press = np.array(work.press(work.SAMPLES[name]))
+    current = np.array(work.currents(list(press)))
+    felt = {"press": press, "change": np.diff(press, prepend=press[0]), "current": current, "current_k": current * work.K}
+    if name == "streamed":
+        felt = {"frames": work.frames(n, work.SAMPLES[name], dtype)}
+    return {key: b2.TimedArray(value, dt=work.DT * b2.second) for key, value in felt.items()}
+
+
+def afferents(name, dtype, folded, n, rectify):
+    """The group, ready to run."""
+    values, felt = constants(name, n), forces(name, n, dtype)
+    model = "".join(f"{key} : 1 (constant{', shared' if np.ndim(value) == 0 else ''})\n" for key, value in values.items())
+    states = {"shared": ["u"], "own": ["u", "x_B", "x_C"], "streamed": ["u", "x_B", "x_C", "F", "F_before"]}[name]
+    model += "".join(f"{key} : 1\n" for key in states)
+    assert work.E_L == 0
+    group = b2.NeuronGroup(n, model + "fired : integer", threshold="u > V_th", reset="u -= drop",
+                           namespace={"V_th": work.V_TH, "drop": work.DROP, **felt})
+    if name == "streamed":
+        group.run_regularly(FETCH, order=-1)
+    group.run_regularly(step_of(name, folded, rectify))
+    for key, value in values.items():
+        setattr(group, key, value)
+    if name == "streamed":
+        group.F = felt["frames"].values[0]
+    return group
+
+
+def monitor_of(kind, group, n):
+    """What watches for spikes, if anything, and a function that gives their number after a run."""
+    if kind == "rate":
+        rate = b2.PopulationRateMonitor(group)
+        return [rate], lambda: round(float(np.sum(rate.rate / b2.Hz)) * work.DT * n)
+    if kind == "none":
+        group.event_codes["spike"] += "\nfired += 1"
+        return [], lambda: int(np.sum(group.fired[:]))
+    spikes = b2.SpikeMonitor(group, record=kind == "spikes")
+    return [spikes], lambda: int(spikes.num_spikes)
+
+
+def measure(name, dtype, form, words, directory):
+    """Seconds of each run, and the number of spikes."""
+    b2.device.reinit()
+    b2.set_device("cpp_standalone", build_on_run=False)
+    b2.prefs.core.default_float_dtype = np.dtype(dtype).type
+    b2.prefs.codegen.cpp.extra_compile_args_gcc = FLAGS.get(words.flags, words.flags).split()
+    b2.defaultclock.dt = work.DT * b2.second
+    group = afferents(name, np.dtype(dtype).type, form == "folded", words.n, words.rectify)
+    monitor, count = monitor_of(words.monitor, group, words.n)
+    net = b2.Network(group, *monitor)
+    net.run(len(work.SAMPLES[name]) * work.DT * b2.second)
+    b2.device.build(directory=directory, compile=True, run=False, with_output=False)
+    seconds = []
+    for _ in range(words.runs):
+        b2.device.run(directory, with_output=False, run_args=[])
+        seconds.append(b2.device._last_run_time)
+    return seconds, count()
+
+
+def main():
+    words = work.arguments(form=["as-written", "folded"], flags="unrolled", monitor="spikes", rectify="clip")
+    print(work.machine())
+    for name, dtype, form in words.works:
+        with tempfile.TemporaryDirectory() as directory:
+            seconds, spikes = measure(name, dtype, form, words, directory)
+        how = f"{form}, {words.rectify}, monitor: {words.monitor}, {FLAGS.get(words.flags, words.flags)}"
+        work.tell(f"brian2 {b2.__version__}", name, dtype, how, words.n, seconds, spikes)
+
+
+if __name__ == "__main__":
+    main()

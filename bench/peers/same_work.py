@@ -1,0 +1,68 @@
+"""Is the peers' work ours? The spikes of numpy_in_place.py in float64 against those of the program, afferent by afferent.
+
+Method: 50 afferents. Their forces go to the program as a recording, sample for sample the same doubles, and it answers by
+`--method backward-euler --sampled`, one afferent a run where each has its own f_B. `shared` scales the current and the program the
+force, so their last digits differ; the others do the same operations. Ends with status 1 if a spike is elsewhere.
+
+    same_work.py build/release/corpuscle
+"""
+
+import csv
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import work
+from numpy_in_place import Task, run
+
+N = 50
+
+
+def trains(spikes):
+    """Steps with a spike of each afferent."""
+    out = [[] for _ in range(N)]
+    for step, first, fired in spikes:
+        for i in fired:
+            out[first + i].append(step)
+    return out
+
+
+def answer(program, recording, out, options):
+    """The program's trains, one a channel of the recording."""
+    subprocess.run([program, "respond", recording, "--unit", "N", "--rate", "10kHz", "--afferent", "sa1", "--method", "backward-euler",
+                    "--sampled", "--quiet", "--out", out, *options], check=True)
+    found = [[] for _ in range(N)]
+    with open(Path(out) / "spikes.csv", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            found[int(row["channel"].removeprefix("ch")) - 1].append(round(float(row["time_s"]) / work.DT))
+    return found
+
+
+def by_program(program, name, directory):
+    recording = Path(directory) / "force.npy"
+    np.save(recording, work.frames(N, work.SAMPLES[name], np.float64))
+    if name != "own":
+        return answer(program, recording, directory, [])
+    each = [answer(program, recording, directory, ["--channel", f"ch{i + 1}", "--set", f"sa1.f_B={f!r}"])[i]
+            for i, f in enumerate(work.corners(N).tolist())]
+    return each
+
+
+def main():
+    program, same = sys.argv[1], True
+    for name in work.SAMPLES:
+        with tempfile.TemporaryDirectory() as directory:
+            ours = by_program(program, name, directory)
+        for form in "as-written", "folded":
+            theirs = trains(run(Task(name, np.float64, form, N), N)[1])
+            differ = sum(a != b for a, b in zip(ours, theirs))
+            print(f"{name:9}{form:11} program {sum(map(len, ours))} spikes, numpy {sum(map(len, theirs))}; "
+                  f"{N - differ} of {N} afferents fire at the same steps")
+            same = same and differ == 0
+    return 0 if same else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
