@@ -51,6 +51,7 @@ struct PopulationAnswer {
     std::vector<std::uint64_t>* marks = nullptr;
     std::int64_t unmarked = 0;
     std::int64_t capped = 0;  ///< steps whose spikes were more than the cap allows
+    std::size_t failed = 0;   ///< the first unit that an error is about
 };
 
 enum class Precision { in_double, in_float };

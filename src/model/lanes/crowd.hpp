@@ -46,6 +46,7 @@ class Crowd final : public Population {
         std::vector<Event> events;
         std::int64_t capped = 0, unmarked = 0;
         bool strange = false;  // some force may be no number
+        bool lost = false;     // some state is none
     };
 
     /// A list of firings that empties itself into a job, or into marks.
@@ -95,8 +96,11 @@ class Crowd final : public Population {
     std::vector<Scratch> scratch_;
     std::vector<Job> jobs_;
 
+    // Of one tile; neurons of all outputs, one after another.
     std::size_t receptor_state_size() const { return cast_.receptor->state_values * tile_units; }
-    std::size_t neuron_state_size() const { return cast_.neuron->state_values * tile_units; }
+    std::size_t neuron_state_size() const { return cast_.neuron->state_values * tile_units * static_cast<std::size_t>(cast_.receptor->outputs); }
+    V* receptor_state(std::size_t tile) const { return receptor_states_.data() + tile * receptor_state_size(); }
+    V* neuron_state(std::size_t tile) const { return neuron_states_.data() + tile * neuron_state_size(); }
 
     /// A tile's models, and how far they are apart.
     template <class L>
@@ -105,10 +109,8 @@ class Crowd final : public Population {
         return {all.data() + tile * (tile_units / static_cast<std::size_t>(cast_.lanes)) * of.model_bytes, of.model_bytes};
     }
 
-    std::uint64_t valid(std::size_t tile) const {
-        const std::size_t here = cast_.units - tile * tile_units;
-        return here >= tile_units ? ~std::uint64_t{0} : (std::uint64_t{1} << here) - 1;
-    }
+    int units_of(std::size_t tile) const { return static_cast<int>(std::min<std::size_t>(tile_units, cast_.units - tile * tile_units)); }
+    std::uint64_t valid(std::size_t tile) const { return ~std::uint64_t{0} >> (tile_units - units_of(tile)); }
 
     /// The profile of a block, in V; its currents, if they are worked out once.
     void prepare(const ForceProfile& profile, bool once) {
@@ -142,7 +144,8 @@ class Crowd final : public Population {
     TransductionCall<V> transduction(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
         const auto [models, stride] = this->models(cast_.receptors, *cast_.receptor, tile);
         TransductionCall<V> c{};
-        c.models = models, c.stride = stride, c.state = receptor_states_.data() + tile * receptor_state_size(), c.steps = steps;
+        c.models = models, c.stride = stride, c.state = receptor_state(tile);
+        c.units = units_of(tile), c.steps = steps;
         c.from = s.from.data(), c.to = s.to.data(), c.gain = s.gain.data();
         const std::size_t row = (tile * b.steps + step) * tile_units;
         if (const auto* columns = std::get_if<ForceColumns>(&b.force)) {
@@ -161,8 +164,8 @@ class Crowd final : public Population {
     NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector& fired) const {
         const auto [models, stride] = this->models(cast_.neurons, *cast_.neuron, tile);
         NeuronCall<V> c{};
-        c.models = models, c.stride = stride, c.steps = steps, c.fired = &fired;
-        c.state = neuron_states_.data() + (tile * static_cast<std::size_t>(cast_.receptor->outputs) + static_cast<std::size_t>(output)) * neuron_state_size();
+        c.models = models, c.stride = stride, c.units = units_of(tile), c.steps = steps, c.fired = &fired;
+        c.state = neuron_state(tile) + static_cast<std::size_t>(output) * cast_.neuron->state_values * tile_units;
         if (b.once) {
             const auto& [from, to, mean] = currents_in_v_[static_cast<std::size_t>(output)];
             c.from = from.data() + step, c.to = to.data() + step, c.mean = mean.data() + step, c.gain = s.gain.data();
@@ -200,7 +203,7 @@ class Crowd final : public Population {
 
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
-        job.events.clear(), job.capped = job.unmarked = 0, job.strange = false;
+        job.events.clear(), job.capped = job.unmarked = 0, job.strange = job.lost = false;
         for (std::size_t tile = number * tiles_a_job; tile < std::min(tiles_, (number + 1) * tiles_a_job); ++tile) {
             if (const auto* profile = std::get_if<ForceProfile>(&b.force)) gains_of(*profile, tile * tile_units, s.gain.data());
             for (std::size_t step = 0; step < b.steps;) {
@@ -208,7 +211,16 @@ class Crowd final : public Population {
                 run_chunk(b, tile, step, steps, s, job);
                 step += static_cast<std::size_t>(steps);
             }
+            job.lost |= !finite(receptor_state(tile), receptor_state_size()) || !finite(neuron_state(tile), neuron_state_size());
         }
+    }
+
+    /// Whether all of some states are numbers; eight at a time, each with a sum of its own.
+    static bool finite(const V* states, std::size_t count) {
+        V sums[8] = {};
+        for (std::size_t k = 0; k < count; k += 8)
+            for (std::size_t l = 0; l < 8; ++l) sums[l] += states[k + l] - states[k + l];  // 0, or no number
+        return std::all_of(std::begin(sums), std::end(sums), [](V x) { return x == 0; });
     }
 
     /// The force of a unit at a step of the block, as it was handed in.
@@ -220,22 +232,46 @@ class Crowd final : public Population {
         return 0;  // integers are always numbers
     }
 
-    std::optional<Error> no_force(const Block& b) const {
+    std::optional<Error> no_force(const Block& b, PopulationAnswer& answer) const {
         for (std::size_t unit = 0; unit < cast_.units; ++unit)
             for (std::size_t step = 0; step < b.steps; ++step)
-                if (const double f = force_of(b, unit, step); !std::isfinite(f))
+                if (const double f = force_of(b, unit, step); !std::isfinite(f)) {
+                    answer.failed = unit;
                     return bad_input(fmt::format("{}: the force of sample {} is {}", cast_.name, step_ + static_cast<std::int64_t>(step), f));
+                }
         return {};
     }
 
-    std::optional<Error> lost(const Block& b) const {
-        const auto finite = [](const Buffer<V>& states) {  // of padding, too, whose forces are zero or another unit's
-            return std::all_of(states.data(), states.data() + states.size(), [](V x) { return std::isfinite(x); });
+    /// The first unit whose state is no number; none if only padding's is.
+    std::optional<std::size_t> first_lost() const {
+        const auto lost = [](const V* states, std::size_t size, std::size_t lane) {
+            for (std::size_t k = lane; k < size; k += tile_units)
+                if (!std::isfinite(states[k])) return true;
+            return false;
         };
-        if (finite(receptor_states_) && finite(neuron_states_)) return {};
-        return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "
-                                                      "gain is far too large, or the substep too long",
-                                                      cast_.name, step_, step_ + static_cast<std::int64_t>(b.steps))};
+        for (std::size_t unit = 0; unit < cast_.units; ++unit) {
+            const std::size_t tile = unit / tile_units, lane = unit % tile_units;
+            if (lost(receptor_state(tile), receptor_state_size(), lane) || lost(neuron_state(tile), neuron_state_size(), lane)) return unit;
+        }
+        return {};
+    }
+
+    Error lost(std::size_t unit, const Block& b, PopulationAnswer& answer) const {
+        answer.failed = unit;
+        return {Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a gain is "
+                                                 "far too large, or the substep too long",
+                                                 cast_.name, step_, step_ + static_cast<std::int64_t>(b.steps))};
+    }
+
+    /// What jobs found that must not be.
+    std::optional<Error> wrong(const Block& b, PopulationAnswer& answer) const {
+        bool strange = false, anything_lost = false;
+        for (const auto& job : jobs_) strange |= job.strange, anything_lost |= job.lost;
+        if (strange)
+            if (auto error = no_force(b, answer)) return error;
+        if (!anything_lost) return {};
+        const auto unit = first_lost();
+        return unit ? std::optional(lost(*unit, b, answer)) : std::nullopt;
     }
 
     Result<void> unsuited(const PopulationForce& force) {
@@ -258,7 +294,7 @@ public:
     Crowd(Cast<V> cast, const Run& run)
         : cast_(std::move(cast)), method_(run.method), sampled_(run.sampled), tiles_((cast_.units + tile_units - 1) / tile_units),
           receptor_states_(tiles_ * receptor_state_size()),
-          neuron_states_(tiles_ * neuron_state_size() * static_cast<std::size_t>(cast_.receptor->outputs)), jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
+          neuron_states_(tiles_ * neuron_state_size()), jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
 
     std::size_t units() const override { return cast_.units; }
 
@@ -268,17 +304,14 @@ public:
         Block block{force, steps, false, nullptr};
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
             block.once = cast_.once && (profile->gain.empty() || cast_.scales);
-            if (const auto wrong = first_not_finite(profile->force.first(steps)); wrong < steps) return *no_force(block);
+            if (const auto at = first_not_finite(profile->force.first(steps)); at < steps) return *no_force(block, answer);
             prepare({profile->force.first(steps), profile->gain}, block.once);
         }
         if (answer.marks) answer.marks->assign(tiles_ * steps, 0), block.marks = answer.marks->data();
         while (scratch_.size() < pool.threads()) scratch_.emplace_back();
         pool.each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
-        bool strange = false;
-        for (const auto& job : jobs_) answer.capped += job.capped, answer.unmarked += job.unmarked, strange |= job.strange;
-        if (strange)
-            if (auto wrong = no_force(block)) return *wrong;
-        if (auto wrong = lost(block)) return *wrong;
+        for (const auto& job : jobs_) answer.capped += job.capped, answer.unmarked += job.unmarked;
+        if (auto error = wrong(block, answer)) return *error;
         if (answer.spikes) gather(jobs_, steps, step_, cast_.numbers, *answer.spikes);
         step_ += static_cast<std::int64_t>(steps);
         return {};

@@ -136,7 +136,7 @@ void transduce(TransductionCall<V>& c, int unit) {
 template <class V, class R>
 void transduce_tile(TransductionCall<V>& c) {
     constexpr int J = 2;
-    for (int unit = 0; unit < tile_units; unit += J * width<V>) {
+    for (int unit = 0; unit < c.units; unit += J * width<V>) {
         if (c.feed == Feed::rows) transduce<V, R, Feed::rows, J>(c, unit);
         if (c.feed == Feed::words) transduce<V, R, Feed::words, J>(c, unit);
         if (c.feed == Feed::profile) transduce<V, R, Feed::profile, J>(c, unit);
@@ -201,7 +201,7 @@ void fire(const NeuronCall<V>& c, int unit) {
 template <class V, class N>
 void fire_tile(const NeuronCall<V>& c) {
     constexpr int J = 4;
-    for (int unit = 0; unit < tile_units; unit += J * width<V>) c.gain ? fire<V, N, true, J>(c, unit) : fire<V, N, false, J>(c, unit);
+    for (int unit = 0; unit < c.units; unit += J * width<V>) c.gain ? fire<V, N, true, J>(c, unit) : fire<V, N, false, J>(c, unit);
 }
 
 // ---- the tables ----

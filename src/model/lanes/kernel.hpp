@@ -45,7 +45,7 @@ struct TransductionCall {
     const std::byte* models;
     std::size_t stride;  ///< from a vector's model to the next; 0: one for all
     V* state;            ///< [value][tile_units]
-    int steps;
+    int units, steps;    ///< of the tile's units, those that are no padding
     Feed feed;
     const V* rows;              ///< rows: force [step][tile_units], N
     const std::int16_t* words;  ///< words: the same as numbers that are N when times `scale`
@@ -63,7 +63,7 @@ struct NeuronCall {
     const std::byte* models;
     std::size_t stride;
     V* state;
-    int steps;
+    int units, steps;
     const V* from;  ///< [step][tile_units]; or, with gains, one value a step, and so
     const V* to;
     const V* mean;

@@ -1,0 +1,60 @@
+#pragma once
+// The units of one input at work: side by side on lanes where they can, one by one where they cannot, on all threads.
+
+#include "model/population.hpp"
+#include "study/respond.hpp"
+
+namespace corpuscle {
+
+class Units {
+public:
+    /// `probed`: what the units show is wanted; then they go one by one.
+    static Result<Units> make(Input input, const RespondOptions& options, bool probed);
+
+    const Input& input() const { return input_; }
+    std::int64_t samples() const { return samples_; }
+
+    /// One block through all units to all listeners; false at the end of the source.
+    Result<bool> answer_block(Source& source, std::span<Listener* const> listeners, Pool& pool, Work& work);
+
+private:
+    /// Units that go on lanes together.
+    struct Crowd {
+        std::unique_ptr<Population> population;
+        std::vector<std::uint32_t> units;  // of the input, rising
+        bool one_channel;                  // its force is one profile
+    };
+    /// A unit that goes alone.
+    struct Single {
+        std::uint32_t unit;
+        State state;
+        std::vector<std::vector<double>> probes = {};
+        std::vector<Spike> spikes = {};
+        std::int64_t capped = 0, clipped = 0, overflowed = 0;
+        std::optional<Error> error = {};
+    };
+
+    Units(Input input, std::size_t block, bool probed);
+    Result<void> seat(const RespondOptions& options, InstructionSet set);
+    Result<void> seat_crowds(std::span<const std::size_t> plans, const Run& run, const RespondOptions& options, InstructionSet set);
+    Result<void> seat_crowd(std::vector<const AfferentPlan*> plans, std::vector<std::uint32_t> units, bool one_channel, const Run& run,
+                            const RespondOptions& options, InstructionSet set);
+    Result<void> answer_crowd(Crowd& crowd, Pool& pool, Work& work);
+    void answer_single(Single& single);
+    Result<void> answer_singles(Pool& pool, Work& work);
+    Error of_unit(Error error, std::size_t unit) const;
+    const double* force_of(std::size_t unit) const { return force_.force[input_.channel_of(unit)].data(); }
+
+    Input input_;
+    bool probed_;
+    Frames force_;
+    std::vector<std::unique_ptr<Afferent>> afferents_;  // of each plan; none where all of its units are in crowds of a kind seen
+    std::vector<std::span<const Probe>> probes_of_;
+    std::vector<Crowd> crowds_;
+    std::vector<Single> singles_;
+    std::vector<Spike> spikes_;
+    std::vector<std::vector<std::vector<double>>> shown_;
+    std::int64_t samples_ = 0;
+};
+
+}  // namespace corpuscle
