@@ -22,9 +22,9 @@ Json trace_document(std::uint32_t channel, const Json& afferent, std::string_vie
             {"data", base64(e.values().data(), e.values().size() * sizeof(float))}};
 }
 
-Json parameter_document(const Parameter& p) {
-    return {{"name", p.row.name}, {"value", p.value},           {"unit", p.row.unit},     {"default", p.row.initial},
-            {"set", p.set},       {"sentence", p.row.sentence}, {"source", p.row.source}, {"of", p.of}};
+Json parameter_document(const Parameter& p, double value) {
+    return {{"name", p.row.name},         {"value", value},         {"unit", p.row.unit}, {"default", p.row.initial}, {"set", p.set},
+            {"sentence", p.row.sentence}, {"source", p.row.source}, {"of", p.of}};
 }
 
 Json level(const AfferentPlan& plan, std::string_view name) {
@@ -133,7 +133,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
         Json parameters = Json::array();
-        for (const auto& p : plan.parameters) parameters.push_back(parameter_document(p));
+        for (std::size_t k = 0; k < plan.values.size(); ++k) parameters.push_back(parameter_document((*plan.parameters)[k], plan.values[k]));
         afferents.push_back({{"name", plan.name},
                              {"made_of", plan.made_of()},
                              {"sentence", plan.sentence},

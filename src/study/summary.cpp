@@ -21,8 +21,10 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json afferent_document(const AfferentPlan& plan) {
     Json parameters = Json::object();
-    for (const auto& p : plan.parameters)
-        parameters[std::string(p.row.name)] = {{"value", p.value}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+    for (std::size_t k = 0; k < plan.values.size(); ++k) {
+        const auto& p = (*plan.parameters)[k];
+        parameters[std::string(p.row.name)] = {{"value", plan.values[k]}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+    }
     return {{"name", plan.name},
             {"made_of", plan.made_of()},
             {"transduction", plan.receptor},
