@@ -20,6 +20,12 @@ Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
 
 }  // namespace
 
+/// The last first: a directory goes with the first file, which made it, and then must hold no other.
+Outputs::~Outputs() {
+    report_file_.reset(), summary_file_.reset();
+    while (!files_.empty()) files_.pop_back();
+}
+
 template <class F, class... A>
 Result<void> Outputs::add(const char* name, A... how) {
     auto file = OutputFile::create(directory_ + "/" + name);

@@ -25,6 +25,10 @@ class Outputs {
     std::vector<std::string> paths() const;
 
 public:
+    Outputs() = default;
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
+    ~Outputs();
     Result<void> open(const RespondWords&);
     void listen(std::vector<Listener*>&);
     /// What is written into the directory, by name.

@@ -210,7 +210,7 @@ TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
 
 TEST(Program, AStateThatIsNoLongerANumberIsToldNotHidden) {
     const Folder folder;
-    const auto ran = run(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer");  // far too stiff for its substep
+    const auto ran = run(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
     EXPECT_EQ(ran.status, 3);
     EXPECT_NE(ran.err.find("sa1b+adex on press: sa1b+adex: its state left the finite numbers"), std::string::npos) << ran.err;
     EXPECT_TRUE(folder.names().empty());
