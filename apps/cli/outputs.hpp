@@ -21,7 +21,7 @@ class Outputs {
 
     template <class F, class... A>
     Result<void> add(const char* name, A... how);
-    Result<void> open_directory(const RespondWords&, std::optional<double> bin);
+    Result<void> open_directory(const RespondWords&, const Population&, std::optional<double> bin);
     std::vector<std::string> paths() const;
 
 public:
@@ -29,7 +29,7 @@ public:
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
     ~Outputs();
-    Result<void> open(const RespondWords&);
+    Result<void> open(const RespondWords&, const Population&);
     void listen(std::vector<Listener*>&);
     /// What is written into the directory, by name.
     std::vector<std::string> names() const;
