@@ -50,6 +50,30 @@ struct Timed {
 
 constexpr std::size_t most = 100'000;
 
+volatile double added_up;
+constexpr long most_rounds = 20'000'000;
+
+// Compiled for each instruction set; the best that the machine has is taken. (Not by lanes: they are what is measured.)
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops"))) double sum(const double* p, std::size_t count) {
+    typedef double Vector __attribute__((vector_size(64)));
+    Vector s[4] = {};
+    const auto* v = reinterpret_cast<const Vector*>(p);
+    for (std::size_t k = 0; k + 4 <= count / 8; k += 4)
+        for (std::size_t j = 0; j < 4; ++j) s[j] += v[k + j];
+    const Vector all = s[0] + s[1] + s[2] + s[3];
+    return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
+}
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3"))) double adding(long rounds) {
+    typedef double Vector __attribute__((vector_size(64)));
+    Vector a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{};
+    for (long k = 0; k < rounds; ++k) {  // eight chains of additions: 64 operations a round
+        a += 1e-9, b += 1e-9, c += 1e-9, d += 1e-9, e += 1e-9, f += 1e-9, g += 1e-9, h += 1e-9;
+        asm volatile("" : "+m"(k));
+    }
+    const Vector all = a + b + c + d + e + f + g + h;
+    return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
+}
+
 template <class V>
 struct Streams {
     lanes::Buffer<V> rows;
@@ -74,8 +98,8 @@ std::unique_ptr<Population> made(std::size_t units, bool own, Precision precisio
     std::vector<AfferentPlan> plans(own ? units : 1, sa1());
     if (own)
         for (std::size_t u = 0; u < units; ++u)
-            for (auto& p : plans[u].parameters)
-                if (p.row.name == "f_B") p.value = 15 + 10 * static_cast<double>(u) / static_cast<double>(units);
+            for (std::size_t k = 0; k < plans[u].values.size(); ++k)
+                if ((*plans[u].parameters)[k].row.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / static_cast<double>(units);
     std::vector<const AfferentPlan*> pointers;
     for (const auto& p : plans) pointers.push_back(&p);
     auto result = make_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
@@ -123,6 +147,9 @@ int main(int argc, char** argv) {
     int runs = 25;
     for (int k = 1; k + 1 < argc; ++k)
         if (std::string(argv[k]) == "--runs") runs = std::atoi(argv[k + 1]);
+    std::string only;
+    for (int k = 1; k + 1 < argc; ++k)
+        if (std::string(argv[k]) == "--only") only = argv[k + 1];
     const auto sets = instruction_sets();
     std::vector<Timed> all;
     const std::size_t stream_steps = 1000;
@@ -135,20 +162,23 @@ int main(int argc, char** argv) {
     for (std::size_t u = 0; u < most; ++u) gains.push_back(0.5 + 0.5 * static_cast<double>(u) / (most - 1));
 
     const auto add = [&](const std::string& name, Run1 run) {
+        if (name.find(only) == std::string::npos) return;
         const double work = static_cast<double>(run.units * run.steps);
         all.push_back({name, work, "afferent-steps/s", {}});
         const auto n = all.size() - 1;
         all.back().once = [&all, n, run] { return run.once(all[n].spikes); };
     };
     all.reserve(200);
-    all.push_back({"read double", static_cast<double>(doubles.rows.size() * 8), "B/s", [&] {
+    // The most that memory allows: the streamed force added up, four sums of 64 bytes at a time.
+    all.push_back({"read", static_cast<double>(doubles.rows.size() * 8), "B/s", [&] {
                        const double t0 = now();
-                       double s[8] = {};
-                       const double* p = doubles.rows.data();
-                       for (std::size_t k = 0; k < doubles.rows.size(); k += 64)
-                           for (std::size_t j = 0; j < 64; ++j) s[j % 8] += p[k + j];
-                       volatile double keep = s[0] + s[1] + s[2] + s[3] + s[4] + s[5] + s[6] + s[7];
-                       (void)keep;
+                       added_up = sum(doubles.rows.data(), doubles.rows.size());
+                       return now() - t0;
+                   }});
+    // The most that arithmetic allows: sums in registers.
+    all.push_back({"arithmetic", 64.0 * most_rounds, "double operations/s", [] {
+                       const double t0 = now();
+                       added_up = adding(most_rounds);
                        return now() - t0;
                    }});
     for (const auto set : sets.subspan(1)) {
@@ -161,11 +191,14 @@ int main(int argc, char** argv) {
             auto v = streamed; v.sampled = false; add(tag + " streamed interpolated", v);
             v = streamed; v.own = true; add(tag + " streamed own parameters", v);
             v = streamed; v.force = [&](std::size_t, std::size_t) { return PopulationForce(ForceWords{words.data(), 1.0 / 8000}); }; add(tag + " int16 sampled", v);
-            const Run1 shape{most, 5000, false, precision, true, false, Method::exact, set, profile};
+            const Run1 shape{most, 10000, false, precision, true, false, Method::exact, set, profile, 1000};
             add(tag + " profile sampled", shape);
             v = shape; v.marks = true; add(tag + " profile sampled marks", v);
             v = shape; v.sampled = false; add(tag + " profile interpolated", v);
             v = shape; v.own = true; v.steps = 1000; add(tag + " profile own parameters", v);
+            const auto few = [&, precision](std::size_t, std::size_t) { return precision == Precision::in_double ? PopulationForce(ForceTiles<double>{doubles.rows.data()}) : PopulationForce(ForceTiles<float>{floats.rows.data()}); };
+            v = streamed; v.units = 1000; v.block = 100; v.steps = 10000; v.force = few; add(tag + " N=1000 streamed from the cache", v);
+            v = shape; v.units = 1000; v.force = [&](std::size_t k, std::size_t n) { return PopulationForce(ForceProfile{std::span(f).subspan(k, n), std::span(gains).first(1000)}); }; add(tag + " N=1000 profile sampled", v);
         }
     }
     for (auto& t : all) (void)t.once();  // warm

@@ -13,7 +13,7 @@ function(add_lanes target)
     target_include_directories(${object} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
     target_compile_definitions(${object} PRIVATE CORPUSCLE_ISA=${set})
     # -O2 at the least, so that small functions are not left as symbols; g++ 12 warns falsely in its own headers of AVX-512.
-    target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions -Wno-conversion -Wno-float-conversion
+    target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions -Wno-float-conversion
       $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-Wno-uninitialized;-Wno-maybe-uninitialized>)
     target_link_libraries(${object} PRIVATE corpuscle_ways)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)

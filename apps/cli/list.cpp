@@ -31,7 +31,7 @@ struct Section {
 
 Entry entry_of(const Card& card) {
     Entry e{std::string(card.name), "", std::string(card.sentence), std::string(card.source), {}, {}};
-    for (const auto& row : card.rows) e.parameters.push_back({row, card.name, row.initial, false});
+    for (const auto& row : card.rows) e.parameters.push_back({row, card.name});
     return e;
 }
 
@@ -49,7 +49,7 @@ std::vector<Entry> afferent_entries() {
                            plan->made_of(),
                            std::string(a.sentence),
                            std::string(a.source),
-                           plan->parameters,
+                           *plan->parameters,
                            {a.other_names.begin(), a.other_names.end()}});
     }
     return entries;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "model/spread.hpp"
 #include "signal/version.hpp"
 #include "study/studies.hpp"
 #include "terminal.hpp"
@@ -34,6 +35,7 @@ every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
   corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
+  corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
   corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out answer --report
   corpuscle respond eskin.csv --rate 100Hz --scale 40      a clock that comes in bursts: rows taken as even
   corpuscle respond grip.csv --rate 250Hz --scale 0.002 --range 0..4095 --despike 200 --notch 50Hz     torn, and with hum
@@ -75,6 +77,12 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     verb.add_option("--set,-s", w.settings, "a parameter, of an afferent or a stimulus, with its unit")
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
+    verb.add_option("--copies", w.copies, "a population: each afferent stands N times on every channel, sa1#1 ... sa1#N")
+        ->check(CLI::Range(1U, most_copies))
+        ->type_name("N");
+    verb.add_option("--spread", w.spreads, "a parameter that differs between copies: its standard deviation, as a share or with its unit")
+        ->allow_extra_args(false)
+        ->type_name("NAME.PARAMETER=10%");
     verb.add_option("--method", w.method, "how time is stepped: exact, or the thesis's own backward-euler")
         ->check(CLI::IsMember({"exact", "backward-euler"}))
         ->capture_default_str()
@@ -127,7 +135,9 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->type_name("FILE")
         ->group("Recordings");
     verb.add_option("--resample", w.resample, "interpolate a recording to this rate")->type_name("FREQUENCY")->group("Recordings");
-    verb.add_option("--out,-o", w.out, "write spikes.csv and summary.json into this directory")->type_name("DIR")->group("Output");
+    verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, of copies, copies.csv into this directory")
+        ->type_name("DIR")
+        ->group("Output");
     verb.add_flag("--traces", w.traces, "write traces.csv there, too: force, currents, membranes")->group("Output");
     verb.add_option("--bin", w.bin, "write psth.csv there, too: spikes and rate in even bins of this length")
         ->type_name("TIME")

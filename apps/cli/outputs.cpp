@@ -6,6 +6,7 @@
 #include "recording_words.hpp"
 #include "study/bins_file.hpp"
 #include "study/clicks_file.hpp"
+#include "study/copies_file.hpp"
 #include "study/npz_file.hpp"
 #include "study/stale.hpp"
 #include "study/vectors.hpp"
@@ -20,6 +21,12 @@ Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
 
 }  // namespace
 
+/// The last first: a directory goes with the first file, which made it, and then must hold no other.
+Outputs::~Outputs() {
+    report_file_.reset(), summary_file_.reset();
+    while (!files_.empty()) files_.pop_back();
+}
+
 template <class F, class... A>
 Result<void> Outputs::add(const char* name, A... how) {
     auto file = OutputFile::create(directory_ + "/" + name);
@@ -28,8 +35,10 @@ Result<void> Outputs::add(const char* name, A... how) {
     return {};
 }
 
-Result<void> Outputs::open_directory(const RespondWords& w, std::optional<double> bin) {
+Result<void> Outputs::open_directory(const RespondWords& w, const Copies& population, std::optional<double> bin) {
     if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
+    if (population.copies > 0)
+        if (auto ok = add<CopiesFile>("copies.csv", population); !ok) return ok;
     if (w.npz)
         if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
     if (bin)
@@ -52,22 +61,26 @@ std::vector<std::string> Outputs::paths() const {
     return all;
 }
 
-Result<void> Outputs::open(const RespondWords& w) {
+Result<void> Outputs::open(const RespondWords& w, const Copies& population) {
     const std::pair<const char*, bool> words[] = {
         {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
     for (const auto& [word, said] : words)
         if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
+    for (const auto& [word, said] : {std::pair{"--traces", w.traces}, std::pair{"--vectors", w.vectors}})
+        if (said && w.copies > Report::most_copies)
+            return bad_usage(fmt::format("{} is for {} copies at the most, not {}: ask for fewer, or --set what one of copies.csv has",
+                                         word, Report::most_copies, w.copies));
     const auto bin = quantity(w.bin, "s", "--bin");
     if (!bin) return bin.error();
     if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
     directory_ = w.out;
     if (!w.out.empty())
-        if (auto ok = open_directory(w, *bin); !ok) return ok;
+        if (auto ok = open_directory(w, population, *bin); !ok) return ok;
     if (!w.report) return {};
     auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
     if (!page) return page.error();
     report_file_ = std::move(*page);
-    report_.emplace();
+    report_.emplace(Report::all_points, population);
     return {};
 }
 

@@ -21,11 +21,15 @@ class Outputs {
 
     template <class F, class... A>
     Result<void> add(const char* name, A... how);
-    Result<void> open_directory(const RespondWords&, std::optional<double> bin);
+    Result<void> open_directory(const RespondWords&, const Copies&, std::optional<double> bin);
     std::vector<std::string> paths() const;
 
 public:
-    Result<void> open(const RespondWords&);
+    Outputs() = default;
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
+    ~Outputs();
+    Result<void> open(const RespondWords&, const Copies&);
     void listen(std::vector<Listener*>&);
     /// What is written into the directory, by name.
     std::vector<std::string> names() const;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -25,7 +27,9 @@ constexpr std::size_t most_rows_in_full = 24;  // silence is shown up to here
 
 struct Job {
     std::vector<Wish> wishes;
-    std::vector<AfferentPlan> afferents;
+    std::vector<AfferentPlan> afferents;  // as asked for
+    Copies population;
+    std::vector<AfferentPlan> copies;  // of each afferent, or each itself
     std::vector<std::unique_ptr<Source>> sources;
     RespondOptions options;
     std::vector<std::string> warnings;
@@ -41,6 +45,49 @@ Result<std::unique_ptr<Source>> open_source(const std::string& force, const Reco
         return error;
     }
     return open_recording(force == "-" ? "/dev/stdin" : force, options);
+}
+
+Result<std::vector<Wish>> spread_wishes(const RespondWords& w) {
+    if (w.copies == 0 && !w.spreads.empty())
+        return bad_usage(fmt::format("--spread {}: it tells copies apart; say how many: --copies 100", w.spreads[0]));
+    std::vector<Wish> wishes;
+    for (const auto& text : w.spreads) {
+        auto wish = parse_wish(text);
+        if (!wish) return bad_usage(fmt::format("--spread '{}': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'", text));
+        wishes.push_back(std::move(*wish));
+    }
+    return wishes;
+}
+
+/// Puts the copies of every afferent in its place, if copies are asked for.
+Result<void> populate(Job& job, const RespondWords& w) {
+    const auto wishes = spread_wishes(w);
+    if (!wishes) return wishes.error();
+    job.population.copies = w.copies;
+    if (w.copies == 0) job.copies = job.afferents;
+    for (std::size_t a = 0; w.copies > 0 && a < job.afferents.size(); ++a) {
+        auto spreads = spreads_for(job.afferents[a], w.afferents[a], *wishes);
+        if (!spreads) return spreads.error();
+        auto copies = copies_of(job.afferents[a], w.copies, *spreads, w.seed);
+        if (!copies) return copies.error();
+        std::move(copies->begin(), copies->end(), std::back_inserter(job.copies));
+        std::move(spreads->begin(), spreads->end(), std::back_inserter(job.population.spreads));
+    }
+    std::vector<std::string_view> names;
+    for (const auto& a : job.afferents) names.push_back(a.name);
+    for (const auto& wish : *wishes)
+        if (!wish.used)
+            return bad_usage(fmt::format("--spread {}: no afferent '{}' takes part{}", wish.text(), wish.of, did_you_mean(wish.of, names)));
+    return {};
+}
+
+/// Units have numbers of 32 bits.
+Result<void> check_units(const Job& job) {
+    std::uint64_t units = 0;
+    for (const auto& s : job.sources) units += s->channels().size() * job.copies.size();
+    if (units <= std::numeric_limits<std::uint32_t>::max()) return {};
+    return bad_usage(fmt::format("--copies {}: {} afferents on their channels are too many; ask for fewer copies or channels",
+                                 job.population.copies, units));
 }
 
 /// Every wish must have found whom it is for.
@@ -69,6 +116,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
             return bad_usage(fmt::format("--afferent {}: given twice", name));
         job.afferents.push_back(std::move(*plan));
     }
+    if (auto ok = populate(job, w); !ok) return ok.error();
     auto options = recording_options(w);
     if (!options) return options.error();
     Progress progress(quiet);
@@ -80,6 +128,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     }
     if (auto ok = check_wishes(job); !ok) return ok.error();
     if (auto ok = check_recording_words(w); !ok) return ok.error();
+    if (auto ok = check_units(job); !ok) return ok.error();
     if (w.vectors && !w.out.empty() &&
         std::all_of(job.afferents.begin(), job.afferents.end(), [](const auto& a) { return a.converter.empty(); }))
         return bad_usage(
@@ -99,6 +148,15 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
 
 std::string cell(const Measure& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
 
+/// Of copies: their mean and standard deviation, a count with a decimal.
+std::string cell(const RateRow& row, std::size_t m) {
+    if (row.over.empty()) return cell(measures[m], row.values[m]);
+    const int decimals = std::max(measures[m].decimals, 1);
+    const double mean = row.over[m].mean(), deviation = row.over[m].deviation();
+    if (std::isnan(mean)) return "-";
+    return fmt::format("{:.{}f}", mean, decimals) + (std::isnan(deviation) ? "" : fmt::format(" +- {:.{}f}", deviation, decimals));
+}
+
 /// A line an input: what was answered, so that a wrong unit or clock is seen.
 std::string inputs_table(const Summary& summary) {
     std::string text;
@@ -108,6 +166,13 @@ std::string inputs_table(const Summary& summary) {
                             format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
                             i.least, i.greatest);
     return text;
+}
+
+std::string copies_line(const Copies& population) {
+    if (population.copies == 0) return "";
+    return population.copies == 1
+               ? "1 copy of each afferent\n"
+               : fmt::format("{} copies of each afferent; mean +- standard deviation of those that have a value\n", population.copies);
 }
 
 /// With many rows, those of an afferent that no channel made fire say nothing.
@@ -123,7 +188,7 @@ std::string rate_table(const Summary& summary) {
         if (!all && spikes[{r.afferent, r.channel}] == 0) continue;
         if (rows.size() > most_rows && ++more) continue;
         rows.push_back({r.afferent, r.channel, r.phase});
-        for (const auto c : columns) rows.back().push_back(cell(measures[c], r.values[c]));
+        for (const auto c : columns) rows.back().push_back(cell(r, c));
     }
     auto text = table(rows);
     if (more > 0) text += fmt::format("... and {} rows more; --out writes them all to summary.json\n", more);
@@ -156,7 +221,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     auto job = prepare(w, common.quiet);
     if (!job) return job.error();
     Outputs outputs;
-    if (auto ok = outputs.open(w); !ok) return ok;
+    if (auto ok = outputs.open(w, job->population); !ok) return ok;
     print_remarks(*job, common.quiet);
 
     Summary summary;
@@ -165,19 +230,20 @@ Result<void> run(const RespondWords& w, const Common& common) {
     Result<Work> work = [&] {
         Progress progress(common.quiet);
         job->options.keep_on = [&](double share) { return progress.at(share), !interrupted(); };
-        return respond(job->sources, job->afferents, listeners, job->options);
+        return respond(job->sources, job->copies, listeners, job->options);
     }();
     if (!work) return work.error();
     print_quality(*job, summary, common.quiet);
     for (const auto& warning : work_warnings(*work)) warn(*job, warning);
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
+    if (job->population.copies > 0) answer["copies"] = document_of(job->population);
     answer["files"] = outputs.names();
     const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes
     if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command); !ok) return ok;
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)
-        fmt::print("{}{}{}", inputs_table(summary), rate_table(summary), outputs.told());
+        fmt::print("{}{}{}{}", inputs_table(summary), copies_line(job->population), rate_table(summary), outputs.told());
     return {};
 }
 

@@ -12,7 +12,11 @@ namespace {
 
 volatile std::sig_atomic_t stop = 0;
 
-bool is_number(const std::string& cell) { return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos; }
+/// A number, or a mean with its deviation: "9.4 +- 1.1".
+bool is_number(std::string_view cell) {
+    if (const auto sign = cell.find(" +- "); sign != cell.npos) return is_number(cell.substr(0, sign)) && is_number(cell.substr(sign + 4));
+    return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos;
+}
 
 std::string time_text(double seconds) {
     const auto s = std::lround(seconds);

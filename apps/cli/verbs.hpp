@@ -1,6 +1,7 @@
 #pragma once
 // What each verb is asked for, as typed; main.cpp fills these in, a file a verb does the work and gives the exit status.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ struct Common {
 };
 
 struct RespondWords {
-    std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, channels;
+    std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads, channels;
     std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise,
         bin;
     std::vector<std::string> notch;
@@ -22,6 +23,7 @@ struct RespondWords {
     bool sampled = false, absolute = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
     std::uint64_t seed = 0;
+    std::uint32_t copies = 0;  ///< 0: not asked for
 };
 
 struct CompareWords {

@@ -89,6 +89,15 @@ class Report {
         return this.data.traces.filter((record) => record.channel === channel.id).map((record) => new Trace(record, input));
     }
 
+    /// The trains that are drawn for an afferent: its own, or its first copies', each with its name.
+    members(afferent) {
+        const {copies} = this.data;
+        return copies ? Array.from({length: copies.shown}, (_, k) => ({name: `${afferent.name}#${k + 1}`})) : [afferent];
+    }
+
+    /// How often all copies of an afferent fire: {bin, values}.
+    rate(afferent, channel) { return this.data.copies.rates.find((one) => one.afferent === afferent.name && one.channel === channel.id); }
+
     spikes(afferent, channel) { return this.spikeTrains.get(afferent.name + "\n" + channel.id) || new Spikes(null); }
 }
 

@@ -5,12 +5,12 @@ const MOST_LABELS = 46;  // more lanes than this are too thin for a label each
 
 /// Each lane is an afferent on a channel: ticks while they stand apart, spikes per pixel as shade when they do not.
 class RasterPanel extends Panel {
-    /// `lanes`: [{afferent, label, color, spikes, channel, chosen}], the first at the top.
-    constructor({lanes, pick, afferents, named, ...rest}) {
+    /// `lanes`: [{afferent, label, color, spikes, channel, chosen}], the first at the top. `parted` draws a line between afferents.
+    constructor({lanes, pick, parted, afferents, named, ...rest}) {
         const tall = Math.min(24, 560 / lanes.length), strip = named ? 16 : 0;
         super({...rest, named, title: "spikes", height: strip + Math.max(40, tall * lanes.length), bottom: true,
                series: afferents.map(({name, color}) => ({label: name, html: escaped(name), color, width: 3}))});
-        Object.assign(this, {lanes, pick, strip, each: lanes.length <= MOST_LABELS});
+        Object.assign(this, {lanes, pick, parted, strip, each: lanes.length <= MOST_LABELS});
     }
 
     rows() { return []; }
@@ -48,12 +48,12 @@ class RasterPanel extends Panel {
 
     /// The chosen channel's lanes are tinted; a line parts one afferent's lanes from the next one's.
     markLanes(context, area) {
-        if (!this.pick) return;
+        if (!this.parted) return;
         const [tint, rule] = [colour("chosen"), colour("rule")];
         this.lanes.forEach((lane, k) => {
             const y = area.y + k * area.tall;
             context.fillStyle = tint;
-            if (lane.chosen) context.fillRect(area.x, y, area.w, Math.max(area.tall, 2));
+            if (this.pick && lane.chosen) context.fillRect(area.x, y, area.w, Math.max(area.tall, 2));
             context.fillStyle = rule;
             if (k && lane.afferent !== this.lanes[k - 1].afferent) context.fillRect(area.x, Math.round(y), area.w, 1);
         });
@@ -85,11 +85,13 @@ class RasterPanel extends Panel {
             context.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
-    /// The legend says how many spikes of the chosen channel are in view, and of how many.
+    /// The legend says how many spikes of the chosen channel are in view, and of how many; of copies, all that have a lane.
     countSpikes(seen) {
         this.series.forEach(({label}, s) => {
-            const k = this.lanes.findIndex((lane) => lane.afferent === label && lane.chosen);
-            const shown = seen[k][1] - seen[k][0], total = this.lanes[k].spikes.count;
+            let [shown, total] = [0, 0];
+            this.lanes.forEach((lane, k) => {
+                if (lane.afferent === label && lane.chosen) [shown, total] = [shown + seen[k][1] - seen[k][0], total + lane.spikes.count];
+            });
             this.values[s].textContent = shown === total ? `${total}` : `${shown} of ${total}`;
         });
     }

@@ -18,7 +18,7 @@ function showRates(table, inputs, channel) {
 
 function fillRates(host, {columns, decimals, rows}, only) {
     const wanted = rows.filter((row) => !only || row[columns.indexOf("channel")] === only);
-    const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number"));
+    const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number" || Array.isArray(row[c])));
     const cell = (tag, c, text) => `<${tag}${numeric[c] ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${escaped(text)}</${tag}>`;
     const line = (row, k) => `<tr${k && row[0] !== wanted[k - 1][0] ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value, decimals[c]))).join("")}</tr>`;
     host.innerHTML = `<table><thead><tr>${columns.map((name, c) => cell("th", c, name)).join("")}</tr></thead>
@@ -54,7 +54,7 @@ function parameterRow(parameter, k, all) {
     const source = parameter.source ? ` <span class="unit">(${escaped(parameter.source)})</span>` : "";
     const text = (value) => escaped(quantity(value, parameter.unit || "", true));
     return `<tr class="${parameter.set ? "set" : ""} ${first && k ? "group" : ""}"><td>${first ? escaped(parameter.of || "") : ""}</td>
-        <th scope="row">${escaped(parameter.name)}</th><td class="number">${text(parameter.value)}${parameter.set ? ' <span class="tag">set</span>' : ""}</td>
+        <th scope="row">${escaped(parameter.name)}</th><td class="number">${text(parameter.value)}${parameter.spread === undefined ? "" : ` ± ${text(parameter.spread)}`}${parameter.set ? ' <span class="tag">set</span>' : ""}</td>
         <td class="number">${text(parameter.default)}</td><td>${escaped(parameter.sentence || "")}${source}</td></tr>`;
 }
 

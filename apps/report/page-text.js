@@ -24,9 +24,10 @@ function quantity(value, unit, short = false) {
     return (short ? String(Number(digits)) : digits).replace("-", "−") + (suffix && "\u00a0" + suffix);
 }
 
-/// Table cells: numbers with the decimals of their column, or with four digits where it has none.
+/// Table cells: numbers with the decimals of their column, or with four digits where it has none; a mean with its standard deviation.
 function cellText(value, decimals) {
     if (value === null || value === undefined) return "–";
+    if (Array.isArray(value)) return value.map((one) => cellText(one, decimals)).join(" ± ");
     if (typeof value !== "number") return String(value);
     return (decimals === undefined ? String(Number(value.toPrecision(4))) : value.toFixed(decimals)).replace("-", "−");
 }

@@ -69,7 +69,7 @@ function forcePanels() {
 function afferentPanels(afferent, index) {
     const traces = shown.traces.filter((trace) => trace.afferent === afferent.name);
     if (!traces.length) return [];
-    const about = [afferent.made_of, afferent.sentence].filter(Boolean).join(": ");
+    const about = [report.data.copies ? "copy 1" : "", afferent.made_of, afferent.sentence].filter(Boolean).join(": ");
     const host = section(afferent.name, about, afferentColour(index));
     return byUnit(traces).map((group, k, all) => {
         const {unit} = group[0];
@@ -117,31 +117,43 @@ function styles(traces, base) {
 function spikePanels() {
     const {input, channel} = shown, {afferents} = report.data;
     if (!afferents.length) return [];
-    const host = section("Spikes", input.channels.length > 1 ? `all channels; click a row to see its channel. Counts and frequencies are of ${channel.name}.` : "");
+    const {copies} = report.data, several = input.channels.length > 1 && !copies;
+    const host = section("Spikes", copies ? aboutCopies(copies) : several ? `all channels; click a row to see its channel. Counts and frequencies are of ${channel.name}.` : "");
     const colours = afferents.map(({name}, index) => ({name, color: afferentColour(index), index}));
     return [
         new RasterPanel({host, input, name: "raster", about: "spikes", lanes: lanes(input, channel), afferents: colours, named: !shown.traces.length,
-                         pick: input.channels.length > 1 ? (one) => show(input, one) : null}),
+                         pick: several ? (one) => show(input, one) : null, parted: several || copies}),
+        ...(copies ? [new PopulationPanel({host, input, name: "population", about: "rate of the population", height: 150,
+                                           rates: colours.map((one, k) => ({...one, ...report.rate(afferents[k], channel)}))})] : []),
         new FrequencyPanel({host, input, name: "frequency", about: "instantaneous frequency", height: 150,
-                            trains: colours.map((one, k) => ({...one, spikes: report.spikes(afferents[k], channel)}))}),
+                            trains: colours.map((one, k) => ({...one, spikes: report.spikes(report.members(afferents[k])[0], channel)}))}),
     ];
 }
 
-/// The raster's lanes: every afferent on every channel. A label leaves out the input's name, and if long keeps its end.
+/// What is shown of many copies, and what is not.
+function aboutCopies({count, shown, traced}) {
+    const rows = shown === count ? `all ${count} copies of each afferent` : `the first ${shown} of ${count} copies of each afferent`;
+    const traces = traced ? "Currents, membranes and instantaneous frequency are of copy 1." : `Instantaneous frequency is of copy 1; of more than ${shown} copies no currents and membranes are kept.`;
+    return `${rows}, a row each. The rate below them is of all ${count}. ${traces}`;
+}
+
+/// The raster's lanes: every afferent on every channel, or the copies of each on the chosen one. A label leaves out the input's name, and if long keeps its end.
 function lanes(input, chosen) {
     const cut = (text) => (text.length > 18 ? "…" + text.slice(-17) : text);
     const own = ({name}) => (name.startsWith(input.name + ":") ? name.slice(input.name.length + 1) : name);
+    const several = input.channels.length > 1 && !report.data.copies;
+    const channels = report.data.copies ? [chosen || input.channels[0]] : input.channels;
     return report.data.afferents.flatMap((afferent, index) => {
         const color = afferentColour(index);
-        return input.channels.map((channel) => ({
-            afferent: afferent.name, channel, chosen: channel === chosen, color, spikes: report.spikes(afferent, channel),
-            label: cut(input.channels.length > 1 ? `${afferent.name} ${own(channel)}` : afferent.name)}));
+        return channels.flatMap((channel) => report.members(afferent).map((member) => ({
+            afferent: afferent.name, channel, chosen: channel === chosen, color, spikes: report.spikes(member, channel),
+            label: cut(several ? `${member.name} ${own(channel)}` : member.name)})));
     });
 }
 
 /// The channel with most spikes: of many, the first may have felt nothing.
 function liveliest(input) {
-    const count = (channel) => report.data.afferents.reduce((sum, afferent) => sum + report.spikes(afferent, channel).count, 0);
+    const count = (channel) => report.data.afferents.flatMap((afferent) => report.members(afferent)).reduce((sum, one) => sum + report.spikes(one, channel).count, 0);
     return input.channels.reduce((best, channel) => (count(channel) > count(best) ? channel : best));
 }
 
@@ -173,7 +185,8 @@ function forPaper(on) {
 }
 
 /// For tests, and for looking at a report from the browser's console.
-///   charts                       the dygraphs shown, by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency"
+///   charts                       the dygraphs shown, by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency",
+///                              and of copies "population"
 ///   valueAt(part, t, afferent)   of the chosen channel, at the sample nearest to t: a number; [least, greatest] where the
 ///                                trace keeps only these; null where there is no such trace. "force" has no afferent
 ///   window(), setWindow(a, b)    the seconds shown; setting draws at once

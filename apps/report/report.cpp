@@ -22,9 +22,9 @@ Json trace_document(std::uint32_t channel, const Json& afferent, std::string_vie
             {"data", base64(e.values().data(), e.values().size() * sizeof(float))}};
 }
 
-Json parameter_document(const Parameter& p) {
-    return {{"name", p.row.name}, {"value", p.value},           {"unit", p.row.unit},     {"default", p.row.initial},
-            {"set", p.set},       {"sentence", p.row.sentence}, {"source", p.row.source}, {"of", p.of}};
+Json parameter_document(const Parameter& p, double value) {
+    return {{"name", p.row.name},         {"value", value},         {"unit", p.row.unit}, {"default", p.row.initial}, {"set", p.set},
+            {"sentence", p.row.sentence}, {"source", p.row.source}, {"of", p.of}};
 }
 
 Json level(const AfferentPlan& plan, std::string_view name) {
@@ -32,13 +32,30 @@ Json level(const AfferentPlan& plan, std::string_view name) {
     return value ? Json(*value) : Json(nullptr);
 }
 
+/// At least `of` parts of a length, each 1, 2 or 5 times a power of ten.
+double round_part(double length, int of) {
+    const double most = length / of * (1 + 1e-9);
+    double decade = 1;
+    while (decade > most) decade /= 10;
+    while (10 * decade <= most) decade *= 10;
+    return decade * (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1);
+}
+
+/// A value, or of copies their mean and standard deviation.
+Json cell_document(const RateRow& row, std::size_t m) {
+    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+    if (row.over.empty() || row.over[m].copies < 2) return number(row.values[m]);
+    return {number(row.over[m].mean()), number(row.over[m].deviation())};
+}
+
 Json table_document(const Summary& summary) {
     Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
     const auto told = summary.columns();
-    for (const auto m : told) columns.push_back(heading(measures[m])), decimals.push_back(measures[m].decimals);
+    const bool means = !summary.rows().empty() && !summary.rows()[0].over.empty();  // of counts, too
+    for (const auto m : told) columns.push_back(heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
     for (const auto& r : summary.rows()) {
         Json row = {r.afferent, r.channel, r.phase};
-        for (const auto m : told) row.push_back(std::isfinite(r.values[m]) ? Json(r.values[m]) : Json(nullptr));
+        for (const auto m : told) row.push_back(cell_document(r, m));
         rows.push_back(std::move(row));
     }
     return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
@@ -66,22 +83,23 @@ Json quality_document(const Summary& summary) {
 }  // namespace
 
 Result<void> Report::begin(const Input& input) {
-    const std::size_t traces = input.source.channels().size() * (1 + [&] {
-                                   std::size_t n = 0;
-                                   for (const auto& p : input.probes) n += p.size();
-                                   return n;
-                               }());
+    groups_ = groups_of(input.afferents);
+    const auto channels = input.source.channels().size();
+    std::size_t traces = 1;  // of a channel: the force, and of each afferent
+    for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
     // A trace over its share keeps pairs: two points each.
-    const std::size_t most = std::clamp<std::size_t>(most_points_ / (2 * traces * input.of), 16, std::size_t{1} << 20);
-    forces_.assign(input.source.channels().size(), Envelope(most));
+    const std::size_t most = std::clamp<std::size_t>(most_points_ / (2 * traces * channels * input.of), 16, std::size_t{1} << 20);
+    forces_.assign(channels, Envelope(most));
     probes_.clear();
-    for (std::size_t u = 0; u < input.units(); ++u) probes_.emplace_back(input.probes[u % input.afferents.size()].size(), Envelope(most));
+    for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
+        probes_.emplace_back(input.probes[groups_[k % groups()]].size(), Envelope(most));
     trains_.assign(input.units(), {});
     if (parts_.empty())
-        for (const auto& probes : input.probes) {
+        for (std::size_t g = 0; g < groups(); ++g) {
             Json parts = Json::array();
-            for (const auto& p : probes) parts.push_back({{"name", p.name}, {"unit", p.unit}});
+            for (const auto& p : input.probes[groups_[g]]) parts.push_back({{"name", p.name}, {"unit", p.unit}});
             parts_.push_back(std::move(parts));
+            first_.push_back(input.afferents[groups_[g]]);
         }
     return {};
 }
@@ -91,9 +109,37 @@ Result<void> Report::block(const Input& input, const Answered& answered) {
         for (std::size_t k = 0; k < answered.force.count; ++k) forces_[c].add(answered.force.force[c][k]);
     for (std::size_t u = 0; u < probes_.size(); ++u)
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
-            for (std::size_t k = 0; k < answered.force.count; ++k) probes_[u][p].add(answered.probes[u][p][k]);
+            for (std::size_t k = 0; k < answered.force.count; ++k)
+                probes_[u][p].add(answered.probes[unit(u / groups(), u % groups())][p][k]);
     for (const auto& s : answered.spikes) trains_[s.unit - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
     return {};
+}
+
+/// The trains of an afferent on a channel, or of its first copies.
+void Report::tell_spikes(const Input& input, std::size_t channel, std::size_t group) {
+    const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], most_copies);
+    for (std::size_t k = 0; k < shown; ++k) {
+        const auto& train = trains_[unit(channel, group) + k];
+        spikes_.push_back({{"afferent", input.afferents[groups_[group] + k].name},
+                           {"channel", first_channel_ + channel},
+                           {"count", train.size()},
+                           {"times", base64(train.data(), train.size() * sizeof(double))}});
+    }
+}
+
+/// How often its copies fire together: spikes a copy and second, in even bins.
+void Report::tell_rate(const Input& input, std::size_t channel, std::size_t group, std::int64_t samples) {
+    auto clock = input.source.clock();
+    const double t0 = std::exchange(clock.t0, 0.0), length = clock.time(samples), bin = round_part(length, 100);
+    const auto copies = groups_[group + 1] - groups_[group];
+    std::vector<double> rates(static_cast<std::size_t>(std::max(std::ceil(length / bin - 1e-9), 1.0)));
+    for (std::size_t k = 0; k < copies; ++k)
+        for (const double t : trains_[unit(channel, group) + k])
+            ++rates[std::min(static_cast<std::size_t>(std::max(t - t0, 0.0) / bin + 1e-9), rates.size() - 1)];
+    for (std::size_t b = 0; b < rates.size(); ++b)
+        rates[b] /= static_cast<double>(copies) * std::min(bin, length - static_cast<double>(b) * bin);
+    rates_.push_back(
+        {{"afferent", base_name(input.afferents[groups_[group]])}, {"channel", first_channel_ + channel}, {"bin", bin}, {"values", rates}});
 }
 
 Result<void> Report::end(const Input& input, std::int64_t samples) {
@@ -103,17 +149,15 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
         traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), nullptr, "force", "N", forces_[c]));
     }
     for (const auto& p : input.source.phases()) phases.push_back({{"name", p.name}, {"from", p.from}, {"to", p.to}});
-    for (std::size_t u = 0; u < input.units(); ++u) {
-        const auto channel = first_channel_ + static_cast<std::uint32_t>(input.channel_of(u));
-        const auto& name = input.afferent_of(u).name;
-        const auto& probes = input.probes[u % input.afferents.size()];
-        for (std::size_t p = 0; p < probes.size(); ++p)
-            traces_.push_back(trace_document(channel, name, probes[p].name, probes[p].unit, probes_[u][p]));
-        spikes_.push_back({{"afferent", name},
-                           {"channel", channel},
-                           {"count", trains_[u].size()},
-                           {"times", base64(trains_[u].data(), trains_[u].size() * sizeof(double))}});
-    }
+    for (std::size_t c = 0; c < forces_.size(); ++c)
+        for (std::size_t g = 0; g < groups(); ++g) {
+            const auto& probes = input.probes[groups_[g]];
+            for (std::size_t p = 0; !probes_.empty() && p < probes.size(); ++p)
+                traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.afferents[groups_[g]]),
+                                                 probes[p].name, probes[p].unit, probes_[c * groups() + g][p]));
+            tell_spikes(input, c, g);
+            if (population_.copies > 0) tell_rate(input, c, g, samples);
+        }
     inputs_.push_back({{"name", input.name},
                        {"sentence", input.source.sentence()},
                        {"t0", input.source.clock().t0},
@@ -133,29 +177,38 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
         Json parameters = Json::array();
-        for (const auto& p : plan.parameters) parameters.push_back(parameter_document(p));
+        for (std::size_t k = 0; k < plan.values.size(); ++k) {
+            parameters.push_back(parameter_document((*plan.parameters)[k], plan.values[k]));
+            for (const auto& s : population_.spreads)
+                if (s.afferent == plan.name && s.parameter == (*plan.parameters)[k].row.name) parameters.back()["spread"] = s.deviation;
+        }
         afferents.push_back({{"name", plan.name},
                              {"made_of", plan.made_of()},
                              {"sentence", plan.sentence},
-                             {"V_th", level(plan, "V_th")},
-                             {"V_reset", level(plan, "V_reset")},
+                             {"V_th", level(first_[a], "V_th")},
+                             {"V_reset", level(first_[a], "V_reset")},
                              {"parameters", parameters},
                              {"parts", parts_[a]}});
     }
     for (const auto& w : warnings) remarks.push_back(w);
     for (const auto& i : summary.inputs())
         for (const auto& r : i.remarks) remarks.push_back(i.name + ": " + r);
-    const Json document = {{"title", title},
-                           {"program", fmt::format("corpuscle {}", version)},
-                           {"command", command},
-                           {"inputs", inputs_},
-                           {"afferents", afferents},
-                           {"traces", traces_},
-                           {"spikes", spikes_},
-                           {"table", table_document(summary)},
-                           {"quality", quality_document(summary)},
-                           {"remarks", remarks},
-                           {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
+    Json document = {{"title", title},
+                     {"program", fmt::format("corpuscle {}", version)},
+                     {"command", command},
+                     {"inputs", inputs_},
+                     {"afferents", afferents},
+                     {"traces", traces_},
+                     {"spikes", spikes_},
+                     {"table", table_document(summary)},
+                     {"quality", quality_document(summary)},
+                     {"remarks", remarks},
+                     {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
+    if (population_.copies > 0)
+        document["copies"] = {{"count", population_.copies},
+                              {"shown", std::min(population_.copies, most_copies)},
+                              {"traced", wants_probes()},
+                              {"rates", rates_}};
     return filled(asset("page.html"), escaped(title), safe_json(document));
 }
 

@@ -5,7 +5,6 @@
 
 #include "io/output.hpp"
 #include "report/envelope.hpp"
-#include "study/respond.hpp"
 #include "study/summary.hpp"
 
 namespace corpuscle {
@@ -14,9 +13,14 @@ namespace corpuscle {
 class Report final : public Listener {
 public:
     /// Points that all traces of a page may have together; with more channels or inputs each has fewer.
-    explicit Report(std::size_t most_points = std::size_t{32} << 20) : most_points_(most_points) {}
+    static constexpr std::size_t all_points = std::size_t{32} << 20;
+    explicit Report(std::size_t most_points = all_points, Copies population = {})
+        : most_points_(most_points), population_(std::move(population)) {}
 
-    bool wants_probes() const override { return true; }
+    /// Of each afferent so many copies have a row in the raster; with more of them there are no inner traces, else those of the first.
+    static constexpr std::uint32_t most_copies = 50;
+
+    bool wants_probes() const override { return population_.copies <= most_copies; }
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const Answered&) override;
     Result<void> end(const Input&, std::int64_t samples) override;
@@ -27,12 +31,21 @@ public:
 private:
     using Json = nlohmann::ordered_json;
     std::size_t most_points_;
-    std::vector<Envelope> forces_;               // of each channel of the input at work
-    std::vector<std::vector<Envelope>> probes_;  // [unit][probe]
-    std::vector<std::vector<double>> trains_;    // s
+    Copies population_;
+    std::vector<std::size_t> groups_;            // of the input at work: where each afferent's copies begin
+    std::vector<Envelope> forces_;               // of each channel
+    std::vector<std::vector<Envelope>> probes_;  // [channel and group][probe], of the first copy; empty if there are too many
+    std::vector<std::vector<double>> trains_;    // [unit], s
     std::uint32_t first_channel_ = 0;
-    Json parts_ = Json::array();  // of each afferent
-    Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array();
+
+    std::size_t groups() const { return groups_.size() - 1; }
+    /// The first unit of a group on a channel.
+    std::size_t unit(std::size_t channel, std::size_t group) const { return channel * groups_.back() + groups_[group]; }
+    void tell_spikes(const Input&, std::size_t channel, std::size_t group);
+    void tell_rate(const Input&, std::size_t channel, std::size_t group, std::int64_t samples);
+    std::vector<AfferentPlan> first_;  // each afferent, or its first copy
+    Json parts_ = Json::array();       // of each
+    Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
 
 }  // namespace corpuscle

@@ -56,7 +56,21 @@ std::optional<Error> not_whole(const AfferentPlan& plan) {
     return {};
 }
 
-/// What the rows alone cannot say: orders, whole numbers, a front that cannot measure its own range, words too short.
+}  // namespace
+
+std::vector<Order> orders_of(const AfferentPlan& plan) {
+    std::vector<Order> all;
+    const auto add = [&]<class M>() {
+        if constexpr (requires { M::orders; })
+            for (const auto& o : M::orders) all.push_back({o.lesser, o.greater, o.or_equal});
+    };
+    const auto model = [&]<template <class> class M>(Model<M>) { add.template operator()<M<double>>(); };
+    const auto part = [&]<class M>(Part<M>) { add.template operator()<M>(); };
+    with_part(Sensors{}, plan.sensor, part), with_part(Transducers{}, plan.transducer, part), with_part(Converters{}, plan.converter, part);
+    with_named(Receptors{}, plan.receptor, model), with_named(Neurons{}, plan.neuron, model);
+    return all;
+}
+
 std::optional<Error> refusal(const AfferentPlan& plan) {
     std::optional<Error> wrong;
     const auto model = [&]<template <class> class M>(Model<M>) {
@@ -76,8 +90,6 @@ std::optional<Error> refusal(const AfferentPlan& plan) {
     return wrong;
 }
 
-}  // namespace
-
 std::vector<Card> sensor_cards() {
     auto all = cards(Sensors{});
     for (auto& card : all)
@@ -90,8 +102,9 @@ std::vector<Card> receptor_cards() { return cards(Receptors{}); }
 std::vector<Card> neuron_cards() { return cards(Neurons{}); }
 
 std::optional<double> AfferentPlan::value(std::string_view parameter) const {
-    const auto at = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.row.name == parameter; });
-    return at == parameters.end() ? std::nullopt : std::optional(at->value);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if ((*parameters)[k].row.name == parameter) return values[k];
+    return {};
 }
 
 std::string AfferentPlan::made_of() const {
@@ -103,8 +116,15 @@ std::string AfferentPlan::made_of() const {
 
 std::vector<Setting> settings_of(const AfferentPlan& plan) {
     std::vector<Setting> settings;
-    for (const auto& p : plan.parameters) settings.push_back({p.row.name, p.value});
+    settings.reserve(plan.values.size());
+    for (std::size_t k = 0; k < plan.values.size(); ++k) settings.push_back({(*plan.parameters)[k].row.name, plan.values[k]});
     return settings;
+}
+
+bool goes_by(const AfferentPlan& plan, std::string_view asked, std::string_view name) {
+    if (name == asked || name == plan.name) return true;
+    const auto* named = afferent_named(name);
+    return named && named->name == plan.name;
 }
 
 Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> wishes) {
@@ -119,6 +139,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
                       named ? named->sentence : receptor.sentence,
                       named ? named->source : receptor.source,
                       {},
+                      {},
                       0,
                       parts->sensor,
                       parts->transducer,
@@ -126,27 +147,31 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
     if (named)
         plan.name = named->front.empty() && !parts->front().empty() ? fmt::format("{}+{}", parts->front(), named->name) : named->name;
     std::vector<Row> rows;
+    std::vector<Parameter> parameters;
     for (const auto& card : cards)
         for (const auto& row : card.rows) {
             rows.push_back(row);
-            plan.parameters.push_back({row, card.name, row.initial, false});
+            parameters.push_back({row, card.name});
+            plan.values.push_back(row.initial);
         }
     const auto apply = [&](std::span<const Setting> settings, bool by_user) {
         for (const auto& s : settings)
-            for (auto& p : plan.parameters)
-                if (p.row.name == s.name) p.value = s.value, p.set = by_user;
+            for (std::size_t k = 0; k < parameters.size(); ++k)
+                if (parameters[k].row.name == s.name) plan.values[k] = s.value, parameters[k].set = by_user;
     };
     if (named) {
         apply(named->settings, false);
-        for (auto& p : plan.parameters)
-            if (p.value != p.row.initial) p.row.initial = p.value, p.row.source = named->source;  // the name's own default
+        for (std::size_t k = 0; k < parameters.size(); ++k)
+            if (auto& row = parameters[k].row; plan.values[k] != row.initial)
+                row.initial = plan.values[k], row.source = named->source;  // the name's own default
     }
     for (const auto& wish : wishes) {  // by any name it has
-        if (wish.of != text && wish.of != plan.name && !(named && plan.name == named->name && afferent_named(wish.of) == named)) continue;
+        if (!goes_by(plan, text, wish.of)) continue;
         const auto settings = settings_for(wish.of, rows, std::span(&wish, 1));
         if (!settings) return settings.error();
         apply(*settings, true);
     }
+    plan.parameters = std::make_shared<const std::vector<Parameter>>(std::move(parameters));
     if (const auto wrong = refusal(plan)) return *wrong;
     with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
         if constexpr (requires { R<double>::least_rate; }) plan.least_rate = R<double>::least_rate;

@@ -1,6 +1,7 @@
 #pragma once
 // What can stand before a transduction, and the afferents that have a name. To add a sensor: its include and its name here.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,24 +49,41 @@ std::vector<Card> converter_cards();
 std::vector<Card> receptor_cards();
 std::vector<Card> neuron_cards();
 
-/// One parameter of an afferent, with the value it has.
+/// One parameter of an afferent.
 struct Parameter {
     Row row;
     std::string_view of;  ///< the part it belongs to
-    double value = 0;
-    bool set = false;  ///< by the user
+    bool set = false;     ///< by the user
+};
+
+/// Of two parameters of an afferent, one must stay below the other.
+struct Order {
+    std::string_view lesser, greater;
+    bool or_equal = false;
 };
 
 /// What an afferent is, before it is given a clock.
 struct AfferentPlan {
     std::string name;  ///< as asked for: "sa1", "sa1b+izhikevich"
     std::string_view receptor, neuron, sentence, source;
-    std::vector<Parameter> parameters;
+    std::shared_ptr<const std::vector<Parameter>> parameters;       ///< what they are; copies share it
+    std::vector<double> values;                                     ///< of each parameter, SI
     double least_rate = 0;                                          ///< Hz; below it the answer is not to be trusted
     std::string_view sensor = {}, transducer = {}, converter = {};  ///< "": there is none
+    std::uint32_t copy = 0;                                         ///< its number among its copies, from 1; 0: it is none
+    std::string of = {};                                            ///< the name of what it is a copy of
     std::optional<double> value(std::string_view parameter) const;
     std::string made_of() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
 };
+
+/// Whether the plan that was asked for as `asked` goes by this name.
+bool goes_by(const AfferentPlan&, std::string_view asked, std::string_view name);
+
+/// Which of its parameters must stand in which order.
+std::vector<Order> orders_of(const AfferentPlan&);
+
+/// What the rows alone cannot say: orders, whole numbers, a front that cannot measure its own range, words too short.
+std::optional<Error> refusal(const AfferentPlan&);
 
 /// The values of a plan's parameters, for `with`.
 std::vector<Setting> settings_of(const AfferentPlan&);

@@ -13,22 +13,21 @@ enum class Method { exact, backward_euler };
 template <class T>
 struct Current {
     T from, to;
-    T mean() const { return T(0.5) * (from + to); }
+    T sum() const { return from + to; }  ///< of its ends: twice its mean
     /// Where it begins below a level and ends above it.
     num::Mask<T> rises_through(T level) const { return (from < level) & (to > level); }
-    bool rises_somewhere_through(T level) const { return num::any(rises_through(level)); }
+    static constexpr bool may_rise() { return true; }
 };
 
-/// A current of one shape for all lanes, times each lane's own gain; the shape's mean is worked out once.
-template <class T>
+/// A current of one shape for all lanes, times each lane's own gain; the shape's mean is worked out once. V: of one lane.
+template <class T, class V, bool rising>
 struct Scaled {
-    T gain;
-    const Current<T>& shape;
-    T middle;
-    bool rising;  ///< the shape does
-    operator Current<T>() const { return {gain * shape.from, gain * shape.to}; }
-    T mean() const { return gain * middle; }
-    bool rises_somewhere_through(T level) const { return rising && Current<T>(*this).rises_somewhere_through(level); }
+    T gain, both;
+    V from, to;
+    operator Current<T>() const { return {gain * T(from), gain * T(to)}; }
+    T sum() const { return gain * both; }
+    num::Mask<T> rises_through(T level) const { return Current<T>(*this).rises_through(level); }
+    static constexpr bool may_rise() { return rising; }
 };
 
 /// High-pass x' + 2 pi f x = K F', under a force that is a straight line in each step.

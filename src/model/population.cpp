@@ -34,10 +34,10 @@ const L* named(std::span<const L> all, std::string_view name) {
 
 /// Whether the parameters of one part are the same in all plans.
 bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view part) {
-    const auto& first = plans[0]->parameters;
+    const auto& first = *plans[0];
     for (const auto* plan : plans)
-        for (std::size_t k = 0; k < first.size(); ++k)
-            if (first[k].of == part && plan->parameters[k].value != first[k].value) return false;
+        for (std::size_t k = 0; k < first.values.size(); ++k)
+            if ((*first.parameters)[k].of == part && plan->values[k] != first.values[k]) return false;
     return true;
 }
 
@@ -45,8 +45,11 @@ bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view p
 std::optional<Error> unlike(std::span<const AfferentPlan* const> plans) {
     const auto& first = *plans[0];
     for (const auto* plan : plans) {
-        if (plan->made_of() != first.made_of())
+        if (plan->receptor != first.receptor || plan->neuron != first.neuron)
             return bad_input(fmt::format("a population of {} cannot hold a {}", first.made_of(), plan->made_of()));
+        for (std::size_t k = 0; k < first.values.size(); ++k)
+            if (const auto& p = (*first.parameters)[k]; p.row.one_for_all && plan->values[k] != first.values[k])
+                return bad_input(fmt::format("{} is one for all of a population: {:g} and {:g} cannot both be", p.row.name, first.values[k], plan->values[k]));
     }
     return {};
 }

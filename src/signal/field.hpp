@@ -20,6 +20,7 @@ struct Field {
     double low, high;       ///< the allowed range, ends included
     std::string_view sentence;
     std::string_view source = {};  ///< where the default comes from, if not from where the model does
+    bool one_for_all = false;      ///< copies of an afferent share it: a choice of how they are computed or measured
 };
 
 /// Two parameters of which one must stay below the other.
@@ -38,7 +39,8 @@ struct Row {
     double initial;  ///< the default
     double low, high;
     std::string_view sentence;
-    std::string_view source;  ///< of the default; "": the source of the whole card
+    std::string_view source;   ///< of the default; "": the source of the whole card
+    bool one_for_all = false;  ///< copies of an afferent share it
 };
 
 /// Something with a name and parameters, as catalogues show it.
@@ -57,7 +59,7 @@ template <class P>
 std::vector<Row> rows_of(std::span<const Field<P>> fields) {
     const P initial;
     std::vector<Row> rows;
-    for (const auto& f : fields) rows.push_back({f.name, f.unit, initial.*f.at, f.low, f.high, f.sentence, f.source});
+    for (const auto& f : fields) rows.push_back({f.name, f.unit, initial.*f.at, f.low, f.high, f.sentence, f.source, f.one_for_all});
     return rows;
 }
 

@@ -21,6 +21,25 @@ template <class V>
 bool any(xsimd::batch_bool<V> m) {
     return xsimd::any(m);
 }
+/// Whether any of several masks has a lane. (For AVX-512 two at once: or-ing them would send each through a general register.)
+template <std::size_t J, class V>
+[[gnu::always_inline]] inline bool any_of(const xsimd::batch_bool<V> (&m)[J]) {
+    bool any = false;
+#ifdef __AVX512F__
+    for (std::size_t j = 0; j < J; j += 2) {
+        const auto first = m[j].data, second = m[j + 1 < J ? j + 1 : j].data;
+        if constexpr (sizeof(V) == 8)
+            any = any || !_kortestz_mask8_u8(first, second);
+        else
+            any = any || !_kortestz_mask16_u8(first, second);
+    }
+#else
+    auto all = m[0];
+    for (std::size_t j = 1; j < J; ++j) all = all | m[j];
+    any = xsimd::any(all);
+#endif
+    return any;
+}
 template <class V>
 Lanes<V> select(xsimd::batch_bool<V> m, Lanes<V> yes, Lanes<V> no) {
     return xsimd::select(m, yes, no);

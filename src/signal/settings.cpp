@@ -31,17 +31,23 @@ Result<Wish> parse_wish(std::string_view text) {
                 std::string(text.substr(equals + 1))};
 }
 
+Result<const Row*> row_for(const Wish& w, std::span<const Row> rows) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == w.parameter; });
+    if (row == rows.end()) return bad_input(unknown_parameter(w, rows));
+    return &*row;
+}
+
 Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const Row> rows, std::span<const Wish> wishes) {
     std::vector<Setting> settings;
     for (const auto& w : wishes) {
         if (w.of != name) continue;
         w.used = true;
-        const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == w.parameter; });
-        if (row == rows.end()) return bad_input(unknown_parameter(w, rows));
-        const auto value = parse_quantity(w.value, row->unit);
+        const auto row = row_for(w, rows);
+        if (!row) return row.error();
+        const auto value = parse_quantity(w.value, (*row)->unit);
         if (!value) return bad_input(fmt::format("{}.{}: {}", w.of, w.parameter, value.error().sentence));
-        if (const auto wrong = outside(name, *row, *value)) return *wrong;
-        settings.push_back({row->name, *value});
+        if (const auto wrong = outside(name, **row, *value)) return *wrong;
+        settings.push_back({(*row)->name, *value});
     }
     return settings;
 }

@@ -22,6 +22,9 @@ struct Wish {
 /// Splits "sa1.f_B=25Hz"; what stands before the last dot is whom it is for.
 Result<Wish> parse_wish(std::string_view text);
 
+/// The row of `rows` that a wish names; refuses one that is not there.
+Result<const Row*> row_for(const Wish&, std::span<const Row> rows);
+
 /// The settings among `wishes` that are for `name`, in SI, checked against its rows; marks them used.
 Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const Row> rows, std::span<const Wish> wishes);
 

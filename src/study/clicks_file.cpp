@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/spread.hpp"
 #include "signal/elementary.hpp"
 
 namespace corpuscle {
 namespace {
 
-/// How much of afferent number a of n is heard on an ear: from all left to all right.
+/// How much of place number a of n is heard on an ear: from all left to all right.
 double share(std::size_t a, std::size_t n, std::size_t ear) {
     if (n == 1) return 1;
     const double right = static_cast<double>(a) / static_cast<double>(n - 1);
@@ -29,22 +30,29 @@ std::int64_t frame_of(double t) { return std::llround(t * ClicksFile::rate); }
 void ClicksFile::Close::operator()(sf_private_tag* wav) const { sf_close(wav); }
 
 /// Full at once, then decaying with a quarter of a millisecond.
-void ClicksFile::shape_clicks(const Input& input) {
-    const std::size_t afferents = input.afferents.size();
-    double together = 1;  // both ears are alike: the sum of the shares on one
-    if (afferents > 1) together = static_cast<double>(afferents) / 2;
+Result<void> ClicksFile::shape_clicks(const Input& input) {
+    const auto groups = groups_of(input.afferents);
+    const std::size_t places = groups.size() - 1;  // copies sound from the place of what they are copies of
+    place_of_.clear();
+    for (std::size_t p = 0; p < places; ++p) place_of_.resize(groups[p + 1], p);
+    ears_ = places == 1 ? 1 : 2;
+    const double together = static_cast<double>(input.afferents.size()) / (places == 1 ? 1 : 2);  // both ears are alike: the shares on one
     const double loudest = 0.9 * 32767 / (together * static_cast<double>(input.source.channels().size()));
-    click_.assign(afferents, {});
-    for (std::size_t a = 0; a < afferents; ++a)
+    if (loudest < 1)
+        return bad_input(fmt::format("'{}': of {} units at once each would be too soft for 16 bits; answer it without --wav", input.name,
+                                     input.units()));
+    click_.assign(places, {});
+    for (std::size_t p = 0; p < places; ++p)
         for (std::int64_t k = 0; k < frames; ++k)
             for (std::size_t ear = 0; ear < ears_; ++ear)
-                click_[a].push_back(static_cast<int>(loudest * share(a, afferents, ear) * num::exp(static_cast<double>(-4 * k) / frames)));
+                click_[p].push_back(static_cast<int>(loudest * share(p, places, ear) * num::exp(static_cast<double>(-4 * k) / frames)));
+    return {};
 }
 
 Result<void> ClicksFile::begin(const Input& input) {
     auto file = OutputFile::create(numbered(directory_, "spikes", ".wav", input.index));
     if (!file) return file.error();
-    ears_ = input.afferents.size() == 1 ? 1 : 2;
+    if (auto ok = shape_clicks(input); !ok) return ok;
     SF_INFO info = {};
     info.samplerate = rate;
     info.channels = static_cast<int>(ears_);
@@ -52,17 +60,16 @@ Result<void> ClicksFile::begin(const Input& input) {
     std::unique_ptr<sf_private_tag, Close> wav(sf_open_fd(fileno(file->stream()), SFM_WRITE, &info, SF_FALSE));
     if (!wav) return bad_input(fmt::format("cannot be written: {}", sf_strerror(nullptr)), {file->path()});
     sounds_.push_back({std::move(*file), std::move(wav)});
-    shape_clicks(input);
     last_.assign(input.units(), -frames);
     ahead_.clear();
     written_ = 0;
     return {};
 }
 
-void ClicksFile::click(std::size_t unit, std::size_t afferent, std::int64_t frame) {
+void ClicksFile::click(std::size_t unit, std::size_t sound, std::int64_t frame) {
     const auto place = [this](std::int64_t f) { return static_cast<std::size_t>(f - written_) * ears_; };
     ahead_.resize(std::max(ahead_.size(), place(frame + frames)));
-    const auto& shape = click_[afferent];
+    const auto& shape = click_[sound];
     const auto since = static_cast<std::size_t>(std::min(frame - last_[unit], frames)) * ears_;
     for (std::size_t k = since; k < shape.size(); ++k) ahead_[place(frame) + k - since] -= shape[k];
     for (std::size_t k = 0; k < shape.size(); ++k) ahead_[place(frame) + k] += shape[k];
@@ -90,7 +97,7 @@ Result<void> ClicksFile::block(const Input& input, const Answered& answered) {
             {sounds_.back().file.path()});
     for (const auto& s : answered.spikes) {
         const std::size_t unit = s.unit - input.first_unit;
-        click(unit, unit % input.afferents.size(), frame_of(since_start(input, s.step, s.offset)));
+        click(unit, place_of_[unit % input.afferents.size()], frame_of(since_start(input, s.step, s.offset)));
     }
     return write_up_to(frame_of(so_far));  // what comes later is behind this block's last sample
 }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/catalog.hpp"
+#include "model/population.hpp"
 #include "signal/source.hpp"
 
 namespace corpuscle {
@@ -16,7 +16,7 @@ struct Input {
     const Source& source;
     std::string name;  ///< the source's; a second of the same name is "press (2)"
     std::span<const AfferentPlan> afferents;
-    std::span<const std::span<const Probe>> probes;  ///< of each afferent
+    std::span<const std::span<const Probe>> probes;  ///< of each afferent; empty where nobody wants them and it is on lanes
     std::uint32_t first_unit = 0;
     std::size_t index = 0, of = 1;  ///< which input this is, of how many
 
@@ -59,6 +59,8 @@ struct RespondOptions {
     bool sampled = false;
     double noise = 0;          ///< of every membrane: see Run
     std::uint64_t seed = 0;    ///< of the noise
+    Precision precision = Precision::in_double;
+    Pool* pool = nullptr;      ///< threads; the answer does not depend on it; null: the caller's alone
     std::size_t block = 4096;  ///< samples; the answer does not depend on it
     /// Called once a block with the share done, 0 to 1; false stops the run.
     std::function<bool(double)> keep_on = [](double) { return true; };

@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string key_of(const Measure& m) { return m.unit.empty() ? std::string(m.name) : std::string(m.name) + "_" + std::string(m.unit); }
-
 /// A key that the object does not have yet: with 100,000 channels it is not looked for.
 void add(Json& object, std::string key, Json value) { object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)}); }
 
@@ -21,8 +19,10 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json afferent_document(const AfferentPlan& plan) {
     Json parameters = Json::object();
-    for (const auto& p : plan.parameters)
-        parameters[std::string(p.row.name)] = {{"value", p.value}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+    for (std::size_t k = 0; k < plan.values.size(); ++k) {
+        const auto& p = (*plan.parameters)[k];
+        parameters[std::string(p.row.name)] = {{"value", plan.values[k]}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+    }
     return {{"name", plan.name},
             {"made_of", plan.made_of()},
             {"transduction", plan.receptor},
@@ -71,14 +71,47 @@ Json input_document(const Summary::InputFacts& input) {
             {"quality", quality_document(input)}};
 }
 
+Json over_document(const OverCopies& over) {
+    return {{"mean", number(over.mean())},
+            {"standard_deviation", number(over.deviation())},
+            {"least", number(over.least)},
+            {"greatest", number(over.greatest)},
+            {"copies", over.copies}};
+}
+
 Json row_document(const RateRow& row) {
     Json out = {{"afferent", row.afferent}, {"channel", row.channel}, {"phase", row.phase}};
     for (std::size_t m = 0; m < std::size(measures); ++m)
-        out[key_of(measures[m])] = measures[m].decimals == 0 ? Json(static_cast<std::int64_t>(row.values[m])) : number(row.values[m]);
+        out[key_of(measures[m])] = !row.over.empty()           ? over_document(row.over[m])
+                                   : measures[m].decimals == 0 ? Json(static_cast<std::int64_t>(row.values[m]))
+                                                               : number(row.values[m]);
     return out;
 }
 
 }  // namespace
+
+void OverCopies::add(double x) {
+    if (std::isnan(x)) return;
+    if (copies++ == 0) least = greatest = x;
+    least = std::min(least, x), greatest = std::max(greatest, x);
+    sum_ += x;
+    const double off = x - middle_;
+    middle_ += off / static_cast<double>(copies);
+    squares_ += off * (x - middle_);
+}
+
+std::string key_of(const Measure& m) { return m.unit.empty() ? std::string(m.name) : fmt::format("{}_{}", m.name, m.unit); }
+
+Json document_of(const Copies& population) {
+    Json spreads = Json::array();
+    for (const auto& s : population.spreads)
+        spreads.push_back({{"afferent", s.afferent},
+                           {"parameter", s.parameter},
+                           {"standard_deviation", s.deviation},
+                           {"unit", s.unit},
+                           {"share", s.share ? Json(*s.share) : Json(nullptr)}});
+    return {{"of_each_afferent", population.copies}, {"spreads", spreads}};
+}
 
 std::string heading(const Measure& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
@@ -111,11 +144,28 @@ Result<void> Summary::end(const Input& input, std::int64_t samples) {
     facts.samples = samples;
     facts.quality = input.source.quality();
     tally_.end(since_start_.time(samples));
-    for (std::size_t u = 0; u < input.units(); ++u)
-        for (std::size_t p = 0; p < std::max<std::size_t>(facts.phases.size(), 1); ++p)
-            rows_.push_back({input.afferent_of(u).name, facts.channels[input.channel_of(u)],
-                             facts.phases.empty() ? "all" : facts.phases[p].name, tally_.values(u, p)});
+    const auto groups = groups_of(input.afferents);
+    for (std::size_t c = 0; c < facts.channels.size(); ++c)
+        for (std::size_t g = 0; g + 1 < groups.size(); ++g)
+            for (std::size_t p = 0; p < std::max<std::size_t>(facts.phases.size(), 1); ++p)
+                rows_.push_back(row(input, c, groups[g], groups[g + 1], p));
     return {};
+}
+
+/// Of the afferents from ... to - 1, which are one, or the copies of one.
+RateRow Summary::row(const Input& input, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const {
+    const auto& facts = inputs_.back();
+    const std::size_t first = channel * input.afferents.size();
+    RateRow row{base_name(input.afferents[from]), facts.channels[channel], facts.phases.empty() ? "all" : facts.phases[phase].name,
+                tally_.values(first + from, phase)};
+    if (input.afferents[from].copy == 0) return row;
+    row.over.resize(std::size(measures));
+    for (std::size_t a = from; a < to; ++a) {
+        const auto values = tally_.values(first + a, phase);
+        for (std::size_t m = 0; m < values.size(); ++m) row.over[m].add(values[m]);
+    }
+    for (std::size_t m = 0; m < row.values.size(); ++m) row.values[m] = row.over[m].mean();
+    return row;
 }
 
 std::vector<std::size_t> Summary::columns() const {

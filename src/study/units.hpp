@@ -28,7 +28,6 @@ private:
     struct Single {
         std::uint32_t unit;
         State state;
-        std::vector<std::vector<double>> probes = {};
         std::vector<Spike> spikes = {};
         std::int64_t capped = 0, clipped = 0, overflowed = 0;
         std::optional<Error> error = {};
@@ -37,8 +36,6 @@ private:
     Units(Input input, std::size_t block, bool probed);
     Result<void> seat(const RespondOptions& options, InstructionSet set);
     Result<void> seat_crowds(std::span<const std::size_t> plans, const Run& run, const RespondOptions& options, InstructionSet set);
-    Result<void> seat_crowd(std::vector<const AfferentPlan*> plans, std::vector<std::uint32_t> units, bool one_channel, const Run& run,
-                            const RespondOptions& options, InstructionSet set);
     Result<void> answer_crowd(Crowd& crowd, Pool& pool, Work& work);
     void answer_single(Single& single);
     Result<void> answer_singles(Pool& pool, Work& work);
@@ -48,7 +45,7 @@ private:
     Input input_;
     bool probed_;
     Frames force_;
-    std::vector<std::unique_ptr<Afferent>> afferents_;  // of each plan; none where all of its units are in crowds of a kind seen
+    std::vector<std::unique_ptr<Afferent>> afferents_;  // of each plan; none where its units are in crowds
     std::vector<std::span<const Probe>> probes_of_;
     std::vector<Crowd> crowds_;
     std::vector<Single> singles_;

@@ -59,6 +59,60 @@ TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "notes.txt", "spikes.csv", "spikes.npz", "summary.json"}));
 }
 
+TEST(Program, CopiesAreAnsweredSummarisedAndTabledTheSameTwice) {
+    const Folder folder;
+    const std::string words =
+        "respond press sine --copies 60 --spread sa1.f_B=10% --spread fa1.V_th=20mV --noise 20nA --seed 3 --out answer --report";
+    const auto ran = run(folder, words);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("60 copies of each afferent; mean +- standard deviation of those that have a value\n"), std::string::npos)
+        << ran.out;
+    const std::vector<std::string> files = {"copies.csv", "report.html", "spikes.csv", "summary.json"};
+    std::map<std::string, std::string> first;
+    for (const auto& name : files) first[name] = test::read_file(folder / ("answer/" + name));
+    ASSERT_EQ(run(folder, words).status, 0);
+    for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
+    const auto summary = Json::parse(first["summary.json"]);
+    EXPECT_EQ(summary["copies"]["of_each_afferent"], 60);
+    EXPECT_EQ(summary["copies"]["spreads"][0],
+              (Json{{"afferent", "sa1"}, {"parameter", "f_B"}, {"standard_deviation", 2.0}, {"unit", "Hz"}, {"share", 0.1}}));
+    EXPECT_EQ(summary["copies"]["spreads"][1]["share"], nullptr);
+    EXPECT_EQ(summary["afferents"].size(), 2U);
+    EXPECT_EQ(summary["rates"].size(), 2U * 5 + 2);
+    EXPECT_EQ(summary["rates"][2]["afferent"], "sa1");
+    EXPECT_EQ(summary["rates"][2]["spikes"]["copies"], 60);
+    EXPECT_GT(summary["rates"][2]["spikes"]["standard_deviation"], 0.0);
+    const auto compared = Json::parse(run(folder, "compare answer/spikes.csv answer/spikes.csv --json").out);
+    EXPECT_EQ(compared["pairs"].size(), 3U * 60) << "fa1 is silent under the sine";
+    EXPECT_EQ(compared["total"]["missing"], 0);
+    EXPECT_NE(run(folder, "respond press --out answer").out.find("Removed, of an earlier run: copies.csv, report.html\n"),
+              std::string::npos);
+}
+
+TEST(Program, OneCopyIsTheAfferentItself) {
+    const Folder folder;
+    ASSERT_EQ(run(folder, "respond press -a sa1,fa1-lee --noise 50nA --out plain").status, 0);
+    ASSERT_EQ(run(folder, "respond press -a sa1,fa1-lee --noise 50nA --copies 1 --out one").status, 0);
+    auto spikes = test::read_file(folder / "one/spikes.csv");
+    for (std::size_t at; (at = spikes.find("#1")) != spikes.npos;) spikes.erase(at, 2);
+    EXPECT_EQ(spikes, test::read_file(folder / "plain/spikes.csv"));
+}
+
+TEST(Program, ACopySetToWhatItsRowSaysAnswersAsItDid) {
+    const Folder folder;
+    ASSERT_EQ(run(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --traces --out answer").status, 0);
+    const auto table = test::read_file(folder / "answer/copies.csv"), spikes = test::read_file(folder / "answer/spikes.csv");
+    const auto row = table.substr(table.find("sa1#7,press,") + 12);
+    const auto f_B = row.substr(0, row.find(',')), V_th = row.substr(f_B.size() + 1, row.find(',', f_B.size() + 1) - f_B.size() - 1);
+    ASSERT_EQ(run(folder, "respond press -a sa1 --set sa1.f_B=" + f_B + " --set sa1.V_th=" + V_th + " --out same").status, 0);
+    std::string mine = "afferent,channel,time_s\n";
+    std::istringstream lines(spikes);
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("sa1#7,")) mine += "sa1" + line.substr(5) + "\n";
+    EXPECT_EQ(mine, test::read_file(folder / "same/spikes.csv"));
+    EXPECT_NE(test::read_file(folder / "answer/traces.csv").find(",sa1#9.press.u [V]\n"), std::string::npos);
+}
+
 TEST(Program, CompareTellsWhatMatches) {
     const Folder folder;
     ASSERT_EQ(run(folder, "respond press --afferent sa1,fa1,sa1-kim --npz --out a").status, 0);
@@ -161,6 +215,17 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --noise -1nA", 2, "--noise '-1nA' is below 0; write a standard deviation, such as '50 nA'"},
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
+        {"respond press --spread sa1.f_B=10%", 2, "--spread sa1.f_B=10%: it tells copies apart; say how many: --copies 100"},
+        {"respond press --copies 9 --spread f_B=10%", 2, "--spread 'f_B=10%': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'"},
+        {"respond press --copies 9 --spread fa2.k=10%", 2, "--spread fa2.k=10%: no afferent 'fa2' takes part; did you mean 'fa1'?"},
+        {"respond press --copies 9 --spread fa1.I_leak0=10ms", 1,
+         "--spread fa1.I_leak0=10ms: '10ms' is a time; A is wanted, such as '2 A'"},
+        {"respond press --copies 51 --traces --out answer", 2,
+         "--traces is for 50 copies at the most, not 51: ask for fewer, or --set what one of copies.csv has"},
+        {"respond press --copies 51 --vectors --out answer -a sa1-kim", 2,
+         "--vectors is for 50 copies at the most, not 51: ask for fewer, or --set what one of copies.csv has"},
+        {"respond press --copies 30000 --wav --out answer --set press.t_hold=0s", 1,
+         "'press': of 60000 units at once each would be too soft for 16 bits; answer it without --wav"},
         {"respond press --scale 2", 2, "--scale is for recordings, and press is a stimulus; --set press.PARAMETER=VALUE changes it"},
         {"respond press --wav", 2, "--wav needs --out DIR to write into"},
         {"respond press --bin 0s --out answer", 2, "--bin 0s: a bin is longer than nothing, such as 10ms"},
@@ -181,6 +246,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
     }
     EXPECT_EQ(run(folder, "").status, 2);
     EXPECT_EQ(run(folder, "respond press --sampeld").status, 2);
+    for (const auto* n : {"0", "-1", "1000001", "ten"}) EXPECT_EQ(run(folder, "respond press --copies " + std::string(n)).status, 2) << n;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
 }
 
@@ -210,7 +276,8 @@ TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
 
 TEST(Program, AStateThatIsNoLongerANumberIsToldNotHidden) {
     const Folder folder;
-    const auto ran = run(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer");  // far too stiff for its substep
+    const auto ran =
+        run(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
     EXPECT_EQ(ran.status, 3);
     EXPECT_NE(ran.err.find("sa1b+adex on press: sa1b+adex: its state left the finite numbers"), std::string::npos) << ran.err;
     EXPECT_TRUE(folder.names().empty());

@@ -392,6 +392,56 @@ class SpikesOnly(Page):
         self.assertLess(self.js("return corpuscle.pointsDrawn().frequency.rows / corpuscle.pointsDrawn().frequency.width"), 3)
 
 
+class FewCopies(Page):
+    @classmethod
+    def report(cls):
+        return respond("few-copies.html", "--afferent", "sa1,fa1", "--copies", "20", "--spread", "sa1.V_th=10%", "--spread", "fa1.k_A=10%")
+
+    def test_every_copy_has_a_row_and_the_first_its_traces(self):
+        self.assertEqual(self.panels(), ["force", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane", "raster", "population", "frequency"])
+        self.assertGreater(min(self.inked().values()), 80)
+        labels = [label.text for label in self.browser.find_elements(By.CSS_SELECTOR, '[data-panel="raster"] .dygraph-axis-label-y')]
+        self.assertEqual(labels, [f"{name}#{k}" for name in ("sa1", "fa1") for k in range(1, 21)])
+        first = max(spike_times(self.data, "sa1#1"))
+        u, V_th = self.js("return corpuscle.valueAt('u', arguments[0], 'sa1')", first - self.input["T"]), self.data["afferents"][0]["V_th"]
+        self.assertNotEqual(V_th, 0.5)
+        self.assertLess(abs(u - V_th), 0.01, "just before its spike the membrane shown is at that copy's threshold")
+
+    def test_the_rate_is_of_all_copies(self):
+        for rate in self.data["copies"]["rates"]:
+            trains = [r for r in self.data["spikes"] if r["afferent"].startswith(rate["afferent"] + "#")]
+            self.assertEqual(len(trains), 20)
+            self.assertAlmostEqual(sum(rate["values"]) * rate["bin"] * 20, sum(r["count"] for r in trains), places=6)
+            times = [t for r in trains for t in numbers("d", r["times"])]
+            k = max(range(len(rate["values"])), key=lambda bin: rate["values"][bin])
+            within = sum(k * rate["bin"] <= t < (k + 1) * rate["bin"] for t in times)
+            self.assertAlmostEqual(rate["values"][k], within / 20 / rate["bin"], places=6)
+            self.hover("population", (k + 0.5) * rate["bin"])
+            self.assertAlmostEqual(si(self.readout("population", rate["afferent"])), rate["values"][k], delta=6e-4 * rate["values"][k])
+
+    def test_the_tables_have_means_and_deviations(self):
+        cells = [cell.text for cell in self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr:nth-child(3) td")]
+        self.assertEqual(cells[:3], ["sa1", "press", "plateau"])
+        self.assertRegex(cells[3], r"^\d+\.\d ± \d+\.\d$")
+        self.assertIn("500 mV ± 50 mV", self.browser.find_element(By.ID, "parameters").text.replace("\u00a0", " "))
+        self.assertEqual(self.readout("raster", "sa1"), str(sum(r["count"] for r in self.data["spikes"] if r["afferent"].startswith("sa1#"))))
+
+
+class ManyCopies(Page):
+    @classmethod
+    def report(cls):
+        return respond("many-copies.html", "--afferent", "sa1,fa1", "--copies", "300", "--spread", "sa1.V_th=10%")
+
+    def test_the_first_fifty_are_shown_and_it_says_so(self):
+        self.assertEqual(self.panels(), ["force", "raster", "population", "frequency"])
+        self.assertGreater(min(self.inked().values()), 80)
+        self.assertEqual(len(self.data["spikes"]), 2 * 50)
+        text = self.browser.find_element(By.ID, "figures").text
+        self.assertIn("the first 50 of 300 copies of each afferent, a row each. The rate below them is of all 300.", text)
+        self.assertIn("of more than 50 copies no currents and membranes are kept", text)
+        self.screenshot("many-copies.png")
+
+
 class Million(Page):
     @classmethod
     def report(cls):

@@ -1,11 +1,12 @@
-// Any text as names and settings: an afferent or stimulus that runs and stays finite, or an error with a sentence.
+// Any text as names, settings and spreads: an afferent or stimulus that runs and stays finite, copies that can stand, or an error with
+// a sentence.
 
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
-#include "model/catalog.hpp"
+#include "model/spread.hpp"
 #include "signal/stimuli.hpp"
 
 using namespace corpuscle;
@@ -43,6 +44,21 @@ void run(const AfferentPlan& plan, Source& source, Method method) {
         if (std::isnan(x)) std::abort();
 }
 
+/// The same settings as spreads: copies that can stand, or an error with a sentence.
+void draw(std::string_view text, std::span<const Wish> wishes) {
+    const auto plan = plan_afferent(text, {});
+    if (!plan) return;
+    const auto spreads = spreads_for(*plan, text, wishes);
+    if (!spreads) return spreads.error().sentence.empty() ? std::abort() : void();
+    const auto copies = copies_of(*plan, 3, *spreads, 1);
+    if (!copies) return copies.error().sentence.empty() ? std::abort() : void();
+    for (const auto& copy : *copies) {
+        if (refusal(copy)) std::abort();
+        for (std::size_t k = 0; k < copy.values.size(); ++k)
+            if (outside(copy.name, (*copy.parameters)[k].row, copy.values[k])) std::abort();
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -52,6 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (auto wish = parse_wish(lines[k])) wishes.push_back(std::move(*wish));
     const auto plan = plan_afferent(lines[0], wishes);
     if (!plan && plan.error().sentence.empty()) std::abort();
+    draw(lines[0], wishes);
     if (lines.size() < 2 || !is_stimulus(lines[1])) return 0;
     const auto source = make_stimulus(lines[1], wishes, 1e3, 1);
     if (!source && source.error().sentence.empty()) std::abort();

@@ -57,7 +57,7 @@ TEST(Contract, EveryRowHasASentenceAReadableUnitAndItsDefaultInRange) {
 TEST(Contract, ValuesOutsideARowsRangeAreRefusedByName) {
     for (const auto& name : every_afferent()) {
         const auto plan = test::sure(plan_afferent(name, {}));
-        for (const auto& p : plan.parameters) {
+        for (const auto& p : *plan.parameters) {
             for (const double value : {p.row.high * 2 + 1, p.row.low - std::abs(p.row.low) - 1}) {
                 const Wish wish{name, std::string(p.row.name), fmt::format("{}", value)};
                 const auto refused = plan_afferent(name, std::span(&wish, 1));

@@ -96,12 +96,13 @@ std::vector<std::vector<double>> forces(std::size_t units, double rate, double s
 }
 
 /// A plan whose parameters lie about their defaults.
-AfferentPlan spread(AfferentPlan plan, std::uint64_t seed, std::uint32_t unit) {
-    std::uint32_t number = 0;
-    for (auto& p : plan.parameters) {
-        const double x = p.value * (1 + 0.1 * normal(seed, unit, number++, 0));
-        if (p.row.name == "t_ref") p.value = unit % 3 ? 0 : 1e-3 * unit;
-        else if (p.row.name != "substep" && p.row.name != "V_reset" && p.row.name != "c") p.value = std::clamp(x, p.row.low, p.row.high);
+AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t unit) {
+    for (std::uint32_t k = 0; k < plan.values.size(); ++k) {
+        const auto& row = (*plan.parameters)[k].row;
+        auto& value = plan.values[k];
+        if (row.name == "t_ref") value = unit % 3 ? 0 : 1e-3 * unit;
+        else if (!row.one_for_all && row.name != "V_reset" && row.name != "c")
+            value = std::clamp(value * (1 + 0.1 * normal(seed, unit, k, 0)), row.low, row.high);
     }
     return plan;
 }
@@ -109,7 +110,7 @@ AfferentPlan spread(AfferentPlan plan, std::uint64_t seed, std::uint32_t unit) {
 Case own_parameters(const std::string& name, std::size_t units, const Run& run, double seconds, std::uint64_t seed) {
     Case c{{}, forces(units, 1 / run.dt, seconds), run};
     const auto plan = sure(plan_afferent(name, {}));
-    for (std::uint32_t u = 0; u < units; ++u) c.plans.push_back(spread(plan, seed, u));
+    for (std::uint32_t u = 0; u < units; ++u) c.plans.push_back(scattered(plan, seed, u));
     return c;
 }
 

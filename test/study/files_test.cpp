@@ -1,6 +1,7 @@
 // What respond writes, read back.
 
 #include "study/files.hpp"
+#include "model/spread.hpp"
 
 #include <sndfile.h>
 
@@ -9,6 +10,7 @@
 
 #include "io/npz.hpp"
 #include "io/spikes.hpp"
+#include "model/spread.hpp"
 #include "study/bins_file.hpp"
 #include "study/clicks_file.hpp"
 #include "study/npz_file.hpp"
@@ -214,6 +216,25 @@ TEST(ClicksFile, SetsAfferentsFromLeftToRightAndNeverClips) {
     for (std::size_t k = 0; k < one.samples.size(); k += 2) on_left += one.samples[k] != 0, on_right += one.samples[k + 1] != 0;
     EXPECT_GT(on_left, 40);
     EXPECT_EQ(on_right, 0);
+}
+
+TEST(ClicksFile, LetsCopiesSoundFromThePlaceOfWhatTheyAreCopiesOf) {
+    const Folder folder;
+    const Still source(Clock{10000, 1, 0.0}, {"a"});
+    std::vector<AfferentPlan> copies;
+    for (const auto& plan : plans({"sa1", "fa1"}))
+        for (auto& copy : sure(copies_of(plan, 3, {}, 0))) copies.push_back(std::move(copy));
+    for (std::uint32_t unit = 0; unit < 6; ++unit) {
+        ClicksFile clicks(folder.path());
+        hand(source, copies, {{100, 1, unit}}, 400, 50, {&clicks});
+        ASSERT_TRUE(clicks.commit());
+        const auto heard = listen_to(folder / "spikes.wav");
+        ASSERT_EQ(heard.ears, 2);
+        int loudest[2] = {0, 0};
+        for (std::size_t k = 0; k < heard.samples.size(); ++k) loudest[k % 2] = std::max<int>(loudest[k % 2], heard.samples[k]);
+        EXPECT_EQ(loudest[unit < 3 ? 0 : 1], 9830) << "a third of nine tenths of the full range";
+        EXPECT_EQ(loudest[unit < 3 ? 1 : 0], 0);
+    }
 }
 
 TEST(ClicksFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {

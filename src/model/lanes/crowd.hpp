@@ -45,8 +45,7 @@ class Crowd final : public Population {
     struct Job {
         std::vector<Event> events;
         std::int64_t capped = 0, unmarked = 0;
-        bool strange = false;  // some force may be no number
-        bool lost = false;     // some state is none
+        bool lost = false;  // some state is no number: so was a force, or something grew too large
     };
 
     /// A list of firings that empties itself into a job, or into marks.
@@ -63,7 +62,7 @@ class Crowd final : public Population {
         void mark(const Firing& f) {
             auto& word = marks[f.step];
             const auto bits = f.bits << f.unit;
-            job.unmarked += std::popcount(word & bits);
+            if ((word & bits) != 0) job.unmarked += std::popcount(word & bits);
             word |= bits;
         }
         void list(const Firing& f, const V* offsets) {
@@ -91,7 +90,7 @@ class Crowd final : public Population {
     std::int64_t step_ = 0;
     std::optional<std::size_t> kind_;
     std::array<ProfileCurrents, most_outputs> currents_;
-    std::array<std::array<Buffer<V>, 3>, most_outputs> currents_in_v_;  // from, to, mean
+    std::array<std::array<Buffer<V>, 3>, most_outputs> currents_in_v_;  // from, to, both
     Buffer<V> profile_;
     std::vector<Scratch> scratch_;
     std::vector<Job> jobs_;
@@ -121,9 +120,9 @@ class Crowd final : public Population {
         if (!once) return in_v({profile.force.begin(), profile.force.end()}, profile_);
         cast_.once->run(profile.force, step_ == 0, currents_);
         for (int k = 0; k < cast_.receptor->outputs; ++k) {
-            auto& [from, to, mean] = currents_in_v_[static_cast<std::size_t>(k)];
+            auto& [from, to, both] = currents_in_v_[static_cast<std::size_t>(k)];
             const auto& c = currents_[static_cast<std::size_t>(k)];
-            in_v(c.from, from), in_v(c.to, to), in_v(c.mean, mean);
+            in_v(c.from, from), in_v(c.to, to), in_v(c.both, both);
         }
     }
 
@@ -141,6 +140,13 @@ class Crowd final : public Population {
         }
     }
 
+    /// What the next chunk reads: half of it is asked for while the transductions work, half while the neurons do.
+    template <class E>
+    static Ahead after(const E* rows, int steps) {
+        const auto chunk_size = static_cast<std::size_t>(steps) * tile_units;
+        return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E) / 2};
+    }
+
     TransductionCall<V> transduction(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
         const auto [models, stride] = this->models(cast_.receptors, *cast_.receptor, tile);
         TransductionCall<V> c{};
@@ -152,23 +158,23 @@ class Crowd final : public Population {
             rows_of(*columns, tile * tile_units, step, steps, s.rows.data());
             c.feed = Feed::rows, c.rows = s.rows.data();
         } else if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) {
-            c.feed = Feed::rows, c.rows = tiles->rows + row;
+            c.feed = Feed::rows, c.rows = tiles->rows + row, c.ahead = after(c.rows, steps);
         } else if (const auto* words = std::get_if<ForceWords>(&b.force)) {
-            c.feed = Feed::words, c.words = words->rows + row, c.scale = static_cast<V>(words->scale);
+            c.feed = Feed::words, c.words = words->rows + row, c.scale = static_cast<V>(words->scale), c.ahead = after(c.words, steps);
         } else {
             c.feed = Feed::profile, c.profile = profile_.data() + step;
         }
         return c;
     }
 
-    NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector& fired) const {
+    NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector& fired, Ahead ahead) const {
         const auto [models, stride] = this->models(cast_.neurons, *cast_.neuron, tile);
         NeuronCall<V> c{};
-        c.models = models, c.stride = stride, c.units = units_of(tile), c.steps = steps, c.fired = &fired;
+        c.models = models, c.stride = stride, c.units = units_of(tile), c.steps = steps, c.fired = &fired, c.ahead = ahead;
         c.state = neuron_state(tile) + static_cast<std::size_t>(output) * cast_.neuron->state_values * tile_units;
         if (b.once) {
-            const auto& [from, to, mean] = currents_in_v_[static_cast<std::size_t>(output)];
-            c.from = from.data() + step, c.to = to.data() + step, c.mean = mean.data() + step, c.gain = s.gain.data();
+            const auto& [from, to, both] = currents_in_v_[static_cast<std::size_t>(output)];
+            c.from = from.data() + step, c.to = to.data() + step, c.both = both.data() + step, c.gain = s.gain.data();
         } else {
             c.from = s.from.data() + output * chunk * tile_units, c.to = s.to.data() + output * chunk * tile_units;
         }
@@ -179,11 +185,12 @@ class Crowd final : public Population {
     /// on the sample; exact has no time to cover yet.
     void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, Job& job) const {
         const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
+        Ahead ahead{};
         if (!b.once) {
-            auto c = transduction(b, tile, step, steps, s);
+            const auto c = transduction(b, tile, step, steps, s);
             if (first) cast_.receptor->start(c);
             cast_.receptor->run(c);
-            if (!std::isfinite(c.sum)) job.strange = true;
+            ahead = {c.ahead.at + c.ahead.bytes, c.ahead.bytes};
         }
         Collector fired{{s.firings.data(), sampled_ || first ? nullptr : s.offsets.data(), 0, 0, valid(tile), 0,
                          [](FiringList<V>& list) { static_cast<Collector&>(list).empty(); }},
@@ -193,7 +200,7 @@ class Crowd final : public Population {
                         static_cast<std::uint32_t>(step),
                         cast_.lanes};
         for (int k = 0; k < cast_.receptor->outputs; ++k) {
-            const auto c = firing(b, tile, k, step, steps, s, fired);
+            const auto c = firing(b, tile, k, step, steps, s, fired, k == 0 ? ahead : Ahead{});
             if (first) cast_.neuron->start(c);
             if (!silent) cast_.neuron->run(c);
             fired.empty();
@@ -203,11 +210,12 @@ class Crowd final : public Population {
 
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
-        job.events.clear(), job.capped = job.unmarked = 0, job.strange = job.lost = false;
+        job.events.clear(), job.capped = job.unmarked = 0, job.lost = false;
         for (std::size_t tile = number * tiles_a_job; tile < std::min(tiles_, (number + 1) * tiles_a_job); ++tile) {
             if (const auto* profile = std::get_if<ForceProfile>(&b.force)) gains_of(*profile, tile * tile_units, s.gain.data());
             for (std::size_t step = 0; step < b.steps;) {
-                const int steps = step_ == 0 && step == 0 ? 1 : static_cast<int>(std::min<std::size_t>(chunk, b.steps - step));
+                const std::size_t most = b.once ? 256 : chunk;  // without currents of their own, units need no short chunks
+                const int steps = step_ == 0 && step == 0 ? 1 : static_cast<int>(std::min<std::size_t>(most, b.steps - step));
                 run_chunk(b, tile, step, steps, s, job);
                 step += static_cast<std::size_t>(steps);
             }
@@ -265,11 +273,8 @@ class Crowd final : public Population {
 
     /// What jobs found that must not be.
     std::optional<Error> wrong(const Block& b, PopulationAnswer& answer) const {
-        bool strange = false, anything_lost = false;
-        for (const auto& job : jobs_) strange |= job.strange, anything_lost |= job.lost;
-        if (strange)
-            if (auto error = no_force(b, answer)) return error;
-        if (!anything_lost) return {};
+        if (std::none_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.lost; })) return {};
+        if (auto error = no_force(b, answer)) return error;
         const auto unit = first_lost();
         return unit ? std::optional(lost(*unit, b, answer)) : std::nullopt;
     }

@@ -73,16 +73,23 @@ template <class S, class V>
     for (std::size_t k = 0; k < sizeof(S) / sizeof(Batch<V>); ++k) values[k].store_aligned(state + k * tile_units + unit);
 }
 
-/// The force that a vector of units feels in a step.
+/// The force that vectors of a tile feel. A copy of what the call says: stores of lanes may be taken for changes of anything else.
 template <Feed feed, class V>
-[[gnu::always_inline]] inline Batch<V> force(const TransductionCall<V>& c, int step, int unit) {
-    if constexpr (feed == Feed::profile)
-        return Batch<V>(c.profile[step]) * load(c.gain + unit);
-    else if constexpr (feed == Feed::words)
-        return num::of_words<V>(c.words + step * tile_units + unit) * Batch<V>(c.scale);
-    else
-        return load(c.rows + step * tile_units + unit);
-}
+struct Force {
+    const V *rows, *profile, *gain;
+    const std::int16_t* words;
+    V scale;
+    explicit Force(const TransductionCall<V>& c, int unit)
+        : rows(c.rows + unit), profile(c.profile), gain(c.gain + unit), words(c.words + unit), scale(c.scale) {}
+    [[gnu::always_inline]] Batch<V> at(int step, int unit) const {
+        if constexpr (feed == Feed::profile)
+            return Batch<V>(profile[step]) * load(gain + unit);
+        else if constexpr (feed == Feed::words)
+            return num::of_words<V>(words + step * tile_units + unit) * Batch<V>(scale);
+        else
+            return load(rows + step * tile_units + unit);
+    }
+};
 
 // ---- transductions ----
 
@@ -91,34 +98,51 @@ void start(const TransductionCall<V>& c) {
     for (int unit = 0; unit < tile_units; unit += width<V>) {
         const auto& r = model<R>(c.models, c.stride, unit / width<V>);
         const auto at = [&](Feed f) {
-            return f == Feed::profile ? force<Feed::profile>(c, 0, unit) : f == Feed::words ? force<Feed::words>(c, 0, unit) : force<Feed::rows>(c, 0, unit);
+            return f == Feed::profile ? Force<Feed::profile, V>(c, unit).at(0, 0)
+                   : f == Feed::words ? Force<Feed::words, V>(c, unit).at(0, 0)
+                                      : Force<Feed::rows, V>(c, unit).at(0, 0);
         };
         write(r.start(at(c.feed)), c.state, unit);
     }
 }
 
-/// Rows of force that are asked for ahead of their use.
-inline constexpr int rows_ahead = 32;
+/// Asks for memory ahead, some lines each time, so that all of it is asked for in `times`.
+class Asking {
+    const char *at_, *end_;
+    std::size_t step_;
+
+public:
+    Asking(Ahead ahead, int times)
+        : at_(ahead.at), end_(ahead.at + ahead.bytes), step_((ahead.bytes / static_cast<std::size_t>(times) + 63) / 64 * 64) {}
+    [[gnu::always_inline]] void some() {
+        const char* const until = at_ + step_ < end_ ? at_ + step_ : end_;
+        for (; at_ < until; at_ += 64) __builtin_prefetch(at_);
+    }
+};
+
+/// How often a loop over J vectors at once goes round for a tile.
+template <class V, int J, class Call>
+int rounds(const Call& c) {
+    return (c.units + J * width<V> - 1) / (J * width<V>) * c.steps;
+}
 
 /// J vectors of a tile at once, from `unit` on.
 template <class V, class R, Feed feed, int J>
-void transduce(TransductionCall<V>& c, int unit) {
+void transduce(const TransductionCall<V>& c, int unit, Asking& asked) {
     constexpr int w = width<V>;
     const R* r[J];
     typename R::State s[J];
-    Batch<V> sum[J];
     each_of<J>([&](auto j) __attribute__((always_inline)) {
         r[j] = &model<R>(c.models, c.stride, unit / w + j);
         s[j] = read<typename R::State>(c.state, unit + j * w);
-        sum[j] = Batch<V>(V(0));
     });
+    const Force<feed, V> force(c, unit);
     V *from = c.from + unit, *to = c.to + unit;
-    for (int t = 0; t < c.steps; ++t, from += tile_units, to += tile_units)
+    Asking asking = asked;
+    for (int t = 0, steps = c.steps; t < steps; ++t, from += tile_units, to += tile_units) {
+        if constexpr (feed != Feed::profile) asking.some();
         each_of<J>([&](auto j) __attribute__((always_inline)) {
-            const auto F = force<feed>(c, t, unit + j * w);
-            if constexpr (feed == Feed::rows)
-                if (j * w * sizeof(V) % 64 == 0) __builtin_prefetch(c.rows + (t + rows_ahead) * tile_units + unit + j * w);
-            if constexpr (feed != Feed::profile) sum[j] = sum[j] + F;
+            const auto F = force.at(t, j * w);
             Current<Batch<V>> i[R::outputs];
             r[j]->step(s[j], F, i);
             for (int k = 0; k < R::outputs; ++k) {
@@ -126,20 +150,19 @@ void transduce(TransductionCall<V>& c, int unit) {
                 i[k].to.store_aligned(to + k * chunk_steps<V> * tile_units + j * w);
             }
         });
-    each_of<J>([&](auto j) __attribute__((always_inline)) {
-        write(s[j], c.state, unit + j * w);
-        c.sum += sum[j].get(0);
-        for (int l = 1; l < w; ++l) c.sum += sum[j].get(static_cast<std::size_t>(l));
-    });
+    }
+    asked = asking;
+    each_of<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, unit + j * w); });
 }
 
 template <class V, class R>
-void transduce_tile(TransductionCall<V>& c) {
-    constexpr int J = 2;
+void transduce_tile(const TransductionCall<V>& c) {
+    constexpr int J = 4;
+    Asking asking(c.ahead, rounds<V, J>(c));
     for (int unit = 0; unit < c.units; unit += J * width<V>) {
-        if (c.feed == Feed::rows) transduce<V, R, Feed::rows, J>(c, unit);
-        if (c.feed == Feed::words) transduce<V, R, Feed::words, J>(c, unit);
-        if (c.feed == Feed::profile) transduce<V, R, Feed::profile, J>(c, unit);
+        if (c.feed == Feed::rows) transduce<V, R, Feed::rows, J>(c, unit, asking);
+        if (c.feed == Feed::words) transduce<V, R, Feed::words, J>(c, unit, asking);
+        if (c.feed == Feed::profile) transduce<V, R, Feed::profile, J>(c, unit, asking);
     }
 }
 
@@ -167,41 +190,100 @@ void start(const NeuronCall<V>& c) {
     for (int unit = 0; unit < tile_units; unit += width<V>) write(model<N>(c.models, c.stride, unit / width<V>).start(), c.state, unit);
 }
 
-template <class V, class N, bool scaled, int J>
-void fire(const NeuronCall<V>& c, int unit) {
+/// One step of a vector under its current, whatever happens in it.
+template <class N, class S, class I, class F>
+[[gnu::always_inline]] inline void step_one(const N& n, S& s, const I& i, const F& fired) {
+    const auto capped = n.step(s, i, fired);
+    if (num::any(capped)) fired.capped(capped);
+}
+
+/// One step of J vectors; current(j) is what flows into vector j. Where a neuron can tell at a glance that nothing happens, all are
+/// asked first, and those where something may are looked into one after another.
+template <bool waits, int J, class N, class S, class F, class I>
+[[gnu::always_inline]] inline void step_all(const N* const (&n)[J], S (&s)[J], const F (&fired)[J], const I& current) {
+    if constexpr (requires(S next) { n[0]->template glance<waits>(s[0], current(0), next); }) {
+        S next[J];
+        decltype(n[0]->template glance<waits>(s[0], current(0), next[0])) something[J];
+        each_of<J>([&](auto j) __attribute__((always_inline)) { something[j] = n[j]->template glance<waits>(s[j], current(j), next[j]); });
+        if (num::any_of(something)) [[unlikely]] {
+            S before[J], after[J];
+            unsigned where = 0;
+            each_of<J>([&](auto j) __attribute__((always_inline)) {
+                before[j] = s[j], after[j] = next[j];
+                where |= static_cast<unsigned>(num::any(something[j])) << j;
+            });
+            for (; where != 0; where &= where - 1) {
+                const int k = __builtin_ctz(where);
+                S one = before[k];
+                step_one(*n[k], one, current(k), fired[k]);
+                after[k] = one;
+            }
+            each_of<J>([&](auto j) __attribute__((always_inline)) { next[j] = after[j]; });
+        }
+        each_of<J>([&](auto j) __attribute__((always_inline)) { s[j] = next[j]; });
+    } else {
+        each_of<J>([&](auto j) __attribute__((always_inline)) { step_one(*n[j], s[j], current(j), fired[j]); });
+    }
+}
+
+template <class V, class N, bool scaled, bool waits, int J>
+void fire(const NeuronCall<V>& c, int unit, Asking& asked) {
     constexpr int w = width<V>;
+    using T = Batch<V>;
     const N* n[J];
     typename N::State s[J];
-    Batch<V> gain[J];
     Fired<V> fired[J];
     each_of<J>([&](auto j) __attribute__((always_inline)) {
         n[j] = &model<N>(c.models, c.stride, unit / w + j);
         s[j] = read<typename N::State>(c.state, unit + j * w);
         fired[j] = {c.fired, unit + j * w};
-        if constexpr (scaled) gain[j] = load(c.gain + unit + j * w);
     });
-    const V *from = c.from + (scaled ? 0 : unit), *to = c.to + (scaled ? 0 : unit);
-    for (int t = 0; t < c.steps; ++t) {
-        c.fired->step = t;
-        const auto one = [&](auto j, const auto& i) __attribute__((always_inline)) {
-            const auto capped = n[j]->step(s[j], i, fired[j]);
-            if (num::any(capped)) fired[j].capped(capped);
-        };
+    const V *from = c.from + (scaled ? 0 : unit), *to = c.to + (scaled ? 0 : unit), *gain = c.gain + (scaled ? unit : 0);
+    FiringList<V>& list = *c.fired;
+    Asking asking = asked;
+    const V* const both_ends = c.both;
+    for (int t = 0, steps = c.steps; t < steps; ++t) {
+        list.step = t;
+        if constexpr (!scaled) asking.some();
         if constexpr (scaled) {
-            const Current<Batch<V>> shape{Batch<V>(from[t]), Batch<V>(to[t])};
-            const Batch<V> middle(c.mean[t]);
-            each_of<J>([&](auto j) __attribute__((always_inline)) { one(j, Scaled<Batch<V>>{gain[j], shape, middle, to[t] > from[t]}); });
+            const T both(both_ends[t]);
+            const auto current = [&]<bool rising>(std::bool_constant<rising>) __attribute__((always_inline)) {
+                return [&](int j) __attribute__((always_inline)) { return Scaled<T, V, rising>{load(gain + j * w), both, from[t], to[t]}; };
+            };
+            if (to[t] > from[t])
+                step_all<waits, J>(n, s, fired, current(std::true_type{}));
+            else
+                step_all<waits, J>(n, s, fired, current(std::false_type{}));
         } else {
-            each_of<J>([&](auto j) __attribute__((always_inline)) { one(j, Current<Batch<V>>{load(from + t * tile_units + j * w), load(to + t * tile_units + j * w)}); });
+            step_all<waits, J>(n, s, fired, [&](int j) __attribute__((always_inline)) {
+                return Current<T>{load(from + t * tile_units + j * w), load(to + t * tile_units + j * w)};
+            });
         }
     }
+    asked = asking;
     each_of<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, unit + j * w); });
+}
+
+/// Whether one of J models of a tile, from `unit` on, may be in a refractory time.
+template <class V, class N, int J>
+bool any_waits(const NeuronCall<V>& c, int unit) {
+    bool any = false;
+    for (int j = 0; j < J; ++j) any |= model<N>(c.models, c.stride, unit / width<V> + j).may_wait();
+    return any;
 }
 
 template <class V, class N>
 void fire_tile(const NeuronCall<V>& c) {
     constexpr int J = 4;
-    for (int unit = 0; unit < c.units; unit += J * width<V>) c.gain ? fire<V, N, true, J>(c, unit) : fire<V, N, false, J>(c, unit);
+    Asking asking(c.ahead, rounds<V, J>(c));
+    for (int unit = 0; unit < c.units; unit += J * width<V>) {
+        if constexpr (requires(const N& n) { n.may_wait(); })
+            if (!any_waits<V, N, J>(c, unit)) {
+                c.gain ? fire<V, N, true, false, J>(c, unit, asking) : fire<V, N, false, false, J>(c, unit, asking);
+                continue;
+            }
+        c.gain ? fire<V, N, true, true, J>(c, unit, asking) : fire<V, N, false, true, J>(c, unit, asking);
+    }
 }
 
 // ---- the tables ----

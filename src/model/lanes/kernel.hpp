@@ -39,6 +39,12 @@ struct FiringList {
 
 enum class Feed { rows, words, profile };
 
+/// Memory to ask for on the way, evenly: what the next chunk reads. Arithmetic goes on while it comes.
+struct Ahead {
+    const char* at;
+    std::size_t bytes;
+};
+
 /// A tile's transductions over a chunk.
 template <class V>
 struct TransductionCall {
@@ -54,7 +60,7 @@ struct TransductionCall {
     const V* gain;     ///< [tile_units]
     V* from;           ///< out: currents, [output][chunk_steps][tile_units], A
     V* to;
-    V sum;  ///< out: finite if all forces were
+    Ahead ahead;
 };
 
 /// A tile's neurons over a chunk, under one output of the transduction.
@@ -66,11 +72,10 @@ struct NeuronCall {
     int units, steps;
     const V* from;  ///< [step][tile_units]; or, with gains, one value a step, and so
     const V* to;
-    const V* mean;
-    const V* gain;             ///< [tile_units]; null: every unit has its own currents
-    const std::byte* prefetch;  ///< what is read next, `prefetch_step` bytes a step; null: nothing
-    std::size_t prefetch_step;
+    const V* both;
+    const V* gain;  ///< [tile_units]; null: every unit has its own currents
     FiringList<V>* fired;
+    Ahead ahead;
 };
 
 template <class V>
@@ -81,7 +86,7 @@ struct ReceptorLanes {
     /// Makes the models of `count` units (a tile's), or one for all if it is 1, of an array of the receptor's Params.
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
     void (*start)(const TransductionCall<V>&);  ///< the state before the first row of force
-    void (*run)(TransductionCall<V>&);
+    void (*run)(const TransductionCall<V>&);
 };
 
 template <class V>

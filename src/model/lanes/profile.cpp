@@ -17,11 +17,11 @@ public:
         static_assert(R::outputs <= most_outputs);
         if (force.empty()) return;
         if (first) state_ = receptor_.start(force[0]);
-        for (auto& c : out) c.from.resize(force.size()), c.to.resize(force.size()), c.mean.resize(force.size());
+        for (auto& c : out) c.from.resize(force.size()), c.to.resize(force.size()), c.both.resize(force.size());
         for (std::size_t t = 0; t < force.size(); ++t) {
             Current<double> i[R::outputs];
             receptor_.step(state_, force[t], i);
-            for (std::size_t k = 0; k < R::outputs; ++k) out[k].from[t] = i[k].from, out[k].to[t] = i[k].to, out[k].mean[t] = i[k].mean();
+            for (std::size_t k = 0; k < R::outputs; ++k) out[k].from[t] = i[k].from, out[k].to[t] = i[k].to, out[k].both[t] = i[k].sum();
         }
     }
 };

@@ -11,9 +11,9 @@
 
 namespace corpuscle::lanes {
 
-/// A profile's currents, A: for each output, one value a step; those at its ends and its mean.
+/// A profile's currents, A: for each output, one value a step; those at its ends, and their sum.
 struct ProfileCurrents {
-    std::vector<double> from, to, mean;
+    std::vector<double> from, to, both;
 };
 
 class ProfileTransduction {

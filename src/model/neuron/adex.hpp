@@ -31,7 +31,7 @@ struct AdexFacts {
          "choice: V_T + 5 Delta_T; from there to the paper's 20 mV takes under 0.1 ms"},
         {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "membrane after a spike"},
         {"gain", &Params::gain, "", 0, 1e6, "from the transduction's current to the membrane's", "choice: tens of hertz at microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice", true},
     };
     static constexpr Below<Params> orders[] = {
         {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},

@@ -24,7 +24,7 @@ struct IzhikevichFacts {
         {"d", &Params::d, "V/s", -1e3, 1e3, "jump of recovery at a spike"},
         {"V_peak", &Params::V_peak, "V", -0.03, 0.2, "top of a spike"},
         {"gain", &Params::gain, "V/s/A", 0, 1e15, "from the transduction's current to dv/dt", "choice: tens of hertz at microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice", true},
     };
     static constexpr Below<Params> orders[] = {
         {"c", &Params::c, "V_peak", &Params::V_peak},

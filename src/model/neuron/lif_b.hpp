@@ -32,66 +32,79 @@ struct LifBFacts {
     static constexpr Probe parts[] = {{"u", "V"}};
 };
 
+/// The membrane is kept as its charge, told by the current that brings it in half a step: q = 2 C_m u / T, in A. Then a whole
+/// step under a straight-line current adds the sum of its ends, less twice the leak.
 template <class T>
 struct LifB : LifBFacts {
     struct State {
-        T u, wait;  // membrane; what is left of t_ref, in steps
+        T q, wait;  // charge; what is left of t_ref, in steps
     };
 
     template <class Values>
     LifB(const Values& value, double dt, Method)
-        : k(T(dt) / value(&Params::C_m)), I_leak0(value(&Params::I_leak0)), E_L(value(&Params::E_L)), V_th(value(&Params::V_th)),
-          V_reset(value(&Params::V_reset)), drop(V_th - V_reset), ref(value(&Params::t_ref) / dt), refractory(num::any(ref > T(0.0))) {}
+        : C(T(2.0) * value(&Params::C_m) / dt), I_leak0(value(&Params::I_leak0)), leak(T(2.0) * I_leak0), least(C * value(&Params::E_L)), theta(C * value(&Params::V_th)),
+          reset(C * value(&Params::V_reset)), drop(theta - reset), ref(value(&Params::t_ref) / dt), refractory(num::any(ref > T(0.0))) {}
 
-    State start() const { return {E_L, T(0.0)}; }
-    void show(const State& s, T (&out)[1]) const { out[0] = s.u; }
+    State start() const { return {least, T(0.0)}; }
+    void show(const State& s, T (&out)[1]) const { out[0] = s.q / C; }
+
+    /// A step in which nothing happens: no spike, no turn up through the leak, no refractory time (which need not be looked for
+    /// where may_wait() is false). Says where something may.
+    template <bool look_for_wait, class I>
+    [[gnu::always_inline]] num::Mask<T> glance(const State& s, const I& i, State& next) const {
+        next = {num::max(least, s.q + (i.sum() - leak)), s.wait};
+        num::Mask<T> something = next.q > theta;
+        if (i.may_rise()) something = something | i.rises_through(I_leak0);
+        if (look_for_wait) something = something | (s.wait > T(0.0));
+        return something;
+    }
+    bool may_wait() const { return refractory; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.
     template <class I, class Fired>
     [[gnu::always_inline]] num::Mask<T> step(State& s, const I& i, Fired&& fired) const {
-        const T gain = (i.mean() - I_leak0) * k, end = num::max(s.u + gain, E_L);  // of the whole step
-        if (num::any(end > V_th) || i.rises_somewhere_through(I_leak0) || (refractory && num::any(s.wait > T(0.0)))) {
-            const auto [now, over] = inside(s, gain, i, fired);
-            s = now;
+        State next;
+        if (num::any(refractory ? glance<true>(s, i, next) : glance<false>(s, i, next))) {
+            const auto [end, over] = inside(s, i.sum() - leak, i, fired);
+            s = end;
             return over;
         }
-        s.u = end;
+        s = next;
         return num::none<T>();
     }
 
 private:
-    T k, I_leak0, E_L, V_th, V_reset, drop, ref;
+    T C, I_leak0, leak, least, theta, reset, drop, ref;  // leak: of a step; then charges as q is, of E_L, V_th, V_reset
     bool refractory;
 
     struct Stepped {
-        State now;
+        State end;
         num::Mask<T> over;
     };
 
-    /// The same step looked into: u(x) = base + rise.at(x), never below E_L; from where it is no longer held, and between spikes.
+    /// The same step looked into: q(x) = base + rise.at(x), never below E_L's; from where it is no longer held, and between spikes.
     template <class Fired>
-    [[gnu::noinline, gnu::cold]] Stepped inside(State s, T gain, Current<T> i, Fired& fired) const {
-        const T a = (i.from - I_leak0) * k;
-        const Parabola<T> rise{a, T(2.0) * (gain - a)};
-        T x = num::min(s.wait, T(1.0)), base = s.u;
+    [[gnu::noinline, gnu::cold]] Stepped inside(State s, T whole, Current<T> i, Fired& fired) const {
+        const Parabola<T> rise{T(2.0) * (i.from - I_leak0), T(2.0) * (i.to - i.from)};
+        T x = num::min(s.wait, T(1.0)), base = s.q;
         s.wait = s.wait - x;
-        s.u = num::max(base + gain, E_L);
+        s.q = num::max(least, base + whole);
         const num::Mask<T> bends = i.rises_through(I_leak0) | (x > T(0.0));
-        base = num::select(bends, num::max(base - rise.at(x), E_L - rise.least_after(x)), base);
-        s.u = num::select(bends, num::max(base + gain, E_L), s.u);
-        num::Mask<T> over = s.u > V_th;
+        base = num::select(bends, num::max(base - rise.at(x), least - rise.least_after(x)), base);
+        s.q = num::select(bends, num::max(least, base + whole), s.q);
+        num::Mask<T> over = s.q > theta;
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
-            x = num::select(over, offset_from(rise.rises_through(V_th - base), x), x);
+            x = num::select(over, offset_from(rise.rises_through(theta - base), x), x);
             fired(over, x);
             T next = base - drop;
             if (refractory) {
                 const T free = x + ref, from = num::min(free, T(1.0));
                 s.wait = num::select(over, free - from, s.wait);
-                next = num::select(ref > T(0.0), V_reset - rise.at(from), next);
+                next = num::select(ref > T(0.0), reset - rise.at(from), next);
             }
             base = num::select(over, next, base);
-            s.u = num::select(over, num::max(base + gain, E_L), s.u);
-            over = over & (s.u > V_th);
+            s.q = num::select(over, num::max(least, base + whole), s.q);
+            over = over & (s.q > theta);
         }
         return {s, over};
     }

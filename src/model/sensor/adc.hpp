@@ -19,15 +19,21 @@ struct Adc {
     static constexpr std::string_view name = "adc", sentence = "analog-to-digital converter; behind it the algorithms run in fixed point";
     static constexpr std::string_view source = "thesis 1.3, fig. 6a; all values are a choice";
     static constexpr Field<Params> fields[] = {
-        {"bits", &Params::bits, "", 1, 16, "bits of a code"},
-        {"f_s", &Params::f_s, "Hz", 0.1, 1e6, "conversions a second, and steps of the algorithms"},
+        {"bits", &Params::bits, "", 1, 16, "bits of a code", {}, true},
+        {"f_s", &Params::f_s, "Hz", 0.1, 1e6, "conversions a second, and steps of the algorithms", {}, true},
         {"F_low", &Params::F_low, "N", -1e6, 1e6, "force of the lowest code"},
         {"F_high", &Params::F_high, "N", -1e6, 1e6, "force of the highest code"},
-        {"shared", &Params::shared, "", 0, 1,
-         "1: one converter takes all channels in turn, channel c of N late by c/(N f_s); 0: one a channel"},
-        {"linearise", &Params::linearise, "", 0, 1, "1: a table undoes the curve of sensor and transducer; 0: a straight line"},
-        {"word", &Params::word, "", 8, 32, "bits of a word of the algorithms"},
-        {"frac", &Params::frac, "", 0, 31, "bits of it behind the point: steps of 2^-frac N, uA, V"},
+        {"shared",
+         &Params::shared,
+         "",
+         0,
+         1,
+         "1: one converter takes all channels in turn, channel c of N late by c/(N f_s); 0: one a channel",
+         {},
+         true},
+        {"linearise", &Params::linearise, "", 0, 1, "1: a table undoes the curve of sensor and transducer; 0: a straight line", {}, true},
+        {"word", &Params::word, "", 8, 32, "bits of a word of the algorithms", {}, true},
+        {"frac", &Params::frac, "", 0, 31, "bits of it behind the point: steps of 2^-frac N, uA, V", {}, true},
     };
     static constexpr Below<Params> orders[] = {
         {"F_low", &Params::F_low, "F_high", &Params::F_high},

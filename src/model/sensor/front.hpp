@@ -15,7 +15,7 @@ struct Calibration {
     };
     static constexpr Field<Params> fields[] = {
         {"F_cal", &Params::F_cal, "N", 1e-6, 1e6, "force at which the chain is calibrated: a straight line through it and no force",
-         "choice: the top of the press"},
+         "choice: the top of the press", true},
     };
 };
 

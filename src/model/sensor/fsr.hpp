@@ -9,8 +9,8 @@ namespace corpuscle {
 /// A force sensing resistor, Interlink's FSR 400:   G_FSR = 1/R_0 + F^m / a,   F in gram-force, at F <= 0 only 1/R_0
 /// (thesis eq. 13; errata: R_F = a F^-m with a = 170 kohm gf^m.) Fitted from 50 gf to 4 kgf; the press begins below that, at 20 gf.
 /// Hysteresis is a relative play, a choice: what is read stays where it is while it lies between F and (1 + hysteresis) F, and
-/// moves with the end that meets it; so falling force is read up to that share too high, rising force as it is. Creep, drift
-/// and the spread from part to part are left out.
+/// moves with the end that meets it; so falling force is read up to that share too high, rising force as it is. Creep and
+/// drift are left out; the spread from part to part is --spread's.
 struct Fsr {
     struct Params {
         double R_0 = 10e6, R_1gf = 170e3, m = 0.72, hysteresis = 0;

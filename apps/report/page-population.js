@@ -1,0 +1,37 @@
+"use strict";
+// How often all copies of each afferent fire: spikes a copy and second, in even bins.
+
+const DASHES = [null, [6, 3], [2, 2], [8, 2, 2, 2]];
+
+/// A staircase for each afferent; a bin is as wide as the report has it.
+class PopulationPanel extends Panel {
+    /// `rates`: [{name, color, index, bin, values}].
+    constructor({rates, ...rest}) {
+        const highest = rates.reduce((high, {values}) => values.reduce((m, v) => Math.max(m, v), high), 0);
+        const power = prefixPower(highest, "Hz");
+        super({...rest, scale: 10 ** power, title: titleHtml(`rate a copy, in bins of ${quantity(rates[0].bin, "s", true)}`, PREFIXES[power] + "Hz"), bottom: true,
+               series: rates.map(({name, color, index}) => ({label: name, html: escaped(name), color, width: 1.6, dash: DASHES[index % DASHES.length]}))});
+        Object.assign(this, {rates, highest});
+    }
+
+    /// The last bin ends with the input.
+    edge(k) { return Math.min(this.input.t0 + k * this.rates[0].bin, endOf(this.input)); }
+    binAt(t) { return Math.floor((t - this.input.t0) / this.rates[0].bin); }
+
+    rows(a, b) {
+        const last = this.rates[0].values.length - 1, rows = [];
+        for (let k = Math.max(0, this.binAt(a)); k <= Math.min(last, this.binAt(b)); ++k)
+            for (const t of [this.edge(k), this.edge(k + 1)]) rows.push([t, ...this.rates.map(({values}) => values[k])]);
+        return rows;
+    }
+
+    range(rows) {
+        const high = rows && rows.length ? this.rates.reduce((m, _, k) => Math.max(m, greatest(rows, k + 1)), 0) : this.highest;
+        return [(high || 1) * -0.04, (high || 1) * 1.08];
+    }
+
+    read(t) {
+        const k = this.binAt(t);
+        this.rates.forEach(({values}, s) => { this.values[s].textContent = k in values ? quantity(values[k], "Hz") : "–"; });
+    }
+}

@@ -1,0 +1,61 @@
+#include "study/copies_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "io/spikes.hpp"
+#include "study/summary.hpp"
+
+namespace corpuscle {
+
+CopiesFile::CopiesFile(OutputFile file, const Copies& population) : file_(std::move(file)) {
+    for (const auto& s : population.spreads) {
+        auto at =
+            std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.parameter == s.parameter && c.unit == s.unit; });
+        if (at == columns_.end()) at = columns_.insert(at, Column{s.parameter, s.unit, {}});
+        at->afferents.push_back(s.afferent);
+    }
+    std::string header = "afferent,channel";
+    for (const auto& c : columns_)
+        header += "," + csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
+    for (const auto& m : measures) header += "," + csv_field(key_of(m));
+    (void)file_.write(header + "\n");
+}
+
+Result<void> CopiesFile::begin(const Input& input) {
+    since_start_ = input.source.clock();
+    since_start_.t0 = 0;
+    tally_ = Tally({{.cycle = input.source.cycle()}}, input.units());
+    return {};
+}
+
+Result<void> CopiesFile::block(const Input& input, const Answered& answered) {
+    for (const auto& s : answered.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
+    return {};
+}
+
+void CopiesFile::put_row(const Input& input, std::size_t unit) {
+    const auto out = std::back_inserter(text_);
+    const auto& plan = input.afferent_of(unit);
+    fmt::format_to(out, "{},{}", csv_field(plan.name), csv_field(input.channel_name(input.channel_of(unit))));
+    for (const auto& c : columns_) {
+        const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.of) != c.afferents.end();
+        differs ? fmt::format_to(out, ",{}", *plan.value(c.parameter)) : fmt::format_to(out, ",");
+    }
+    for (const double x : tally_.values(unit, 0)) std::isfinite(x) ? fmt::format_to(out, ",{:.9g}", x) : fmt::format_to(out, ",");
+    text_.push_back('\n');
+}
+
+Result<void> CopiesFile::end(const Input& input, std::int64_t samples) {
+    tally_.end(since_start_.time(samples));
+    for (std::size_t u = 0; u < input.units(); ++u) {
+        put_row(input, u);
+        if (text_.size() < std::size_t{1} << 16 && u + 1 < input.units()) continue;
+        if (auto ok = file_.write({text_.data(), text_.size()}); !ok) return ok;
+        text_.clear();
+    }
+    return {};
+}
+
+}  // namespace corpuscle

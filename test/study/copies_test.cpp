@@ -1,0 +1,167 @@
+// What is told of a population: the summary over its copies, and the table of what each is.
+
+#include "study/copies_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/spikes.hpp"
+#include "study/summary.hpp"
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder, test::sure;
+using Json = nlohmann::ordered_json;
+
+struct Populated {
+    std::vector<AfferentPlan> base, copies;
+    Copies population;
+};
+
+Populated populate(const std::vector<std::string>& names, std::uint32_t n, const std::vector<std::string>& spreads) {
+    Populated out;
+    out.population.copies = n;
+    for (const auto& name : names) {
+        out.base.push_back(sure(plan_afferent(name, {})));
+        const auto mine = sure(spreads_for(out.base.back(), name, test::wishes(spreads)));
+        for (auto& c : sure(copies_of(out.base.back(), n, mine, 4))) out.copies.push_back(c);
+        out.population.spreads.insert(out.population.spreads.end(), mine.begin(), mine.end());
+    }
+    return out;
+}
+
+void answer(std::span<const AfferentPlan> plans, std::initializer_list<Listener*> listeners) {
+    std::vector<std::unique_ptr<Source>> sources;
+    sources.push_back(sure(make_stimulus("press", {}, 2e3, 0)));
+    sources.push_back(sure(make_stimulus("sine", {}, 2e3, 0)));
+    (void)sure(respond(sources, plans, std::vector<Listener*>(listeners), {}));
+}
+
+struct Statistics {
+    double mean = no_value, deviation = no_value, least = no_value, greatest = no_value;
+    std::int64_t n = 0;
+};
+
+/// From the definitions.
+Statistics statistics(std::vector<double> x) {
+    std::erase_if(x, [](double v) { return std::isnan(v); });
+    Statistics s;
+    s.n = static_cast<std::int64_t>(x.size());
+    if (x.empty()) return s;
+    double sum = 0, squares = 0;
+    for (const double v : x) sum += v;
+    s.mean = sum / static_cast<double>(x.size());
+    for (const double v : x) squares += (v - s.mean) * (v - s.mean);
+    if (x.size() > 1) s.deviation = std::sqrt(squares / static_cast<double>(x.size() - 1));
+    std::sort(x.begin(), x.end());
+    s.least = x.front(), s.greatest = x.back();
+    return s;
+}
+
+bool alike(double a, double b) { return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-9 * (1 + std::abs(b)); }
+
+TEST(OverCopies, AreTheMeanDeviationLeastAndGreatestOfThoseThatHaveAValue) {
+    EXPECT_TRUE(rc::check("against the definitions", [] {
+        std::vector<double> x;
+        for (const int k : *rc::gen::container<std::vector<int>>(rc::gen::inRange(-1000, 1001)))
+            x.push_back(k % 7 == 0 ? no_value : k / 8.0);
+        OverCopies over;
+        for (const double v : x) over.add(v);
+        const auto right = statistics(x);
+        RC_ASSERT(over.copies == right.n);
+        RC_ASSERT(alike(over.mean(), right.mean) && alike(over.deviation(), right.deviation));
+        RC_ASSERT(alike(over.least, right.least) && alike(over.greatest, right.greatest));
+    }));
+}
+
+TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
+    const auto p = populate({"sa1", "fa1"}, 25, {"sa1.f_B=20%", "sa1.V_th=40%", "fa1.k_A=40%"});
+    auto alone = p.copies;  // the same plans as if each had been asked for
+    for (auto& plan : alone) plan.copy = 0;
+    Summary together, each;
+    answer(p.copies, {&together});
+    answer(alone, {&each});
+    ASSERT_EQ(together.rows().size(), 2U * 5 + 2);
+    ASSERT_EQ(each.rows().size(), 25 * together.rows().size());
+    for (const auto& row : together.rows())
+        for (std::size_t m = 0; m < std::size(measures); ++m) {
+            std::vector<double> values;
+            for (const auto& r : each.rows())
+                if (r.afferent.starts_with(row.afferent + "#") && r.channel == row.channel && r.phase == row.phase)
+                    values.push_back(r.values[m]);
+            ASSERT_EQ(values.size(), 25U);
+            const auto right = statistics(values);
+            const auto& over = row.over[m];
+            EXPECT_EQ(over.copies, right.n) << row.phase << ' ' << measures[m].name;
+            EXPECT_TRUE(alike(over.mean(), right.mean) && alike(over.deviation(), right.deviation)) << row.phase << ' ' << measures[m].name;
+            EXPECT_TRUE(alike(over.least, right.least) && alike(over.greatest, right.greatest)) << row.phase << ' ' << measures[m].name;
+        }
+}
+
+TEST(Summary, OfAHundredTimesTheCopiesIsNoLonger) {
+    const auto size = [](std::uint32_t n) {
+        const auto p = populate({"sa1"}, n, {"sa1.f_B=10%"});
+        Summary summary;
+        answer(p.copies, {&summary});
+        const auto document = summary.document(p.base, {}, {}, 0, {});
+        EXPECT_EQ(document["afferents"].size(), 1U);
+        EXPECT_EQ(document["rates"].size(), 6U);
+        EXPECT_EQ(document["rates"][1]["spikes"]["copies"], n);
+        return document.dump().size();
+    };
+    EXPECT_NEAR(static_cast<double>(size(300)), static_cast<double>(size(3)), 3000);
+}
+
+std::vector<std::vector<std::string>> table_of(const std::string& text) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream fields(line + ",");
+        rows.emplace_back();
+        for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+    }
+    return rows;
+}
+
+TEST(CopiesFile, HasWhatEachCopyIsAndEveryMeasureOfItsWholeTrain) {
+    const Folder folder;
+    const auto p = populate({"sa1", "fa1"}, 4, {"sa1.f_B=20%", "sa1.V_th=10%", "fa1.V_th=10%", "fa1.k_A=10%"});
+    CopiesFile file(sure(OutputFile::create(folder / "copies.csv")), p.population);
+    SpikesFile spikes(sure(OutputFile::create(folder / "spikes.csv")));
+    answer(p.copies, {&file, &spikes});
+    ASSERT_TRUE(bool(file.commit()) && bool(spikes.commit()));
+    const auto rows = table_of(test::read_file(folder / "copies.csv"));
+    ASSERT_EQ(rows.size(), 1U + 2 * 8);
+    const auto at = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin());
+    };
+    EXPECT_EQ((std::vector(rows[0].begin(), rows[0].begin() + 6)),
+              (std::vector<std::string>{"afferent", "channel", "f_B_Hz", "V_th_V", "k_A_A/N", "spikes"}));
+    EXPECT_EQ(rows[0].size(), 5 + std::size(measures));
+    const auto trains = sure(read_spikes(folder / "spikes.csv"));
+    EXPECT_EQ(trains.size(), 12U);
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        ASSERT_EQ(rows[k].size(), rows[0].size());
+        const auto& plan = *std::find_if(p.copies.begin(), p.copies.end(), [&](const auto& c) { return c.name == rows[k][0]; });
+        EXPECT_EQ(rows[k][1], k <= 8 ? "press" : "sine");
+        EXPECT_EQ(std::stod(rows[k][at("V_th_V")]), *plan.value("V_th")) << "every digit";
+        EXPECT_EQ(rows[k][at("f_B_Hz")].empty(), plan.of == "fa1");
+        EXPECT_EQ(rows[k][at("k_A_A/N")].empty(), plan.of == "sa1");
+        const auto train =
+            std::find_if(trains.begin(), trains.end(), [&](const auto& t) { return t.name() == rows[k][0] + "," + rows[k][1]; });
+        EXPECT_EQ(rows[k][at("vector_strength")].empty(), rows[k][1] == "press" || plan.of == "fa1")
+            << "the press has no cycle, fa1 no spikes";
+        EXPECT_EQ(std::stoul(rows[k][at("spikes")]), train == trains.end() ? 0 : train->times.size());
+        if (train == trains.end()) continue;  // silent
+        const auto rates = instantaneous_rates(train->times);
+        EXPECT_NEAR(std::stod(rows[k][at("peak_rate_Hz")]), *std::max_element(rates.begin(), rates.end()), 1e-3);
+        EXPECT_NEAR(std::stod(rows[k][at("latency_s")]), train->times[0], 1e-8);
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle
