@@ -36,7 +36,7 @@ AfferentPlan sa1() { return *plan_afferent("sa1", {}); }
 /// One thing that is timed: runs it once, returns the seconds it took.
 struct Timed {
     std::string name;
-    double work;        // afferent-steps (or bytes, operations) a run
+    double work;  // afferent-steps (or bytes, operations) a run
     std::string unit;
     std::function<double()> once;
     std::vector<double> seconds = {};
@@ -54,7 +54,8 @@ volatile double added_up;
 constexpr long most_rounds = 20'000'000;
 
 // Compiled for each instruction set; the best that the machine has is taken. (Not by lanes: they are what is measured.)
-__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops"))) double sum(const double* p, std::size_t count) {
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops"))) double sum(const double* p,
+                                                                                                                      std::size_t count) {
     typedef double Vector __attribute__((vector_size(64)));
     Vector s[4] = {};
     const auto* v = reinterpret_cast<const Vector*>(p);
@@ -99,7 +100,8 @@ std::unique_ptr<Population> made(std::size_t units, bool own, Precision precisio
     if (own)
         for (std::size_t u = 0; u < units; ++u)
             for (std::size_t k = 0; k < plans[u].values.size(); ++k)
-                if ((*plans[u].parameters)[k].row.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / static_cast<double>(units);
+                if ((*plans[u].parameters)[k].row.name == "f_B")
+                    plans[u].values[k] = 15 + 10 * static_cast<double>(u) / static_cast<double>(units);
     std::vector<const AfferentPlan*> pointers;
     for (const auto& p : plans) pointers.push_back(&p);
     auto result = make_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
@@ -184,21 +186,52 @@ int main(int argc, char** argv) {
     for (const auto set : sets.subspan(1)) {
         for (const auto precision : {Precision::in_double, Precision::in_float}) {
             const std::string tag = fmt::format("{} {}", name_of(set), precision == Precision::in_double ? "double" : "float");
-            const auto tiles = [&, precision](std::size_t, std::size_t) { return precision == Precision::in_double ? PopulationForce(ForceTiles<double>{doubles.rows.data()}) : PopulationForce(ForceTiles<float>{floats.rows.data()}); };
-            const auto profile = [&](std::size_t k, std::size_t n) { return PopulationForce(ForceProfile{std::span(f).subspan(k, n), gains}); };
+            const auto tiles = [&, precision](std::size_t, std::size_t) {
+                return precision == Precision::in_double ? PopulationForce(ForceTiles<double>{doubles.rows.data()})
+                                                         : PopulationForce(ForceTiles<float>{floats.rows.data()});
+            };
+            const auto profile = [&](std::size_t k, std::size_t n) {
+                return PopulationForce(ForceProfile{std::span(f).subspan(k, n), gains});
+            };
             const Run1 streamed{most, stream_steps, false, precision, true, false, Method::exact, set, tiles, stream_steps};
             add(tag + " streamed sampled", streamed);
-            auto v = streamed; v.sampled = false; add(tag + " streamed interpolated", v);
-            v = streamed; v.own = true; add(tag + " streamed own parameters", v);
-            v = streamed; v.force = [&](std::size_t, std::size_t) { return PopulationForce(ForceWords{words.data(), 1.0 / 8000}); }; add(tag + " int16 sampled", v);
+            auto v = streamed;
+            v.sampled = false;
+            add(tag + " streamed interpolated", v);
+            v = streamed;
+            v.own = true;
+            add(tag + " streamed own parameters", v);
+            v = streamed;
+            v.force = [&](std::size_t, std::size_t) { return PopulationForce(ForceWords{words.data(), 1.0 / 8000}); };
+            add(tag + " int16 sampled", v);
             const Run1 shape{most, 10000, false, precision, true, false, Method::exact, set, profile, 1000};
             add(tag + " profile sampled", shape);
-            v = shape; v.marks = true; add(tag + " profile sampled marks", v);
-            v = shape; v.sampled = false; add(tag + " profile interpolated", v);
-            v = shape; v.own = true; v.steps = 1000; add(tag + " profile own parameters", v);
-            const auto few = [&, precision](std::size_t, std::size_t) { return precision == Precision::in_double ? PopulationForce(ForceTiles<double>{doubles.rows.data()}) : PopulationForce(ForceTiles<float>{floats.rows.data()}); };
-            v = streamed; v.units = 1000; v.block = 100; v.steps = 10000; v.force = few; add(tag + " N=1000 streamed from the cache", v);
-            v = shape; v.units = 1000; v.force = [&](std::size_t k, std::size_t n) { return PopulationForce(ForceProfile{std::span(f).subspan(k, n), std::span(gains).first(1000)}); }; add(tag + " N=1000 profile sampled", v);
+            v = shape;
+            v.marks = true;
+            add(tag + " profile sampled marks", v);
+            v = shape;
+            v.sampled = false;
+            add(tag + " profile interpolated", v);
+            v = shape;
+            v.own = true;
+            v.steps = 1000;
+            add(tag + " profile own parameters", v);
+            const auto few = [&, precision](std::size_t, std::size_t) {
+                return precision == Precision::in_double ? PopulationForce(ForceTiles<double>{doubles.rows.data()})
+                                                         : PopulationForce(ForceTiles<float>{floats.rows.data()});
+            };
+            v = streamed;
+            v.units = 1000;
+            v.block = 100;
+            v.steps = 10000;
+            v.force = few;
+            add(tag + " N=1000 streamed from the cache", v);
+            v = shape;
+            v.units = 1000;
+            v.force = [&](std::size_t k, std::size_t n) {
+                return PopulationForce(ForceProfile{std::span(f).subspan(k, n), std::span(gains).first(1000)});
+            };
+            add(tag + " N=1000 profile sampled", v);
         }
     }
     for (auto& t : all) (void)t.once();  // warm

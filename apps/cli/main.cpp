@@ -91,6 +91,12 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     verb.add_option("--noise", w.noise, "a white current to every membrane: its standard deviation within 1 kHz, such as 100nA")
         ->type_name("CURRENT");
     verb.add_option("--seed", w.seed, "of everything random")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("N");
+    verb.add_option("--threads,-j", w.threads, "how many to use (0: one for each core); the answer does not depend on it")
+        ->check(CLI::Range(0U, 1024U))
+        ->capture_default_str()
+        ->type_name("N");
+    verb.add_flag("--float", w.in_float,
+                  "single precision: up to twice as fast, but spikes move by some microseconds; no currents and membranes are kept");
     verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
     verb.add_option("--channel,-c", w.channels,

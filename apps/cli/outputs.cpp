@@ -80,7 +80,7 @@ Result<void> Outputs::open(const RespondWords& w, const Copies& population) {
     auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
     if (!page) return page.error();
     report_file_ = std::move(*page);
-    report_.emplace(Report::all_points, population);
+    report_.emplace(Report::all_points, population, !w.in_float);
     return {};
 }
 

@@ -135,6 +135,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
             fmt::format("--vectors: {} has no converter, and so no words; try 'adc+{}'", job.afferents[0].name, job.afferents[0].name));
     job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
     job.options.sampled = w.sampled;
+    job.options.precision = w.in_float ? Precision::in_float : Precision::in_double;
     const auto noise = quantity(w.noise, "A", "--noise");
     if (!noise) return noise.error();
     if (noise->value_or(0) < 0)
@@ -224,6 +225,8 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (auto ok = outputs.open(w, job->population); !ok) return ok;
     print_remarks(*job, common.quiet);
 
+    Pool pool(w.threads);
+    job->options.pool = &pool;
     Summary summary;
     std::vector<Listener*> listeners = {&summary};
     outputs.listen(listeners);

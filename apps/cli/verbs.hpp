@@ -23,7 +23,9 @@ struct RespondWords {
     bool sampled = false, absolute = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
     std::uint64_t seed = 0;
-    std::uint32_t copies = 0;  ///< 0: not asked for
+    std::uint32_t copies = 0;   ///< 0: not asked for
+    std::uint32_t threads = 0;  ///< 0: as many as there are cores
+    bool in_float = false;
 };
 
 struct CompareWords {

@@ -14,13 +14,14 @@ class Report final : public Listener {
 public:
     /// Points that all traces of a page may have together; with more channels or inputs each has fewer.
     static constexpr std::size_t all_points = std::size_t{32} << 20;
-    explicit Report(std::size_t most_points = all_points, Copies population = {})
-        : most_points_(most_points), population_(std::move(population)) {}
+    /// `inner`: currents and membranes are shown, if there are not too many copies.
+    explicit Report(std::size_t most_points = all_points, Copies population = {}, bool inner = true)
+        : most_points_(most_points), population_(std::move(population)), inner_(inner) {}
 
     /// Of each afferent so many copies have a row in the raster; with more of them there are no inner traces, else those of the first.
     static constexpr std::uint32_t most_copies = 50;
 
-    bool wants_probes() const override { return population_.copies <= most_copies; }
+    bool wants_probes() const override { return inner_ && population_.copies <= most_copies; }
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const Answered&) override;
     Result<void> end(const Input&, std::int64_t samples) override;
@@ -32,6 +33,7 @@ private:
     using Json = nlohmann::ordered_json;
     std::size_t most_points_;
     Copies population_;
+    bool inner_;
     std::vector<std::size_t> groups_;            // of the input at work: where each afferent's copies begin
     std::vector<Envelope> forces_;               // of each channel
     std::vector<std::vector<Envelope>> probes_;  // [channel and group][probe], of the first copy; empty if there are too many

@@ -49,14 +49,16 @@ std::optional<Error> unlike(std::span<const AfferentPlan* const> plans) {
             return bad_input(fmt::format("a population of {} cannot hold a {}", first.made_of(), plan->made_of()));
         for (std::size_t k = 0; k < first.values.size(); ++k)
             if (const auto& p = (*first.parameters)[k]; p.row.one_for_all && plan->values[k] != first.values[k])
-                return bad_input(fmt::format("{} is one for all of a population: {:g} and {:g} cannot both be", p.row.name, first.values[k], plan->values[k]));
+                return bad_input(fmt::format("{} is one for all of a population: {:g} and {:g} cannot both be", p.row.name, first.values[k],
+                                             plan->values[k]));
     }
     return {};
 }
 
 /// The models of a part, for all tiles.
 template <class V, class L, class List>
-Buffer<std::byte> models_of(List list, const L& lanes, int width, std::span<const AfferentPlan* const> plans, std::size_t units, const Run& run) {
+Buffer<std::byte> models_of(List list, const L& lanes, int width, std::span<const AfferentPlan* const> plans, std::size_t units,
+                            const Run& run) {
     Buffer<std::byte> models;
     with_named(list, lanes.name, [&]<template <class> class M>(Model<M>) {
         using P = typename M<double>::Params;
@@ -81,8 +83,16 @@ template <class V>
 std::unique_ptr<Population> crowd(const PopulationPlan& p, const Run& run, InstructionSet set) {
     const auto& table = table_of<V>(set);
     const auto& plan = *p.plans[0];
-    Cast<V> cast{named(table.receptors, plan.receptor), named(table.neurons, plan.neuron), table.lanes, p.units, {}, {}, nullptr, scales(plan),
-                 {p.numbers.begin(), p.numbers.end()}, fmt::format("{}+{}", plan.receptor, plan.neuron)};
+    Cast<V> cast{named(table.receptors, plan.receptor),
+                 named(table.neurons, plan.neuron),
+                 table.lanes,
+                 p.units,
+                 {},
+                 {},
+                 nullptr,
+                 scales(plan),
+                 {p.numbers.begin(), p.numbers.end()},
+                 fmt::format("{}+{}", plan.receptor, plan.neuron)};
     cast.receptors = models_of<V>(Receptors{}, *cast.receptor, table.lanes, p.plans, p.units, run);
     cast.neurons = models_of<V>(Neurons{}, *cast.neuron, table.lanes, p.plans, p.units, run);
     if (cast.receptors.size() == cast.receptor->model_bytes) cast.once = profile_transduction(plan, run);
@@ -98,7 +108,8 @@ bool goes_on_lanes(const AfferentPlan& plan, const Run& run) {
 Result<std::unique_ptr<Population>> make_population(const PopulationPlan& p, const Run& run, InstructionSet set) {
     if (p.units == 0 || p.plans.empty() || (p.plans.size() != 1 && p.plans.size() != p.units))
         return bad_input(fmt::format("a population of {} units with {} plans", p.units, p.plans.size()));
-    if (!p.numbers.empty() && p.numbers.size() != p.units) return bad_input(fmt::format("{} numbers for {} units", p.numbers.size(), p.units));
+    if (!p.numbers.empty() && p.numbers.size() != p.units)
+        return bad_input(fmt::format("{} numbers for {} units", p.numbers.size(), p.units));
     if (auto wrong = unlike(p.plans)) return *wrong;
     for (const auto* plan : p.plans)
         if (!goes_on_lanes(*plan, run)) return bad_input(fmt::format("{}: sensors, converters and noise do not go on lanes", plan->name));

@@ -67,9 +67,9 @@ public:
 
 /// What makes a population.
 struct PopulationPlan {
-    std::span<const AfferentPlan* const> plans;    ///< one for all units, or one for each; of the same transduction and neuron
-    std::size_t units = 0;                         ///< at least 1
-    std::span<const std::uint32_t> numbers = {};   ///< how spikes call each unit, rising; none: 0, 1, 2 ...
+    std::span<const AfferentPlan* const> plans;   ///< one for all units, or one for each; of the same transduction and neuron
+    std::size_t units = 0;                        ///< at least 1
+    std::span<const std::uint32_t> numbers = {};  ///< how spikes call each unit, rising; none: 0, 1, 2 ...
     Precision precision = Precision::in_double;
 };
 

@@ -21,6 +21,10 @@ template <class V>
 bool any(xsimd::batch_bool<V> m) {
     return xsimd::any(m);
 }
+template <class V>
+bool all(xsimd::batch_bool<V> m) {
+    return xsimd::all(m);
+}
 /// Whether any of several masks has a lane. (For AVX-512 two at once: or-ing them would send each through a general register.)
 template <std::size_t J, class V>
 [[gnu::always_inline]] inline bool any_of(const xsimd::batch_bool<V> (&m)[J]) {

@@ -57,8 +57,8 @@ struct Work {
 struct RespondOptions {
     Method method = Method::exact;
     bool sampled = false;
-    double noise = 0;          ///< of every membrane: see Run
-    std::uint64_t seed = 0;    ///< of the noise
+    double noise = 0;        ///< of every membrane: see Run
+    std::uint64_t seed = 0;  ///< of the noise
     Precision precision = Precision::in_double;
     Pool* pool = nullptr;      ///< threads; the answer does not depend on it; null: the caller's alone
     std::size_t block = 4096;  ///< samples; the answer does not depend on it

@@ -180,6 +180,7 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
     Json out = {{"program", "corpuscle"}, {"version", version}};
     out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"},
                       {"sampled", options.sampled},
+                      {"precision", options.precision == Precision::in_double ? "double" : "float"},
                       {"noise_A", options.noise},
                       {"seed", seed}};
     out["afferents"] = Json::array();

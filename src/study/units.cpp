@@ -69,7 +69,7 @@ Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
     if (in_float && set == InstructionSet::scalar) return bad_usage("float needs lanes: CORPUSCLE_ISA=scalar has none");
     auto kinds = kinds_of(plans, run);
     if (in_float && (probed_ || !kinds.alone.empty()))
-        return bad_usage(probed_ ? "in float no currents and membranes are shown: leave out --traces and --report"
+        return bad_usage(probed_ ? "in float no currents and membranes are kept: leave out --traces"
                                  : fmt::format("{}: sensors, converters and noise are not in float", plans[kinds.alone[0]].name));
     std::vector<bool> single(plans.size());
     for (const auto k : kinds.alone) single[k] = true;
@@ -121,7 +121,8 @@ Result<void> Units::seat_crowds(std::span<const std::size_t> plans, const Run& r
 }
 
 Error Units::of_unit(Error error, std::size_t unit) const {
-    error.sentence = fmt::format("{} on {}: {}", input_.afferent_of(unit).name, input_.channel_name(input_.channel_of(unit)), error.sentence);
+    error.sentence =
+        fmt::format("{} on {}: {}", input_.afferent_of(unit).name, input_.channel_name(input_.channel_of(unit)), error.sentence);
     return error;
 }
 

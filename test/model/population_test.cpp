@@ -2,6 +2,8 @@
 
 #include "model/population.hpp"
 
+#include "model/lanes/buffer.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -100,7 +102,8 @@ AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t unit
     for (std::uint32_t k = 0; k < plan.values.size(); ++k) {
         const auto& row = (*plan.parameters)[k].row;
         auto& value = plan.values[k];
-        if (row.name == "t_ref") value = unit % 3 ? 0 : 1e-3 * unit;
+        if (row.name == "t_ref")
+            value = unit % 3 ? 0 : 1e-3 * unit;
         else if (!row.one_for_all && row.name != "V_reset" && row.name != "c")
             value = std::clamp(value * (1 + 0.1 * normal(seed, unit, k, 0)), row.low, row.high);
     }
@@ -129,6 +132,236 @@ TEST(Population, EveryChainOnLanesGivesTheBitsOfOneByOne) {
                     EXPECT_EQ(on_lanes(own, {set}), right_own) << name << ' ' << name_of(set);
                 }
             }
+}
+
+TEST(Population, AnyChunksAnyThreadsAnyLanesGiveTheSameSpikes) {
+    Pool three(3);
+    EXPECT_TRUE(rc::check("random blocks, chains, spreads, sets and threads", [&] {
+        const auto names = every_chain();
+        const auto& name = names[*rc::gen::inRange<std::size_t>(0, names.size())];
+        const auto units = *rc::gen::element<std::size_t>(1, 7, 64, 65, 130);
+        const corpuscle::Run run{1e-3, *rc::gen::element(Method::exact, Method::backward_euler), *rc::gen::arbitrary<bool>()};
+        const auto c = own_parameters(name, units, run, 0.2, *rc::gen::inRange<std::uint64_t>(0, 1000));
+        const auto sets = lane_sets();
+        const auto set = sets[*rc::gen::inRange<std::size_t>(0, sets.size())];
+        const auto blocks = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::size_t>>(rc::gen::inRange<std::size_t>(1, 80)));
+        RC_ASSERT(on_lanes(c, {set, Precision::in_double, blocks, *rc::gen::arbitrary<bool>() ? &three : nullptr}) == one_by_one(c));
+    }));
+}
+
+TEST(Population, AHundredThousandRandomAfferentsAnswerAsOneByOne) {
+    const corpuscle::Run run{1e-3, Method::exact};
+    const auto plan = sure(plan_afferent("sa1", {}));
+    const auto press = force("press", {.rate = 1e3});
+    std::vector<AfferentPlan> plans;
+    for (std::uint32_t u = 0; u < 100'000; ++u) plans.push_back(scattered(plan, 5, u));
+    std::vector<const AfferentPlan*> pointers;
+    for (const auto& p : plans) pointers.push_back(&p);
+    std::vector<Spike> right;
+    for (std::uint32_t u = 0; u < plans.size(); ++u) {
+        Answer answer{right, u};
+        const auto a = make_afferent(plans[u], run);
+        auto state = a->start();
+        ASSERT_TRUE(static_cast<bool>(a->respond(press, state, answer)));
+    }
+    std::sort(right.begin(), right.end());
+    EXPECT_GT(right.size(), 1'000'000U);
+    for (const auto set : lane_sets())
+        for (const unsigned threads : {1U, 2U, 5U}) {
+            Pool pool(threads);
+            const auto p = sure(make_population({pointers, plans.size()}, run, set));
+            std::vector<Spike> out;
+            PopulationAnswer answer{&out};
+            ASSERT_TRUE(static_cast<bool>(p->respond(ForceProfile{press}, press.size(), answer, pool)));
+            EXPECT_TRUE(out == right) << name_of(set) << ' ' << threads;
+        }
+}
+
+/// The forces of a case as tiles, padded.
+template <class E>
+lanes::Buffer<E> tiles(const Case& c, std::size_t first, std::size_t count, double scale) {
+    lanes::Buffer<E> rows((c.units() + force_tile - 1) / force_tile * force_tile * count);
+    for (std::size_t u = 0; u < c.units(); ++u)
+        for (std::size_t t = 0; t < count; ++t)
+            rows.data()[(u / force_tile * count + t) * force_tile + u % force_tile] = static_cast<E>(c.force[u][first + t] / scale);
+    return rows;
+}
+
+TEST(Population, TilesAndWordsAreReadAsColumnsAre) {
+    constexpr double newtons = 1.0 / 4096;
+    const corpuscle::Run run{5e-4};
+    Case c{{sure(plan_afferent("sa1", {}))}, forces(150, 2e3, 0.4), run};
+    for (auto& f : c.force)
+        for (auto& x : f) x = std::nearbyint(std::clamp(x, -7.9, 7.9) / newtons) * newtons;  // what a word can say
+    const auto right = one_by_one(c);
+    ASSERT_FALSE(right.empty());
+    for (const auto set : lane_sets()) {
+        EXPECT_EQ(in_blocks(c, {set, Precision::in_double, {33, 100}},
+                            [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+                                const auto rows = tiles<double>(c, first, count, 1);
+                                return p.respond(ForceTiles<double>{rows.data()}, count, answer, pool);
+                            }),
+                  right);
+        EXPECT_EQ(in_blocks(c, {set, Precision::in_double, {33, 100}},
+                            [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+                                const auto rows = tiles<std::int16_t>(c, first, count, newtons);
+                                return p.respond(ForceWords{rows.data(), newtons}, count, answer, pool);
+                            }),
+                  right);
+    }
+}
+
+TEST(Population, OneProfileIsEveryUnitsOwnForce) {
+    for (const auto& name : every_chain()) {
+        Case c = own_parameters(name, 70, {5e-4}, 0.3, 4);
+        for (auto& f : c.force) f = c.force[0];
+        const auto by_profile = [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+            return p.respond(ForceProfile{std::span(c.force[0]).subspan(first, count)}, count, answer, pool);
+        };
+        for (const auto set : lane_sets()) EXPECT_EQ(in_blocks(c, {set, Precision::in_double, {77}}, by_profile), one_by_one(c)) << name;
+        Case same{{c.plans[0]}, c.force, c.run};  // transduced once
+        for (const auto set : lane_sets())
+            EXPECT_EQ(in_blocks(same, {set, Precision::in_double, {77}}, by_profile), one_by_one(same)) << name;
+    }
+}
+
+TEST(Population, AGainTimesAProfileIsThatForceToRoundingWhetherTransducedOnceOrByEach) {
+    for (const auto& receptor : receptor_cards()) {
+        const std::string name = fmt::format("{}+lif-b", receptor.name);
+        for (const auto method : {Method::exact, Method::backward_euler}) {
+            Case c{{sure(plan_afferent(name, {}))}, forces(64, 2e3, 0.5), {5e-4, method}};
+            std::vector<double> gain;
+            for (std::size_t u = 0; u < c.units(); ++u) gain.push_back(static_cast<double>(u) / 20);
+            const auto profile = c.force[3];
+            for (std::size_t u = 0; u < c.units(); ++u)
+                for (std::size_t t = 0; t < profile.size(); ++t) c.force[u][t] = gain[u] * profile[t];
+            const auto right = one_by_one(c);
+            ASSERT_FALSE(right.empty());
+            const auto found =
+                in_blocks(c, {lane_sets().back(), Precision::in_double, {100}},
+                          [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+                              return p.respond(ForceProfile{std::span(profile).subspan(first, count), gain}, count, answer, pool);
+                          });
+            ASSERT_EQ(found.size(), right.size()) << name;
+            for (std::size_t k = 0; k < found.size(); ++k) {
+                ASSERT_EQ(found[k].unit, right[k].unit) << name;
+                ASSERT_NEAR(static_cast<double>(found[k].step) + found[k].offset, static_cast<double>(right[k].step) + right[k].offset,
+                            1e-7);
+            }
+        }
+    }
+}
+
+TEST(Population, MarksAreTheSampledSpikes) {
+    const corpuscle::Run run{5e-4, Method::exact, true};
+    const Case c{{sure(plan_afferent("sa1", {}))}, forces(100, 2e3, 0.4), run};
+    std::vector<const double*> columns;
+    for (const auto& f : c.force) columns.push_back(f.data());
+    const std::size_t steps = c.force[0].size();
+    for (const auto set : lane_sets()) {
+        std::vector<std::uint64_t> marks;
+        PopulationAnswer answer{nullptr, &marks};
+        Pool pool(2);
+        ASSERT_TRUE(static_cast<bool>(population(c, {set})->respond(ForceColumns{columns}, steps, answer, pool)));
+        ASSERT_EQ(marks.size(), 2 * steps);
+        std::vector<std::uint64_t> right(marks.size());
+        std::int64_t again = 0;
+        for (const auto& s : one_by_one(c)) {
+            auto& word = right[s.unit / 64 * steps + static_cast<std::size_t>(s.step)];
+            const auto bit = std::uint64_t{1} << s.unit % 64;
+            again += (word & bit) != 0;
+            word |= bit;
+        }
+        EXPECT_EQ(marks, right);
+        EXPECT_EQ(answer.unmarked, again);
+    }
+}
+
+TEST(Population, AForceThatIsNoNumberIsRefusedByUnitAndSampleInEveryChain) {
+    for (const auto& name : every_chain())
+        for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
+            for (const std::size_t at : {0, 1, 50, 99}) {
+                Case c{{sure(plan_afferent(name, {}))}, forces(70, 1e3, 0.1), {1e-3}};
+                c.force[66][at] = bad;
+                std::vector<const double*> columns;
+                for (const auto& f : c.force) columns.push_back(f.data());
+                for (const auto set : lane_sets()) {
+                    std::vector<Spike> out;
+                    PopulationAnswer answer{&out};
+                    Pool pool(1);
+                    const auto done = population(c, {set})->respond(ForceColumns{columns}, 100, answer, pool);
+                    ASSERT_FALSE(done) << name << ' ' << bad << ' ' << at << ' ' << name_of(set);
+                    EXPECT_EQ(answer.failed, 66U) << name;
+                    EXPECT_NE(done.error().sentence.find(fmt::format("the force of sample {} is", at)), std::string::npos)
+                        << done.error().sentence;
+                }
+            }
+}
+
+TEST(Population, WhatCannotStandSideBySideIsRefused) {
+    const auto refused = [](std::vector<AfferentPlan> plans, const corpuscle::Run& run = {}) {
+        std::vector<const AfferentPlan*> pointers;
+        for (const auto& p : plans) pointers.push_back(&p);
+        const auto made = make_population({pointers, plans.size()}, run, InstructionSet::baseline);
+        return made ? std::string() : made.error().sentence;
+    };
+    const auto plan = [](const std::string& name, const std::vector<std::string>& settings = {}) {
+        return sure(plan_afferent(name, test::wishes(settings)));
+    };
+    EXPECT_EQ(refused({plan("sa1"), plan("sa1", {"sa1.f_B=30"})}), "");
+    EXPECT_NE(refused({plan("sa1"), plan("fa1")}).find("cannot hold"), std::string::npos);
+    EXPECT_NE(refused({plan("sa1b+adex"), plan("sa1b+adex", {"sa1b+adex.substep=10us"})}).find("substep is one for all"),
+              std::string::npos);
+    EXPECT_NE(refused({plan("fsr+sa1")}).find("do not go on lanes"), std::string::npos);
+    EXPECT_NE(refused({plan("sa1")}, {.noise = 1e-9}).find("do not go on lanes"), std::string::npos);
+    EXPECT_NE(refused({}).find("0 units"), std::string::npos);
+}
+
+TEST(Population, ItsForceKeepsToOneWay) {
+    const Case c{{sure(plan_afferent("sa1", {}))}, forces(3, 1e3, 0.1), {1e-3}};
+    const auto p = population(c, {});
+    Pool pool(1);
+    PopulationAnswer answer;
+    std::vector<const double*> columns;
+    for (const auto& f : c.force) columns.push_back(f.data());
+    ASSERT_TRUE(static_cast<bool>(p->respond(ForceColumns{columns}, 10, answer, pool)));
+    EXPECT_FALSE(p->respond(ForceProfile{c.force[0]}, 10, answer, pool));
+    const float row[force_tile] = {};
+    EXPECT_FALSE(population(c, {})->respond(ForceTiles<float>{row}, 1, answer, pool));
+    const std::vector<double> negative = {1, -1, 1}, few = {1, 1};
+    EXPECT_FALSE(population(c, {})->respond(ForceProfile{c.force[0], negative}, 10, answer, pool));
+    EXPECT_FALSE(population(c, {})->respond(ForceProfile{c.force[0], few}, 10, answer, pool));
+}
+
+/// Float against double, afferent by afferent: the same number of spikes, none further away than `bound`.
+void expect_near(const Case& c, InstructionSet set, double bound) {
+    const auto trains = [&](const std::vector<Spike>& all) {
+        std::vector<std::vector<double>> of(c.units());
+        for (const auto& s : all) of[s.unit].push_back((static_cast<double>(s.step) + s.offset) * c.run.dt);
+        return of;
+    };
+    const auto right = trains(one_by_one(c)), found = trains(on_lanes(c, {set, Precision::in_float}));
+    for (std::size_t u = 0; u < c.units(); ++u) {
+        ASSERT_EQ(found[u].size(), right[u].size()) << u;
+        for (std::size_t k = 0; k < right[u].size(); ++k) ASSERT_NEAR(found[u][k], right[u][k], bound) << u << ' ' << k;
+    }
+}
+
+TEST(Population, FloatGivesThePressTheSameSpikesWithinFiftyMicroseconds) {
+    for (const auto* name : {"sa1", "fa1", "sa2"})
+        for (const auto set : lane_sets())
+            for (const auto method : {Method::exact, Method::backward_euler}) {
+                const Case c{{sure(plan_afferent(name, {}))}, {force("press")}, {1e-4, method}};
+                expect_near(c, set, 50e-6);
+            }
+}
+
+TEST(Population, FloatIsTheSameFloatOnEverySet) {
+    for (const auto& name : every_chain()) {
+        const auto c = own_parameters(name, 70, {5e-4}, 0.3, 2);
+        const auto right = on_lanes(c, {InstructionSet::baseline, Precision::in_float});
+        for (const auto set : lane_sets()) EXPECT_EQ(on_lanes(c, {set, Precision::in_float}), right) << name << ' ' << name_of(set);
+    }
 }
 
 }  // namespace

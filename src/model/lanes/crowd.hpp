@@ -22,8 +22,8 @@ struct Cast {
     const NeuronLanes<V>* neuron;
     int lanes;
     std::size_t units;
-    Buffer<std::byte> receptors, neurons;              ///< models: one, or a tile's after a tile's
-    std::unique_ptr<ProfileTransduction> once;         ///< if all share one transduction
+    Buffer<std::byte> receptors, neurons;       ///< models: one, or a tile's after a tile's
+    std::unique_ptr<ProfileTransduction> once;  ///< if all share one transduction
     bool scales;
     std::vector<std::uint32_t> numbers;
     std::string name;
@@ -36,7 +36,8 @@ class Crowd final : public Population {
 
     /// What one thread needs for itself.
     struct Scratch {
-        Buffer<V> from{most_outputs * chunk * tile_units}, to{most_outputs * chunk * tile_units}, rows{chunk * tile_units}, gain{tile_units};
+        Buffer<V> from{most_outputs * current_rows<V> * tile_units}, to{most_outputs * current_rows<V> * tile_units},
+            rows{chunk * tile_units}, gain{tile_units};
         Buffer<Firing> firings{record_room};
         Buffer<V> offsets{record_room * 16};
     };
@@ -45,7 +46,7 @@ class Crowd final : public Population {
     struct Job {
         std::vector<Event> events;
         std::int64_t capped = 0, unmarked = 0;
-        bool lost = false;  // some state is no number: so was a force, or something grew too large
+        bool lost = false;  // some force or state is no number
     };
 
     /// A list of firings that empties itself into a job, or into marks.
@@ -56,7 +57,8 @@ class Crowd final : public Population {
         int lanes;
 
         void empty() {
-            for (int k = 0; k < this->count; ++k) marks ? mark(this->firings[k]) : list(this->firings[k], this->offsets ? this->offsets + k * lanes : nullptr);
+            for (int k = 0; k < this->count; ++k)
+                marks ? mark(this->firings[k]) : list(this->firings[k], this->offsets ? this->offsets + k * lanes : nullptr);
             this->count = 0;
         }
         void mark(const Firing& f) {
@@ -97,7 +99,9 @@ class Crowd final : public Population {
 
     // Of one tile; neurons of all outputs, one after another.
     std::size_t receptor_state_size() const { return cast_.receptor->state_values * tile_units; }
-    std::size_t neuron_state_size() const { return cast_.neuron->state_values * tile_units * static_cast<std::size_t>(cast_.receptor->outputs); }
+    std::size_t neuron_state_size() const {
+        return cast_.neuron->state_values * tile_units * static_cast<std::size_t>(cast_.receptor->outputs);
+    }
     V* receptor_state(std::size_t tile) const { return receptor_states_.data() + tile * receptor_state_size(); }
     V* neuron_state(std::size_t tile) const { return neuron_states_.data() + tile * neuron_state_size(); }
 
@@ -147,12 +151,15 @@ class Crowd final : public Population {
         return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E) / 2};
     }
 
+    /// Where the ends of currents go. Of a continuous transduction they are the beginnings of the next step, one row on.
+    V* to_of(Scratch& s) const { return cast_.receptor->continuous ? s.from.data() + tile_units : s.to.data(); }
+
     TransductionCall<V> transduction(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
         const auto [models, stride] = this->models(cast_.receptors, *cast_.receptor, tile);
         TransductionCall<V> c{};
         c.models = models, c.stride = stride, c.state = receptor_state(tile);
         c.units = units_of(tile), c.steps = steps;
-        c.from = s.from.data(), c.to = s.to.data(), c.gain = s.gain.data();
+        c.from = s.from.data(), c.to = to_of(s), c.gain = s.gain.data();
         const std::size_t row = (tile * b.steps + step) * tile_units;
         if (const auto* columns = std::get_if<ForceColumns>(&b.force)) {
             rows_of(*columns, tile * tile_units, step, steps, s.rows.data());
@@ -167,7 +174,8 @@ class Crowd final : public Population {
         return c;
     }
 
-    NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector& fired, Ahead ahead) const {
+    NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector& fired,
+                         Ahead ahead) const {
         const auto [models, stride] = this->models(cast_.neurons, *cast_.neuron, tile);
         NeuronCall<V> c{};
         c.models = models, c.stride = stride, c.units = units_of(tile), c.steps = steps, c.fired = &fired, c.ahead = ahead;
@@ -176,7 +184,8 @@ class Crowd final : public Population {
             const auto& [from, to, both] = currents_in_v_[static_cast<std::size_t>(output)];
             c.from = from.data() + step, c.to = to.data() + step, c.both = both.data() + step, c.gain = s.gain.data();
         } else {
-            c.from = s.from.data() + output * chunk * tile_units, c.to = s.to.data() + output * chunk * tile_units;
+            c.to = to_of(s) + output * current_rows<V> * tile_units;
+            c.from = cast_.receptor->continuous && method_ != Method::exact ? c.to : s.from.data() + output * current_rows<V> * tile_units;
         }
         return c;
     }
@@ -187,9 +196,10 @@ class Crowd final : public Population {
         const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
         Ahead ahead{};
         if (!b.once) {
-            const auto c = transduction(b, tile, step, steps, s);
+            auto c = transduction(b, tile, step, steps, s);
             if (first) cast_.receptor->start(c);
             cast_.receptor->run(c);
+            job.lost |= c.strange;
             ahead = {c.ahead.at + c.ahead.bytes, c.ahead.bytes};
         }
         Collector fired{{s.firings.data(), sampled_ || first ? nullptr : s.offsets.data(), 0, 0, valid(tile), 0,
@@ -245,7 +255,8 @@ class Crowd final : public Population {
             for (std::size_t step = 0; step < b.steps; ++step)
                 if (const double f = force_of(b, unit, step); !std::isfinite(f)) {
                     answer.failed = unit;
-                    return bad_input(fmt::format("{}: the force of sample {} is {}", cast_.name, step_ + static_cast<std::int64_t>(step), f));
+                    return bad_input(
+                        fmt::format("{}: the force of sample {} is {}", cast_.name, step_ + static_cast<std::int64_t>(step), f));
                 }
         return {};
     }
@@ -298,8 +309,8 @@ class Crowd final : public Population {
 public:
     Crowd(Cast<V> cast, const Run& run)
         : cast_(std::move(cast)), method_(run.method), sampled_(run.sampled), tiles_((cast_.units + tile_units - 1) / tile_units),
-          receptor_states_(tiles_ * receptor_state_size()),
-          neuron_states_(tiles_ * neuron_state_size()), jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
+          receptor_states_(tiles_ * receptor_state_size()), neuron_states_(tiles_ * neuron_state_size()),
+          jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
 
     std::size_t units() const override { return cast_.units; }
 

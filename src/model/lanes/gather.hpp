@@ -30,7 +30,8 @@ void gather(const Jobs& jobs, std::size_t steps, std::int64_t first, std::span<c
         for (const auto& e : job.events)
             spikes[old + at[e.step]++] = {first + e.step, e.offset, numbers.empty() ? e.unit : numbers[e.unit]};
     for (std::size_t t = 0; t < steps; ++t) {
-        const auto from = spikes.begin() + static_cast<std::ptrdiff_t>(old + begin[t]), to = spikes.begin() + static_cast<std::ptrdiff_t>(old + begin[t + 1]);
+        const auto from = spikes.begin() + static_cast<std::ptrdiff_t>(old + begin[t]),
+                   to = spikes.begin() + static_cast<std::ptrdiff_t>(old + begin[t + 1]);
         if (!std::is_sorted(from, to)) std::sort(from, to);
     }
 }

@@ -21,8 +21,8 @@ inline constexpr int width = static_cast<int>(Batch<V>::size);
 /// f(0), f(1) ... f(J - 1), each with its number as a constant: unrolled, so that arrays of states are registers.
 template <int J, class F>
 [[gnu::always_inline]] inline void each_of(F&& f) {
-    [&]<int... j>(std::integer_sequence<int, j...>) __attribute__((always_inline)) { (f(std::integral_constant<int, j>{}), ...); }
-    (std::make_integer_sequence<int, J>{});
+    [&]<int... j>(std::integer_sequence<int, j...>)
+        __attribute__((always_inline)) { (f(std::integral_constant<int, j>{}), ...); }(std::make_integer_sequence<int, J>{});
 }
 
 template <class V>
@@ -123,12 +123,15 @@ public:
 /// How often a loop over J vectors at once goes round for a tile.
 template <class V, int J, class Call>
 int rounds(const Call& c) {
-    return (c.units + J * width<V> - 1) / (J * width<V>) * c.steps;
+    return (c.units + J * width<V> - 1) / (J * width<V>)*c.steps;
 }
+
+template <class R>
+inline constexpr bool continuous = requires { R::continuous; };
 
 /// J vectors of a tile at once, from `unit` on.
 template <class V, class R, Feed feed, int J>
-void transduce(const TransductionCall<V>& c, int unit, Asking& asked) {
+void transduce(TransductionCall<V>& c, int unit, Asking& asked) {
     constexpr int w = width<V>;
     const R* r[J];
     typename R::State s[J];
@@ -136,6 +139,10 @@ void transduce(const TransductionCall<V>& c, int unit, Asking& asked) {
         r[j] = &model<R>(c.models, c.stride, unit / w + j);
         s[j] = read<typename R::State>(c.state, unit + j * w);
     });
+    // Rows of force are added up, for a sum that is no number: unless the receptor's own state would become one, and stay so.
+    constexpr bool looks = feed == Feed::rows && !requires { R::keeps_strays; };
+    Batch<V> sum[J];
+    each_of<J>([&](auto j) __attribute__((always_inline)) { sum[j] = Batch<V>(V(0)); });
     const Force<feed, V> force(c, unit);
     V *from = c.from + unit, *to = c.to + unit;
     Asking asking = asked;
@@ -143,21 +150,26 @@ void transduce(const TransductionCall<V>& c, int unit, Asking& asked) {
         if constexpr (feed != Feed::profile) asking.some();
         each_of<J>([&](auto j) __attribute__((always_inline)) {
             const auto F = force.at(t, j * w);
+            if constexpr (looks) sum[j] = sum[j] + F;
             Current<Batch<V>> i[R::outputs];
             r[j]->step(s[j], F, i);
             for (int k = 0; k < R::outputs; ++k) {
-                i[k].from.store_aligned(from + k * chunk_steps<V> * tile_units + j * w);
-                i[k].to.store_aligned(to + k * chunk_steps<V> * tile_units + j * w);
+                if (!continuous<R> || t == 0) i[k].from.store_aligned(from + k * current_rows<V> * tile_units + j * w);
+                i[k].to.store_aligned(to + k * current_rows<V> * tile_units + j * w);
             }
         });
     }
     asked = asking;
-    each_of<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, unit + j * w); });
+    each_of<J>([&](auto j) __attribute__((always_inline)) {
+        write(s[j], c.state, unit + j * w);
+        const auto nothing = sum[j] - sum[j];  // or no number
+        if constexpr (looks) c.strange = c.strange || !num::all(nothing == Batch<V>(V(0)));
+    });
 }
 
 template <class V, class R>
-void transduce_tile(const TransductionCall<V>& c) {
-    constexpr int J = 4;
+void transduce_tile(TransductionCall<V>& c) {
+    constexpr int J = 2;
     Asking asking(c.ahead, rounds<V, J>(c));
     for (int unit = 0; unit < c.units; unit += J * width<V>) {
         if (c.feed == Feed::rows) transduce<V, R, Feed::rows, J>(c, unit, asking);
@@ -290,7 +302,8 @@ void fire_tile(const NeuronCall<V>& c) {
 
 template <class V, class R>
 constexpr ReceptorLanes<V> receptor_lanes() {
-    return {R::name, R::outputs, sizeof(R), sizeof(typename R::State) / sizeof(Batch<V>), build<V, R>, start<V, R>, transduce_tile<V, R>};
+    return {R::name,     R::outputs,  continuous<R>,       sizeof(R), sizeof(typename R::State) / sizeof(Batch<V>),
+            build<V, R>, start<V, R>, transduce_tile<V, R>};
 }
 template <class V, class N>
 constexpr NeuronLanes<V> neuron_lanes() {

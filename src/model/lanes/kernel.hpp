@@ -18,6 +18,9 @@ inline constexpr int record_room = 256;  ///< of a list of firings
 /// Steps of a chunk: a row of force, and the currents it becomes, stay in the first-level cache.
 template <class V>
 inline constexpr int chunk_steps = 128 / sizeof(V);
+/// Rows of currents of one output: a step's end is where the next one begins, so there may be one more.
+template <class V>
+inline constexpr int current_rows = chunk_steps<V> + 1;
 
 /// Units of one vector that fired in a step: a bit each, from `unit` of the tile on.
 struct Firing {
@@ -58,9 +61,10 @@ struct TransductionCall {
     V scale;
     const V* profile;  ///< profile: one force a step, N, felt by each unit times its ...
     const V* gain;     ///< [tile_units]
-    V* from;           ///< out: currents, [output][chunk_steps][tile_units], A
+    V* from;           ///< out: currents, [output][current_rows][tile_units], A; of a continuous transduction only the first row
     V* to;
     Ahead ahead;
+    bool strange;  ///< out: some force may be no number
 };
 
 /// A tile's neurons over a chunk, under one output of the transduction.
@@ -82,11 +86,12 @@ template <class V>
 struct ReceptorLanes {
     std::string_view name;
     int outputs;
+    bool continuous;
     std::size_t model_bytes, state_values;
     /// Makes the models of `count` units (a tile's), or one for all if it is 1, of an array of the receptor's Params.
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
     void (*start)(const TransductionCall<V>&);  ///< the state before the first row of force
-    void (*run)(const TransductionCall<V>&);
+    void (*run)(TransductionCall<V>&);
 };
 
 template <class V>

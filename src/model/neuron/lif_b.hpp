@@ -42,8 +42,9 @@ struct LifB : LifBFacts {
 
     template <class Values>
     LifB(const Values& value, double dt, Method)
-        : C(T(2.0) * value(&Params::C_m) / dt), I_leak0(value(&Params::I_leak0)), leak(T(2.0) * I_leak0), least(C * value(&Params::E_L)), theta(C * value(&Params::V_th)),
-          reset(C * value(&Params::V_reset)), drop(theta - reset), ref(value(&Params::t_ref) / dt), refractory(num::any(ref > T(0.0))) {}
+        : C(T(2.0) * value(&Params::C_m) / dt), I_leak0(value(&Params::I_leak0)), leak(T(2.0) * I_leak0), least(C * value(&Params::E_L)),
+          theta(C * value(&Params::V_th)), reset(C * value(&Params::V_reset)), drop(theta - reset), ref(value(&Params::t_ref) / dt),
+          refractory(num::any(ref > T(0.0))) {}
 
     State start() const { return {least, T(0.0)}; }
     void show(const State& s, T (&out)[1]) const { out[0] = s.q / C; }

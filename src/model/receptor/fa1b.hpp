@@ -20,7 +20,9 @@ struct Fa1bFacts {
         {"f", &Params::f, "Hz", 1e-6, 1e6, "corner of the high-pass"},
     };
     static constexpr int outputs = 1;
-    static constexpr bool scales = true;  ///< twice the force is twice the current
+    static constexpr bool continuous = true;  ///< exact: the current begins a step where it ended the one before; else it is constant in it
+    static constexpr bool keeps_strays = true;  ///< after a force that is no number its state is none
+    static constexpr bool scales = true;        ///< twice the force is twice the current
     static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}};
 };
 

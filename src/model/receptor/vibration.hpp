@@ -23,7 +23,9 @@ struct VibrationFacts {
         {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "corner of the low-pass"},
     };
     static constexpr int outputs = 1;
-    static constexpr bool scales = true;  ///< twice the force is twice the current
+    static constexpr bool continuous = true;  ///< exact: the current begins a step where it ended the one before; else it is constant in it
+    static constexpr bool keeps_strays = true;  ///< after a force that is no number its state is none
+    static constexpr bool scales = true;        ///< twice the force is twice the current
 };
 
 template <class T>
