@@ -1,18 +1,25 @@
 // How many afferent-steps a second does a population of `sa1` do on one core, and how far is that from what the machine could?
 //
-// Method: in one process, interleaved: reading the same streamed force and adding it up (the most that memory allows), multiplying
-// and adding in registers (the most that arithmetic allows), and the population in each way of feeding it. Each is run 25 times
-// (--runs); the median is told. Spikes go to memory, sorted, unless `marks` is said. N = 100,000 at 10 kHz. Streamed: each
-// afferent has its own force, tiled, more of it than the caches hold, read once a run. Profile: one press, each afferent with a
-// gain from 0.5 to 1. `own`: every afferent has its own f_B. Counted by hand for `sa1`, exact, of each afferent-step: see below.
+// Method: in one process, in turn, 25 times (--runs): the streamed force added up (the most that memory allows), additions in
+// registers (the most that arithmetic allows), and the population in each way of feeding it; the medians are told. N = 100,000 at
+// 10 kHz, spikes emitted in memory, in order (or as marks, one bit a unit and step). Streamed: each afferent has its own force, in
+// tiles, 1,000 steps from the press's rise, 800 MB in double: more than the caches hold. Profile: one press of 10,000 steps, each
+// afferent with a gain from 0.5 to 1, transduced once. Own parameters: every afferent has its own f_B, and its own transduction.
+// The peers' works are those of bench/peers/, in backward Euler: to be held against what NumPy and Brian2 print.
+// --only WORDS: only those whose name has them.
+//
+// Counted for `sa1`, exact, an afferent-step without a spike: transduction 12 operations (1 difference, 2 high-passes of 3, 2
+// rectifiers, 3 for the sum), LIF-B 8 (2 for what flows in, 1 added, 1 floor, 1 threshold, 3 for a turn up through the leak), so 20
+// and 8, 4 or 2 bytes (double, float, 16-bit words); of a profile that does not rise 5 and none. The limit is the lower of memory
+// and arithmetic; an operation in float is half of one in double.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <functional>
+#include <string>
 
 #include "model/lanes/buffer.hpp"
 #include "model/population.hpp"
@@ -22,41 +29,27 @@ namespace {
 
 using namespace corpuscle;
 
+constexpr std::size_t most = 100'000, stream_steps = 1000;
+constexpr long rounds = 20'000'000;
+volatile double added_up;
+
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-std::vector<double> press() {
-    Frames block(1, 10000);
-    const auto source = make_stimulus("press", {}, 10e3, 0);
-    if (!(*source)->read(block)) std::exit(1);
-    return block.force[0];
+[[noreturn]] void stop(const std::string& why) {
+    fmt::print(stderr, "bench-population: {}\n", why);
+    std::exit(1);
 }
 
-AfferentPlan sa1() { return *plan_afferent("sa1", {}); }
+// The limits are compiled for each instruction set by the compiler itself: lanes are what is measured.
+#ifdef __x86_64__
+#define EACH_SET __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops")))
+#else
+#define EACH_SET
+#endif
 
-/// One thing that is timed: runs it once, returns the seconds it took.
-struct Timed {
-    std::string name;
-    double work;  // afferent-steps (or bytes, operations) a run
-    std::string unit;
-    std::function<double()> once;
-    std::vector<double> seconds = {};
-    std::int64_t spikes = 0;  // a run
-    double rate() const {
-        auto s = seconds;
-        std::nth_element(s.begin(), s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2), s.end());
-        return work / s[s.size() / 2];
-    }
-};
+typedef double Vector __attribute__((vector_size(64)));
 
-constexpr std::size_t most = 100'000;
-
-volatile double added_up;
-constexpr long most_rounds = 20'000'000;
-
-// Compiled for each instruction set; the best that the machine has is taken. (Not by lanes: they are what is measured.)
-__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops"))) double sum(const double* p,
-                                                                                                                      std::size_t count) {
-    typedef double Vector __attribute__((vector_size(64)));
+EACH_SET double sum(const double* p, std::size_t count) {
     Vector s[4] = {};
     const auto* v = reinterpret_cast<const Vector*>(p);
     for (std::size_t k = 0; k + 4 <= count / 8; k += 4)
@@ -64,10 +57,10 @@ __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), opt
     const Vector all = s[0] + s[1] + s[2] + s[3];
     return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
 }
-__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3"))) double adding(long rounds) {
-    typedef double Vector __attribute__((vector_size(64)));
+
+EACH_SET double additions(long count) {  // 64 a round, in eight chains
     Vector a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{};
-    for (long k = 0; k < rounds; ++k) {  // eight chains of additions: 64 operations a round
+    for (long k = 0; k < count; ++k) {
         a += 1e-9, b += 1e-9, c += 1e-9, d += 1e-9, e += 1e-9, f += 1e-9, g += 1e-9, h += 1e-9;
         asm volatile("" : "+m"(k));
     }
@@ -75,71 +68,206 @@ __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), opt
     return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
 }
 
-template <class V>
-struct Streams {
-    lanes::Buffer<V> rows;
-    std::size_t steps;
-    Streams(std::size_t units, std::size_t steps_) : rows((units + 63) / 64 * 64 * steps_), steps(steps_) {
-        const auto f = press();
-        const std::size_t tiles = (units + 63) / 64;
-        for (std::size_t tile = 0; tile < tiles; ++tile)
-            for (std::size_t t = 0; t < steps; ++t)
-                for (std::size_t u = 0; u < 64; ++u)
-                    rows.data()[(tile * steps + t) * 64 + u] =
-                        static_cast<V>(f[2400 + t] * (0.5 + 0.5 * static_cast<double>(tile * 64 + u) / static_cast<double>(most)));
+std::vector<double> press() {
+    Frames block(1, 10000);
+    const auto source = make_stimulus("press", {}, 10e3, 0);
+    if (!source || !(*source)->read(block)) stop("no press");
+    return block.force[0];
+}
+
+double gain(std::size_t unit) { return 0.5 + 0.5 * static_cast<double>(unit) / (most - 1); }
+
+/// The press times each afferent's gain, in tiles.
+template <class E>
+lanes::Buffer<E> tiles(const std::vector<double>& f, double scale) {
+    const std::size_t count = (most + force_tile - 1) / force_tile;
+    lanes::Buffer<E> rows(count * force_tile * stream_steps);
+    E* out = rows.data();
+    for (std::size_t tile = 0; tile < count; ++tile)
+        for (std::size_t t = 0; t < stream_steps; ++t)
+            for (std::size_t u = 0; u < force_tile; ++u) *out++ = static_cast<E>(f[2400 + t] * gain(tile * force_tile + u) * scale);
+    return rows;
+}
+
+/// One thing that is timed.
+struct Timed {
+    std::string name;
+    double work;                       // a run
+    std::function<double()> once;      // seconds of one
+    double operations = 0, bytes = 0;  // of an afferent-step, operations in double
+    std::vector<double> seconds = {};
+    std::int64_t spikes = 0;  // a run
+
+    double rate() const {
+        auto s = seconds;
+        std::nth_element(s.begin(), s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2), s.end());
+        return work / s[s.size() / 2];
     }
 };
 
-struct Made {
-    std::unique_ptr<Population> population;
-    std::vector<AfferentPlan> plans;
-};
-
-std::unique_ptr<Population> made(std::size_t units, bool own, Precision precision, bool sampled, Method method, InstructionSet set) {
-    std::vector<AfferentPlan> plans(own ? units : 1, sa1());
-    if (own)
-        for (std::size_t u = 0; u < units; ++u)
-            for (std::size_t k = 0; k < plans[u].values.size(); ++k)
-                if ((*plans[u].parameters)[k].row.name == "f_B")
-                    plans[u].values[k] = 15 + 10 * static_cast<double>(u) / static_cast<double>(units);
-    std::vector<const AfferentPlan*> pointers;
-    for (const auto& p : plans) pointers.push_back(&p);
-    auto result = make_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
-    if (!result) std::exit(1);
-    return std::move(*result);
-}
-
-/// One population over all of its force, in blocks of 250 steps.
-struct Run1 {
-    std::size_t units, steps;
-    bool own = false;
-    Precision precision = Precision::in_double;
-    bool sampled = true, marks = false;
+/// A population over all of its force, in blocks.
+struct Case {
+    std::size_t units = most, steps = 0, block = 0;
     Method method = Method::exact;
+    bool own = false, sampled = true, marks = false;
+    Precision precision = Precision::in_double;
     InstructionSet set = InstructionSet::baseline;
-    std::function<PopulationForce(std::size_t, std::size_t)> force;  // of a block: first step, steps
-    std::size_t block = 250;
-    std::size_t first = 0;
+    std::function<PopulationForce(std::size_t first, std::size_t steps)> force = {};
+
+    std::unique_ptr<Population> made() const {
+        const auto plan = plan_afferent("sa1", {});
+        std::vector<AfferentPlan> plans(own ? units : 1, *plan);
+        for (std::size_t u = 0; own && u < units; ++u)
+            for (std::size_t k = 0; k < plans[u].values.size(); ++k)
+                if ((*plans[u].parameters)[k].row.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / (most - 1);
+        std::vector<const AfferentPlan*> pointers;
+        for (const auto& p : plans) pointers.push_back(&p);
+        auto result = make_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
+        if (!result) stop(result.error().text());
+        return std::move(*result);
+    }
 
     double once(std::int64_t& spikes) const {
-        const auto p = made(units, own, precision, sampled, method, set);
         static Pool alone(1);
         static std::vector<Spike> found;
         static std::vector<std::uint64_t> bits;
-        spikes = 0;
+        const auto population = made();
         double taken = 0;
+        spikes = 0;
         for (std::size_t k = 0; k < steps; k += block) {
+            const std::size_t count = std::min(block, steps - k);
             found.clear();
             PopulationAnswer answer{marks ? nullptr : &found, marks ? &bits : nullptr};
-            const auto f = force(k, std::min(block, steps - k));
-            const double t0 = now();
-            if (!p->respond(f, std::min(block, steps - k), answer, alone)) std::exit(1);
-            taken += now() - t0;
-            if (marks)
-                for (const auto b : bits) spikes += __builtin_popcountll(b);
+            const auto f = force(k, count);
+            const double begun = now();
+            const auto done = population->respond(f, count, answer, alone);
+            taken += now() - begun;
+            if (!done) stop(done.error().text());
+            for (std::size_t w = 0; marks && w < bits.size(); ++w) spikes += __builtin_popcountll(bits[w]);
             spikes += static_cast<std::int64_t>(found.size());
         }
         return taken;
+    }
+};
+
+class Bench {
+    std::string only_;
+    std::vector<double> press_ = press(), gains_;
+    lanes::Buffer<double> doubles_ = tiles<double>(press_, 1);
+    lanes::Buffer<float> floats_ = tiles<float>(press_, 1);
+    lanes::Buffer<std::int16_t> words_ = tiles<std::int16_t>(press_, 8000);
+    std::vector<std::unique_ptr<Timed>> all_;
+
+    void add(const std::string& name, const Case& c, double operations, double bytes) {
+        if (name.find(only_) == std::string::npos) return;
+        all_.push_back(std::make_unique<Timed>(Timed{name, static_cast<double>(c.units * c.steps), {}, operations, bytes}));
+        all_.back()->once = [c, t = all_.back().get()] { return c.once(t->spikes); };
+    }
+
+    PopulationForce streamed(Precision precision) const {
+        if (precision == Precision::in_double) return ForceTiles<double>{doubles_.data()};
+        return ForceTiles<float>{floats_.data()};
+    }
+
+    Case profile_case(InstructionSet set, Precision precision) const {
+        Case c{.steps = 10000, .block = 1000, .precision = precision, .set = set};
+        c.force = [this](std::size_t k, std::size_t n) { return PopulationForce(ForceProfile{std::span(press_).subspan(k, n), gains_}); };
+        return c;
+    }
+
+    void add_set(InstructionSet set, Precision precision) {
+        const bool in_double = precision == Precision::in_double;
+        const std::string tag = fmt::format("{} {} ", name_of(set), in_double ? "double" : "float");
+        const double one = in_double ? 1 : 0.5, bytes = in_double ? 8 : 4;
+        const auto changed = [](Case c, auto change) { return change(c), c; };
+        Case stream{.steps = stream_steps, .block = stream_steps, .precision = precision, .set = set};
+        stream.force = [this, precision](std::size_t, std::size_t) { return streamed(precision); };
+        add(tag + "streamed", stream, 20 * one, bytes);
+        add(tag + "streamed, interpolated", changed(stream, [](Case& c) { c.sampled = false; }), 20 * one, bytes);
+        if (set != instruction_sets().back()) {  // of lesser sets, the main ones
+            add(tag + "profile", profile_case(set, precision), 5 * one, 0);
+            return;
+        }
+        add(tag + "streamed, own parameters", changed(stream, [](Case& c) { c.own = true; }), 20 * one, bytes);
+        add(tag + "streamed, 16-bit words",
+            changed(stream,
+                    [&](Case& c) {
+                        c.force = [this](std::size_t, std::size_t) { return PopulationForce(ForceWords{words_.data(), 1.0 / 8000}); };
+                    }),
+            20 * one, 2);
+        add(tag + "streamed from the cache, N = 1000", changed(stream, [](Case& c) { c.units = 1000, c.steps = 10000, c.block = 100; }),
+            20 * one, 0);
+        const Case profile = profile_case(set, precision);
+        add(tag + "profile", profile, 5 * one, 0);
+        add(tag + "profile, marks", changed(profile, [](Case& c) { c.marks = true; }), 5 * one, 0);
+        add(tag + "profile, interpolated", changed(profile, [](Case& c) { c.sampled = false; }), 5 * one, 0);
+        add(tag + "profile, own parameters",
+            changed(profile,
+                    [this](Case& c) {
+                        c.own = true, c.steps = 1000;
+                        c.force = [this](std::size_t k, std::size_t n) {
+                            return PopulationForce(ForceProfile{std::span(press_).subspan(2400 + k, n), gains_});
+                        };
+                    }),
+            21 * one, 0);
+        const auto peers = [](Case c) { return c.method = Method::backward_euler, c; };
+        add(tag + "the peers' shared", peers(profile), 5 * one, 0);
+        add(tag + "the peers' own",
+            changed(peers(profile),
+                    [this](Case& c) {
+                        c.own = true, c.steps = 2000;
+                        c.force = [this](std::size_t k, std::size_t n) {
+                            return PopulationForce(ForceProfile{std::span(press_).subspan(2400 + k, n), gains_});
+                        };
+                    }),
+            21 * one, 0);
+        add(tag + "the peers' streamed", peers(stream), 20 * one, bytes);
+        add(tag + "profile, N = 1000",
+            changed(profile,
+                    [this](Case& c) {
+                        c.units = 1000;
+                        c.force = [this](std::size_t k, std::size_t n) {
+                            return PopulationForce(ForceProfile{std::span(press_).subspan(k, n), std::span(gains_).first(1000)});
+                        };
+                    }),
+            5 * one, 0);
+    }
+
+public:
+    explicit Bench(std::string only) : only_(std::move(only)) {
+        for (std::size_t u = 0; u < most; ++u) gains_.push_back(gain(u));
+        all_.push_back(std::make_unique<Timed>(Timed{"read", static_cast<double>(doubles_.size() * sizeof(double)), [this] {
+                                                         const double begun = now();
+                                                         added_up = sum(doubles_.data(), doubles_.size());
+                                                         return now() - begun;
+                                                     }}));
+        all_.push_back(std::make_unique<Timed>(Timed{"additions", 64.0 * rounds, [] {
+                                                         const double begun = now();
+                                                         added_up = additions(rounds);
+                                                         return now() - begun;
+                                                     }}));
+        const auto sets = instruction_sets();
+        for (std::size_t k = sets.size() - 1; k > 0; --k)  // without the scalar one
+            for (const auto precision : {Precision::in_double, Precision::in_float}) add_set(sets[k], precision);
+    }
+
+    void run(int runs) {
+        for (auto& t : all_) (void)t->once();  // pages and caches
+        for (int k = 0; k < runs; ++k)
+            for (auto& t : all_) t->seconds.push_back(t->once());
+    }
+
+    void print() const {
+        const double read = all_[0]->rate(), additions = all_[1]->rate();
+        fmt::print("read {:.1f} GB/s; {:.1f}e9 additions/s in double, with the best set\n", read / 1e9, additions / 1e9);
+        fmt::print("{:50} {:>10} {:>10} {:>10} {:>9}\n", "", "steps/s", "limit", "share", "spikes");
+        for (std::size_t k = 2; k < all_.size(); ++k) {
+            const auto& t = *all_[k];
+            const double limit = std::min(t.bytes > 0 ? read / t.bytes : 1e99, additions / t.operations);
+            fmt::print("{:50} {:10.3e} {:10.3e} {:9.0f}% {:9}\n", t.name, t.rate(), limit, 100 * t.rate() / limit, t.spikes);
+            if (t.bytes == 8 || t.bytes == 4)
+                fmt::print("{:50} of memory's {:.3e}: {:.0f}%\n", "", read / t.bytes, 100 * t.rate() * t.bytes / read);
+        }
     }
 };
 
@@ -147,95 +275,12 @@ struct Run1 {
 
 int main(int argc, char** argv) {
     int runs = 25;
-    for (int k = 1; k + 1 < argc; ++k)
-        if (std::string(argv[k]) == "--runs") runs = std::atoi(argv[k + 1]);
     std::string only;
-    for (int k = 1; k + 1 < argc; ++k)
+    for (int k = 1; k + 1 < argc; k += 2) {
+        if (std::string(argv[k]) == "--runs") runs = std::max(1, std::atoi(argv[k + 1]));
         if (std::string(argv[k]) == "--only") only = argv[k + 1];
-    const auto sets = instruction_sets();
-    std::vector<Timed> all;
-    const std::size_t stream_steps = 1000;
-    const Streams<double> doubles(most, stream_steps);
-    const Streams<float> floats(most, stream_steps);
-    lanes::Buffer<std::int16_t> words(floats.rows.size());
-    for (std::size_t k = 0; k < words.size(); ++k) words.data()[k] = static_cast<std::int16_t>(floats.rows.data()[k] * 8000);
-    const auto f = press();
-    std::vector<double> gains;
-    for (std::size_t u = 0; u < most; ++u) gains.push_back(0.5 + 0.5 * static_cast<double>(u) / (most - 1));
-
-    const auto add = [&](const std::string& name, Run1 run) {
-        if (name.find(only) == std::string::npos) return;
-        const double work = static_cast<double>(run.units * run.steps);
-        all.push_back({name, work, "afferent-steps/s", {}});
-        const auto n = all.size() - 1;
-        all.back().once = [&all, n, run] { return run.once(all[n].spikes); };
-    };
-    all.reserve(200);
-    // The most that memory allows: the streamed force added up, four sums of 64 bytes at a time.
-    all.push_back({"read", static_cast<double>(doubles.rows.size() * 8), "B/s", [&] {
-                       const double t0 = now();
-                       added_up = sum(doubles.rows.data(), doubles.rows.size());
-                       return now() - t0;
-                   }});
-    // The most that arithmetic allows: sums in registers.
-    all.push_back({"arithmetic", 64.0 * most_rounds, "double operations/s", [] {
-                       const double t0 = now();
-                       added_up = adding(most_rounds);
-                       return now() - t0;
-                   }});
-    for (const auto set : sets.subspan(1)) {
-        for (const auto precision : {Precision::in_double, Precision::in_float}) {
-            const std::string tag = fmt::format("{} {}", name_of(set), precision == Precision::in_double ? "double" : "float");
-            const auto tiles = [&, precision](std::size_t, std::size_t) {
-                return precision == Precision::in_double ? PopulationForce(ForceTiles<double>{doubles.rows.data()})
-                                                         : PopulationForce(ForceTiles<float>{floats.rows.data()});
-            };
-            const auto profile = [&](std::size_t k, std::size_t n) {
-                return PopulationForce(ForceProfile{std::span(f).subspan(k, n), gains});
-            };
-            const Run1 streamed{most, stream_steps, false, precision, true, false, Method::exact, set, tiles, stream_steps};
-            add(tag + " streamed sampled", streamed);
-            auto v = streamed;
-            v.sampled = false;
-            add(tag + " streamed interpolated", v);
-            v = streamed;
-            v.own = true;
-            add(tag + " streamed own parameters", v);
-            v = streamed;
-            v.force = [&](std::size_t, std::size_t) { return PopulationForce(ForceWords{words.data(), 1.0 / 8000}); };
-            add(tag + " int16 sampled", v);
-            const Run1 shape{most, 10000, false, precision, true, false, Method::exact, set, profile, 1000};
-            add(tag + " profile sampled", shape);
-            v = shape;
-            v.marks = true;
-            add(tag + " profile sampled marks", v);
-            v = shape;
-            v.sampled = false;
-            add(tag + " profile interpolated", v);
-            v = shape;
-            v.own = true;
-            v.steps = 1000;
-            add(tag + " profile own parameters", v);
-            const auto few = [&, precision](std::size_t, std::size_t) {
-                return precision == Precision::in_double ? PopulationForce(ForceTiles<double>{doubles.rows.data()})
-                                                         : PopulationForce(ForceTiles<float>{floats.rows.data()});
-            };
-            v = streamed;
-            v.units = 1000;
-            v.block = 100;
-            v.steps = 10000;
-            v.force = few;
-            add(tag + " N=1000 streamed from the cache", v);
-            v = shape;
-            v.units = 1000;
-            v.force = [&](std::size_t k, std::size_t n) {
-                return PopulationForce(ForceProfile{std::span(f).subspan(k, n), std::span(gains).first(1000)});
-            };
-            add(tag + " N=1000 profile sampled", v);
-        }
     }
-    for (auto& t : all) (void)t.once();  // warm
-    for (int k = 0; k < runs; ++k)
-        for (auto& t : all) t.seconds.push_back(t.once());
-    for (const auto& t : all) fmt::print("{:44} {:10.3e} {:18} {:10} spikes\n", t.name, t.rate(), t.unit, t.spikes);
+    Bench bench(only);
+    bench.run(runs);
+    bench.print();
 }

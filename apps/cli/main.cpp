@@ -96,7 +96,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->capture_default_str()
         ->type_name("N");
     verb.add_flag("--float", w.in_float,
-                  "single precision: up to twice as fast, but spikes move by some microseconds; no currents and membranes are kept");
+                  "single precision: up to twice as fast, but spikes move (doc/lanes.md says how far); no currents and membranes are kept");
     verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
     verb.add_option("--channel,-c", w.channels,

@@ -156,5 +156,7 @@ Lanes<V> exponent(Lanes<V> x) {
 
 template <>
 inline constexpr double exp_reach<Lanes<float>> = 87;
+template <>
+inline constexpr double series_reach<Lanes<float>> = 0.3;
 
 }  // namespace corpuscle::num

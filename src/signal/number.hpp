@@ -18,6 +18,9 @@ struct MaskOf {
 /// e^x is not followed beyond +-this: nothing needs more, and no infinity can arise.
 template <class T>
 inline constexpr double exp_reach = 700;
+/// Below this a difference e^x - 1 loses digits, and a short series does not.
+template <class T>
+inline constexpr double series_reach = 0.01;
 /// What a comparison of two T gives: bool, or a mask of lanes.
 template <class T>
 using Mask = typename MaskOf<T>::type;

@@ -47,6 +47,52 @@ TEST(Program, WritesWhatIsAskedForTheSameTwice) {
     EXPECT_EQ(first["spikes.csv"].substr(0, 45), "afferent,channel,time_s\nsa1,press,0.319558712");
 }
 
+TEST(Program, ThreadsAndInstructionSetsChangeNoByte) {
+    const Folder folder;
+    std::string wide = "t";
+    for (int c = 0; c < 70; ++c) wide += ",c" + std::to_string(c) + "_N";
+    for (int k = 0; k < 400; ++k) {
+        wide += "\n" + std::to_string(k / 1000.0);
+        for (int c = 0; c < 70; ++c) wide += "," + std::to_string((k * (c + 3) % 97) / 24.0);
+    }
+    folder.write("wide.csv", wide + "\n");
+    for (const std::string words : {"respond wide.csv --afferent sa1,fa1,sa1b+izhikevich,fsr+sa1 --time t",
+                                    "respond press --afferent sa1,fa1 --copies 150 --spread sa1.f_B=20% --spread fa1.V_th=10%"}) {
+        ASSERT_EQ(run(folder, words + " --out right -j 1").status, 0);
+        const auto right = test::read_file(folder / "right/spikes.csv"), summary = test::read_file(folder / "right/summary.json");
+        EXPECT_GT(right.size(), 2000U);
+        for (const std::string set : {"scalar", "baseline", "avx2", "avx512"})
+            for (const std::string threads : {"1", "2", "7"}) {
+                const auto ran = std::system(("cd '" + folder.path() + "' && CORPUSCLE_ISA=" + set + " '" CORPUSCLE_PROGRAM "' " + words +
+                                              " --out again --quiet -j " + threads + " 2>/dev/null")
+                                                 .c_str());
+                if (WEXITSTATUS(ran) == 2) continue;  // a set that this machine lacks
+                ASSERT_EQ(ran, 0);
+                EXPECT_EQ(test::read_file(folder / "again/spikes.csv"), right) << set << ' ' << threads;
+                EXPECT_EQ(test::read_file(folder / "again/summary.json"), summary) << set << ' ' << threads;
+            }
+    }
+}
+
+TEST(Program, FloatAnswersWithinMicrosecondsAndKeepsNoInnerTraces) {
+    const Folder folder;
+    ASSERT_EQ(run(folder, "respond press --out double").status, 0);
+    ASSERT_EQ(run(folder, "respond press --float --out float --report").status, 0);
+    const auto near = run(folder, "compare double/spikes.csv float/spikes.csv --window 50us --json");
+    for (const auto& pair : Json::parse(near.out)["pairs"]) {
+        EXPECT_EQ(pair["missing"], 0) << near.out;
+        EXPECT_EQ(pair["extra"], 0) << near.out;
+    }
+    EXPECT_EQ(Json::parse(test::read_file(folder / "float/summary.json"))["options"]["precision"], "float");
+    const auto traces = run(folder, "respond press --float --out float --traces");
+    EXPECT_EQ(traces.status, 2);
+    EXPECT_NE(traces.err.find("in float no currents and membranes are kept: leave out --traces"), std::string::npos) << traces.err;
+    const auto sensor = run(folder, "respond press --float --afferent fsr+sa1");
+    EXPECT_EQ(sensor.status, 2);
+    EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise are not in float"), std::string::npos) << sensor.err;
+    EXPECT_EQ(run(folder, "respond press -j 99999").status, 2);
+}
+
 TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
     const Folder folder;
     ASSERT_EQ(run(folder, "respond press noise --out answer --traces --npz --wav --bin 10ms").status, 0);

@@ -30,7 +30,11 @@ TEST(Pool, EveryPieceIsDoneOnceWhateverTheThreads) {
 
 TEST(Pool, AnExceptionComesToTheCallerAndThePoolGoesOn) {
     Pool pool(3);
-    EXPECT_THROW(pool.each(100, [](std::size_t k, unsigned) { if (k == 40) throw std::runtime_error("40"); }), std::runtime_error);
+    EXPECT_THROW(pool.each(100,
+                           [](std::size_t k, unsigned) {
+                               if (k == 40) throw std::runtime_error("40");
+                           }),
+                 std::runtime_error);
     std::atomic<int> done = 0;
     pool.each(100, [&](std::size_t, unsigned) { ++done; });
     EXPECT_EQ(done, 100);

@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <optional>
 
 #include "model/lanes/buffer.hpp"
-#include "model/lanes/gather.hpp"
+#include "model/lanes/collect.hpp"
 #include "model/lanes/kernel.hpp"
 #include "model/lanes/profile.hpp"
 #include "model/population.hpp"
@@ -40,40 +39,6 @@ class Crowd final : public Population {
             rows{chunk * tile_units}, gain{tile_units};
         Buffer<Firing> firings{record_room};
         Buffer<V> offsets{record_room * 16};
-    };
-
-    /// What one job found.
-    struct Job {
-        std::vector<Event> events;
-        std::int64_t capped = 0, unmarked = 0;
-        bool lost = false;  // some force or state is no number
-    };
-
-    /// A list of firings that empties itself into a job, or into marks.
-    struct Collector : FiringList<V> {
-        Job& job;
-        std::uint64_t* marks;  // of this tile, from the chunk's first step on; or null
-        std::uint32_t unit, step;
-        int lanes;
-
-        void empty() {
-            for (int k = 0; k < this->count; ++k)
-                marks ? mark(this->firings[k]) : list(this->firings[k], this->offsets ? this->offsets + k * lanes : nullptr);
-            this->count = 0;
-        }
-        void mark(const Firing& f) {
-            auto& word = marks[f.step];
-            const auto bits = f.bits << f.unit;
-            if ((word & bits) != 0) job.unmarked += std::popcount(word & bits);
-            word |= bits;
-        }
-        void list(const Firing& f, const V* offsets) {
-            for (auto bits = f.bits; bits != 0; bits &= bits - 1) {
-                const int lane = std::countr_zero(bits);
-                job.events.push_back({step + static_cast<std::uint32_t>(f.step), unit + static_cast<std::uint32_t>(f.unit + lane),
-                                      offsets ? static_cast<double>(offsets[lane]) : 1.0});
-            }
-        }
     };
 
     /// A block at work.
@@ -174,7 +139,7 @@ class Crowd final : public Population {
         return c;
     }
 
-    NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector& fired,
+    NeuronCall<V> firing(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, Collector<V>& fired,
                          Ahead ahead) const {
         const auto [models, stride] = this->models(cast_.neurons, *cast_.neuron, tile);
         NeuronCall<V> c{};
@@ -202,13 +167,13 @@ class Crowd final : public Population {
             job.lost |= c.strange;
             ahead = {c.ahead.at + c.ahead.bytes, c.ahead.bytes};
         }
-        Collector fired{{s.firings.data(), sampled_ || first ? nullptr : s.offsets.data(), 0, 0, valid(tile), 0,
-                         [](FiringList<V>& list) { static_cast<Collector&>(list).empty(); }},
-                        job,
-                        b.marks ? b.marks + tile * b.steps + step : nullptr,
-                        static_cast<std::uint32_t>(tile * tile_units),
-                        static_cast<std::uint32_t>(step),
-                        cast_.lanes};
+        Collector<V> fired{{s.firings.data(), sampled_ || first ? nullptr : s.offsets.data(), 0, 0, valid(tile), 0,
+                            [](FiringList<V>& list) { static_cast<Collector<V>&>(list).empty(); }},
+                           job,
+                           b.marks ? b.marks + tile * b.steps + step : nullptr,
+                           static_cast<std::uint32_t>(tile * tile_units),
+                           static_cast<std::uint32_t>(step),
+                           cast_.lanes};
         for (int k = 0; k < cast_.receptor->outputs; ++k) {
             const auto c = firing(b, tile, k, step, steps, s, fired, k == 0 ? ahead : Ahead{});
             if (first) cast_.neuron->start(c);

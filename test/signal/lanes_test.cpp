@@ -1,0 +1,113 @@
+// Numbers on lanes are the numbers of one: to the bit in double; in float the same on every instruction set, and near.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "model/lanes/buffer.hpp"
+#include "signal/elementary.hpp"
+#include "signal/instruction_set.hpp"
+#include "signal/number_functions.hpp"
+#include "signal/number_lanes.hpp"
+#include "signal/random.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::functions;
+
+constexpr std::size_t count = 4096;
+
+template <class V>
+test::NumberFunctions<V> on(InstructionSet set) {
+    const auto pick = [](auto in_double, auto in_float) {
+        if constexpr (sizeof(V) == 8)
+            return (void)in_float, in_double;
+        else
+            return (void)in_double, in_float;
+    };
+#ifdef __x86_64__
+    if (set == InstructionSet::avx512) return pick(test::avx512::in_double, test::avx512::in_float);
+    if (set == InstructionSet::avx2) return pick(test::avx2::in_double, test::avx2::in_float);
+#endif
+    return pick(test::baseline::in_double, test::baseline::in_float);
+}
+
+/// Numbers of all sizes, and those at the edges.
+template <class V>
+struct Arguments {
+    lanes::Buffer<V> a{count}, b{count};
+    Arguments() {
+        const V odd[] = {0, -V(0), 1, -1, V(0.5), std::numeric_limits<V>::infinity(), -std::numeric_limits<V>::infinity(),
+                         std::numeric_limits<V>::quiet_NaN(), 700, -700, V(1e-30), V(0.01)};
+        for (std::size_t k = 0; k < count; ++k) {
+            a.data()[k] = static_cast<V>(20 * normal(1, 0, 0, k)), b.data()[k] = static_cast<V>(normal(1, 1, 0, k));
+            if (k < 144) a.data()[k] = odd[k / 12], b.data()[k] = odd[k % 12];
+        }
+    }
+};
+
+template <class V>
+std::vector<lanes::Buffer<V>> values(InstructionSet set, const Arguments<V>& x) {
+    std::vector<lanes::Buffer<V>> out;
+    V* at[functions];
+    for (auto& p : at) p = out.emplace_back(count).data();
+    on<V>(set)(x.a.data(), x.b.data(), count, at);
+    return out;
+}
+
+/// The same bits, or both no number.
+template <class V>
+bool same(V x, V y) {
+    return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y));
+}
+
+TEST(Lanes, EveryFunctionInDoubleGivesTheBitsOfOneNumber) {
+    const Arguments<double> x;
+    for (const auto set : instruction_sets().subspan(1)) {
+        const auto found = values(set, x);
+        for (std::size_t k = 0; k < count; ++k)
+            test::each_function(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double right) {
+                EXPECT_TRUE(same(found[f].data()[k], right)) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k]
+                                                             << ": " << found[f].data()[k] << ", not " << right;
+            });
+    }
+}
+
+TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllSetsAndNearDouble) {
+    const Arguments<float> x;
+    const auto right = values(InstructionSet::baseline, x);
+    for (const auto set : instruction_sets().subspan(1)) {
+        const auto found = values(set, x);
+        for (std::size_t f = 0; f < functions; ++f)
+            for (std::size_t k = 0; k < count; ++k) EXPECT_TRUE(same(found[f].data()[k], right[f].data()[k])) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k] << ": " << found[f].data()[k] << ", not " << right[f].data()[k];
+    }
+    for (std::size_t k = 144; k < count; ++k)  // exp's error grows with its argument, log's with how near 1 it is
+        test::each_function<double>(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double y) {
+            if (std::abs(x.a.data()[k]) > 80 && f == 0) return;
+            const double scale = f == 0 ? std::abs(y) * (1 + std::abs(x.a.data()[k])) : std::abs(y) + 1;
+            EXPECT_NEAR(right[f].data()[k], y, 4e-7 * scale) << "function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k];
+        });
+}
+
+TEST(Lanes, TheEnvironmentNamesTheInstructionSetOrIsRefused) {
+    for (const auto set : instruction_sets()) {
+        setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
+        const auto chosen = instruction_set();
+        ASSERT_TRUE(static_cast<bool>(chosen));
+        EXPECT_EQ(*chosen, set);
+    }
+    setenv("CORPUSCLE_ISA", "sse9", 1);
+    const auto refused = instruction_set();
+    unsetenv("CORPUSCLE_ISA");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().sentence.find("CORPUSCLE_ISA=sse9: this machine has scalar, baseline"), std::string::npos);
+    EXPECT_EQ(*instruction_set(), instruction_sets().back());
+}
+
+}  // namespace
+}  // namespace corpuscle
