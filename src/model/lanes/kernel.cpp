@@ -76,11 +76,17 @@ template <class S, class V>
 /// The force that vectors of a tile feel. A copy of what the call says: stores of lanes may be taken for changes of anything else.
 template <Feed feed, class V>
 struct Force {
-    const V *rows, *profile, *gain;
-    const std::int16_t* words;
-    V scale;
-    explicit Force(const TransductionCall<V>& c, int unit)
-        : rows(c.rows + unit), profile(c.profile), gain(c.gain + unit), words(c.words + unit), scale(c.scale) {}
+    const V *rows = nullptr, *profile = nullptr, *gain = nullptr;
+    const std::int16_t* words = nullptr;
+    V scale{};
+    explicit Force(const TransductionCall<V>& c, int unit) {
+        if constexpr (feed == Feed::profile)
+            profile = c.profile, gain = c.gain + unit;
+        else if constexpr (feed == Feed::words)
+            words = c.words + unit, scale = c.scale;
+        else
+            rows = c.rows + unit;
+    }
     [[gnu::always_inline]] Batch<V> at(int step, int unit) const {
         if constexpr (feed == Feed::profile)
             return Batch<V>(profile[step]) * load(gain + unit);
@@ -250,10 +256,10 @@ void fire(const NeuronCall<V>& c, int unit, Asking& asked) {
         s[j] = read<typename N::State>(c.state, unit + j * w);
         fired[j] = {c.fired, unit + j * w};
     });
-    const V *from = c.from + (scaled ? 0 : unit), *to = c.to + (scaled ? 0 : unit), *gain = c.gain + (scaled ? unit : 0);
+    const V *from = c.from + (scaled ? 0 : unit), *to = c.to + (scaled ? 0 : unit), *gain = scaled ? c.gain + unit : nullptr;
     FiringList<V>& list = *c.fired;
     Asking asking = asked;
-    const V* const both_ends = c.both;
+    const V* const both_ends = c.both;  // of a scaled current
     for (int t = 0, steps = c.steps; t < steps; ++t) {
         list.step = t;
         if constexpr (!scaled) asking.some();
