@@ -7,13 +7,15 @@ function(add_lanes target)
   endif()
   set(flags_avx2 -march=x86-64-v3)
   set(flags_avx512 -march=x86-64-v4)
+  # After all other options: a model's constants are doubles, also where its numbers are floats.
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<IF:$<CXX_COMPILER_ID:Clang>,-Wno-implicit-float-conversion,-Wno-float-conversion>)
   foreach(set IN LISTS sets)
     set(object ${target}-lanes-${set})
     add_library(${object} OBJECT ${ARGN})
     target_include_directories(${object} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
     target_compile_definitions(${object} PRIVATE CORPUSCLE_ISA=${set})
     # -O2 at the least, so that small functions are not left as symbols; g++ 12 warns falsely in its own headers of AVX-512.
-    target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions -Wno-float-conversion
+    target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions
       $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-Wno-uninitialized;-Wno-maybe-uninitialized>)
     target_link_libraries(${object} PRIVATE corpuscle_ways)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)

@@ -110,9 +110,16 @@ AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t unit
     return plan;
 }
 
+/// With coarse substeps, where there are any: they take the time and are all alike.
+AfferentPlan plan_of(const std::string& name) {
+    auto plan = sure(plan_afferent(name, {}));
+    if (plan.value("substep")) plan = sure(plan_afferent(name, test::wishes({name + ".substep=200us"})));
+    return plan;
+}
+
 Case own_parameters(const std::string& name, std::size_t units, const Run& run, double seconds, std::uint64_t seed) {
     Case c{{}, forces(units, 1 / run.dt, seconds), run};
-    const auto plan = sure(plan_afferent(name, {}));
+    const auto plan = plan_of(name);
     for (std::uint32_t u = 0; u < units; ++u) c.plans.push_back(scattered(plan, seed, u));
     return c;
 }
@@ -121,8 +128,8 @@ TEST(Population, EveryChainOnLanesGivesTheBitsOfOneByOne) {
     for (const auto& name : every_chain())
         for (const auto method : {Method::exact, Method::backward_euler})
             for (const bool sampled : {false, true}) {
-                const corpuscle::Run run{5e-4, method, sampled};
-                const Case shared{{sure(plan_afferent(name, {}))}, forces(70, 2e3, 0.3), run}, own = own_parameters(name, 70, run, 0.3, 8);
+                const corpuscle::Run run{1e-3, method, sampled};
+                const Case shared{{plan_of(name)}, forces(70, 1e3, 0.3), run}, own = own_parameters(name, 70, run, 0.3, 8);
                 const auto right = one_by_one(shared), right_own = one_by_one(own);
                 if (method == Method::exact) {
                     EXPECT_FALSE(right.empty()) << name;
@@ -281,7 +288,7 @@ TEST(Population, AForceThatIsNoNumberIsRefusedByUnitAndSampleInEveryChain) {
     for (const auto& name : every_chain())
         for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
             for (const std::size_t at : {0, 1, 50, 99}) {
-                Case c{{sure(plan_afferent(name, {}))}, forces(70, 1e3, 0.1), {1e-3}};
+                Case c{{plan_of(name)}, forces(70, 1e3, 0.1), {1e-3}};
                 c.force[66][at] = bad;
                 std::vector<const double*> columns;
                 for (const auto& f : c.force) columns.push_back(f.data());

@@ -42,8 +42,18 @@ template <class V>
 struct Arguments {
     lanes::Buffer<V> a{count}, b{count};
     Arguments() {
-        const V odd[] = {0, -V(0), 1, -1, V(0.5), std::numeric_limits<V>::infinity(), -std::numeric_limits<V>::infinity(),
-                         std::numeric_limits<V>::quiet_NaN(), 700, -700, V(1e-30), V(0.01)};
+        const V odd[] = {0,
+                         -V(0),
+                         1,
+                         -1,
+                         V(0.5),
+                         std::numeric_limits<V>::infinity(),
+                         -std::numeric_limits<V>::infinity(),
+                         std::numeric_limits<V>::quiet_NaN(),
+                         700,
+                         -700,
+                         V(1e-30),
+                         V(0.01)};
         for (std::size_t k = 0; k < count; ++k) {
             a.data()[k] = static_cast<V>(20 * normal(1, 0, 0, k)), b.data()[k] = static_cast<V>(normal(1, 1, 0, k));
             if (k < 144) a.data()[k] = odd[k / 12], b.data()[k] = odd[k % 12];
@@ -72,8 +82,8 @@ TEST(Lanes, EveryFunctionInDoubleGivesTheBitsOfOneNumber) {
         const auto found = values(set, x);
         for (std::size_t k = 0; k < count; ++k)
             test::each_function(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double right) {
-                EXPECT_TRUE(same(found[f].data()[k], right)) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k]
-                                                             << ": " << found[f].data()[k] << ", not " << right;
+                EXPECT_TRUE(same(found[f].data()[k], right)) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", "
+                                                             << x.b.data()[k] << ": " << found[f].data()[k] << ", not " << right;
             });
     }
 }
@@ -84,7 +94,10 @@ TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllSetsAndNearDouble) {
     for (const auto set : instruction_sets().subspan(1)) {
         const auto found = values(set, x);
         for (std::size_t f = 0; f < functions; ++f)
-            for (std::size_t k = 0; k < count; ++k) EXPECT_TRUE(same(found[f].data()[k], right[f].data()[k])) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k] << ": " << found[f].data()[k] << ", not " << right[f].data()[k];
+            for (std::size_t k = 0; k < count; ++k)
+                EXPECT_TRUE(same(found[f].data()[k], right[f].data()[k]))
+                    << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k] << ": " << found[f].data()[k]
+                    << ", not " << right[f].data()[k];
     }
     for (std::size_t k = 144; k < count; ++k)  // exp's error grows with its argument, log's with how near 1 it is
         test::each_function<double>(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double y) {

@@ -57,7 +57,8 @@ private:
 
 /// Appends all jobs' events as spikes, in order of time, then unit: counted into their steps, then ordered inside each. `numbers`
 /// are what units are called, rising; none: their own numbers.
-inline void gather(std::span<const Job> jobs, std::size_t steps, std::int64_t first, std::span<const std::uint32_t> numbers, std::vector<Spike>& spikes) {
+inline void gather(std::span<const Job> jobs, std::size_t steps, std::int64_t first, std::span<const std::uint32_t> numbers,
+                   std::vector<Spike>& spikes) {
     std::vector<std::size_t> begin(steps + 1);
     for (const auto& job : jobs)
         for (const auto& e : job.events) ++begin[e.step + 1];

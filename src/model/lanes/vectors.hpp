@@ -1,0 +1,94 @@
+#pragma once
+// What the loops over a tile's vectors share: models and states in memory, unrolling, asking for memory ahead. Included by kernel.cpp alone.
+
+#include <new>
+#include <type_traits>
+#include <utility>
+
+#include "model/lanes/kernel.hpp"
+
+namespace corpuscle::lanes {
+namespace {
+
+template <class V>
+using Batch = num::Lanes<V>;
+template <class V>
+inline constexpr int width = static_cast<int>(Batch<V>::size);
+
+/// f(0), f(1) ... f(J - 1), each with its number as a constant: unrolled, so that arrays of states are registers.
+template <int J, class F>
+[[gnu::always_inline]] inline void each_of(F&& f) {
+    [&]<int... j>(std::integer_sequence<int, j...>)
+        __attribute__((always_inline)) { (f(std::integral_constant<int, j>{}), ...); }(std::make_integer_sequence<int, J>{});
+}
+
+template <class V>
+Batch<V> load(const V* at) {
+    return Batch<V>::load_aligned(at);
+}
+
+/// Hands a model the values of its parameters: of one unit for all lanes, or of as many units as there are lanes.
+template <class V, class P>
+struct PerLane {
+    const P* params;
+    int count;  ///< 1: one for all; the last stands in for lanes beyond
+    Batch<V> operator()(double P::* at) const {
+        alignas(64) V lanes[width<V>];
+        for (int l = 0; l < width<V>; ++l) lanes[l] = static_cast<V>(params[l < count ? l : count - 1].*at);
+        return load(lanes);
+    }
+    double one(double P::* at) const { return params[0].*at; }
+};
+
+template <class V, class M>
+void build(std::byte* at, const void* params, int count, double dt, Method method) {
+    using P = typename M::Params;
+    const auto* all = static_cast<const P*>(params);
+    for (int l = 0; l < (count == 1 ? 1 : tile_units); l += width<V>, at += sizeof(M)) {
+        const int from = l < count ? l : count - 1;
+        new (at) M(PerLane<V, P>{all + from, count - from}, dt, method);
+    }
+}
+
+template <class M>
+const M& model(const std::byte* models, std::size_t stride, int vector) {
+    return *reinterpret_cast<const M*>(models + stride * static_cast<std::size_t>(vector));
+}
+
+/// A state among those of its tile, value by value. Through a copy: what a loop works on has no address, so it can be registers.
+template <class S, class V>
+[[gnu::always_inline]] inline S read(const V* state, int unit) {
+    S s;
+    auto* values = reinterpret_cast<Batch<V>*>(&s);
+    for (std::size_t k = 0; k < sizeof(S) / sizeof(Batch<V>); ++k) values[k] = load(state + k * tile_units + unit);
+    return s;
+}
+template <class S, class V>
+[[gnu::always_inline]] inline void write(const S& own, V* state, int unit) {
+    const S s = own;
+    const auto* values = reinterpret_cast<const Batch<V>*>(&s);
+    for (std::size_t k = 0; k < sizeof(S) / sizeof(Batch<V>); ++k) values[k].store_aligned(state + k * tile_units + unit);
+}
+
+/// Asks for memory ahead, some lines each time, so that all of it is asked for in `times`.
+class Asking {
+    const char *at_, *end_;
+    std::size_t step_;
+
+public:
+    Asking(Ahead ahead, int times)
+        : at_(ahead.at), end_(ahead.at + ahead.bytes), step_((ahead.bytes / static_cast<std::size_t>(times) + 63) / 64 * 64) {}
+    [[gnu::always_inline]] void some() {
+        const char* const until = at_ + step_ < end_ ? at_ + step_ : end_;
+        for (; at_ < until; at_ += 64) __builtin_prefetch(at_);
+    }
+};
+
+/// How often a loop over J vectors at once goes round for a tile.
+template <class V, int J, class Call>
+int rounds(const Call& c) {
+    return (c.units + J * width<V> - 1) / (J * width<V>)*c.steps;
+}
+
+}  // namespace
+}  // namespace corpuscle::lanes
