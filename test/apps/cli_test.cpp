@@ -79,7 +79,9 @@ TEST(Program, FloatAnswersWithinMicrosecondsAndKeepsNoInnerTraces) {
     ASSERT_EQ(run(folder, "respond press --out double").status, 0);
     ASSERT_EQ(run(folder, "respond press --float --out float --report").status, 0);
     const auto near = run(folder, "compare double/spikes.csv float/spikes.csv --window 50us --json");
-    for (const auto& pair : Json::parse(near.out)["pairs"]) {
+    const auto document = Json::parse(near.out);
+    ASSERT_EQ(document["pairs"].size(), 2U) << near.out;
+    for (const auto& pair : document["pairs"]) {
         EXPECT_EQ(pair["missing"], 0) << near.out;
         EXPECT_EQ(pair["extra"], 0) << near.out;
     }
