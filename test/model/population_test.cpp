@@ -338,6 +338,15 @@ TEST(Population, ItsForceKeepsToOneWay) {
     const std::vector<double> negative = {1, -1, 1}, few = {1, 1};
     EXPECT_FALSE(population(c, {})->respond(ForceProfile{c.force[0], negative}, 10, answer, pool));
     EXPECT_FALSE(population(c, {})->respond(ForceProfile{c.force[0], few}, 10, answer, pool));
+    EXPECT_FALSE(population(c, {})->respond(ForceProfile{c.force[0]}, c.force[0].size() + 1, answer, pool));
+    EXPECT_FALSE(population(c, {})->respond(ForceColumns{std::span(columns).first(2)}, 10, answer, pool));
+
+    // sa1a's current does not scale with force: without gains it is transduced once, with gains by each unit.
+    const Case mixed{{sure(plan_afferent("sa1a+lif-b", {}))}, c.force, c.run};
+    const std::vector<double> ones = {1, 1, 1};
+    const auto m = population(mixed, {});
+    ASSERT_TRUE(static_cast<bool>(m->respond(ForceProfile{c.force[0]}, 10, answer, pool)));
+    EXPECT_FALSE(m->respond(ForceProfile{c.force[0], ones}, 10, answer, pool));
 }
 
 /// Float against double, afferent by afferent: the same number of spikes, none further away than `bound`.

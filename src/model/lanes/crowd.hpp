@@ -55,7 +55,7 @@ class Crowd final : public Population {
     std::size_t tiles_;
     Buffer<V> receptor_states_, neuron_states_;
     std::int64_t step_ = 0;
-    std::optional<std::size_t> kind_;
+    std::optional<std::pair<std::size_t, bool>> kind_;  // how force came so far: which of its forms, and whether transduced once
     std::array<ProfileCurrents, most_outputs> currents_;
     std::array<std::array<Buffer<V>, 3>, most_outputs> currents_in_v_;  // from, to, both
     Buffer<V> profile_;
@@ -255,14 +255,25 @@ class Crowd final : public Population {
         return unit ? std::optional(lost(*unit, b, answer)) : std::nullopt;
     }
 
-    Result<void> unsuited(const PopulationForce& force) {
-        if (kind_ && *kind_ != force.index()) return bad_input(fmt::format("{}: its force came in another way before", cast_.name));
-        kind_ = force.index();
+    /// Whether a profile is transduced once for all.
+    bool once(const PopulationForce& force) const {
+        const auto* profile = std::get_if<ForceProfile>(&force);
+        return profile && cast_.once && (profile->gain.empty() || cast_.scales);
+    }
+
+    Result<void> check(const PopulationForce& force, std::size_t steps) {
+        const std::pair kind(force.index(), once(force));
+        if (kind_ && *kind_ != kind) return bad_input(fmt::format("{}: its force came in another way before", cast_.name));
+        kind_ = kind;
+        if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->of.size() != cast_.units)
+            return bad_input(fmt::format("{}: {} columns of force for {} units", cast_.name, columns->of.size(), cast_.units));
         if (!std::is_same_v<V, double> && std::holds_alternative<ForceTiles<double>>(force))
             return bad_input(fmt::format("{}: tiles of double were handed to a population in float", cast_.name));
         if (!std::is_same_v<V, float> && std::holds_alternative<ForceTiles<float>>(force))
             return bad_input(fmt::format("{}: tiles of float were handed to a population in double", cast_.name));
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
+            if (profile->force.size() < steps)
+                return bad_input(fmt::format("{}: a profile of {} samples for {} steps", cast_.name, profile->force.size(), steps));
             if (!profile->gain.empty() && profile->gain.size() != cast_.units)
                 return bad_input(fmt::format("{}: {} gains for {} units", cast_.name, profile->gain.size(), cast_.units));
             for (const double g : profile->gain)
@@ -280,11 +291,10 @@ public:
     std::size_t units() const override { return cast_.units; }
 
     Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationAnswer& answer, Pool& pool) override {
-        if (auto ok = unsuited(force); !ok) return ok;
+        if (auto ok = check(force, steps); !ok) return ok;
         if (steps == 0) return {};
-        Block block{force, steps, false, nullptr};
+        Block block{force, steps, once(force), nullptr};
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
-            block.once = cast_.once && (profile->gain.empty() || cast_.scales);
             if (const auto at = first_not_finite(profile->force.first(steps)); at < steps) return *no_force(block, answer);
             prepare({profile->force.first(steps), profile->gain}, block.once);
         }

@@ -1,5 +1,6 @@
 #pragma once
-// What the loops over a tile's vectors share: models and states in memory, unrolling, asking for memory ahead. Included by kernel.cpp alone.
+// What the loops over a tile's vectors share: models and states in memory, unrolling, asking for memory ahead. Included by kernel.cpp
+// alone.
 
 #include <new>
 #include <type_traits>
