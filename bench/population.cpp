@@ -58,14 +58,28 @@ EACH_SET double sum(const double* p, std::size_t count) {
     return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
 }
 
-EACH_SET double additions(long count) {  // 64 a round, in eight chains
-    Vector a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{};
-    for (long k = 0; k < count; ++k) {
+/// Additions in registers: eight chains, to hide how long one takes. 64 a round.
+template <class V>
+[[gnu::always_inline]] inline double additions(long count) {
+    V a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{};
+    for (long k = 0; k < count * 8 * static_cast<long>(sizeof(double)) / static_cast<long>(sizeof(V)); ++k) {
         a += 1e-9, b += 1e-9, c += 1e-9, d += 1e-9, e += 1e-9, f += 1e-9, g += 1e-9, h += 1e-9;
-        asm volatile("" : "+m"(k));
+        asm volatile("" : "+x"(a), "+x"(b), "+x"(c), "+x"(d), "+x"(e), "+x"(f), "+x"(g), "+x"(h));
     }
-    const Vector all = a + b + c + d + e + f + g + h;
-    return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
+    return (a + b + c + d + e + f + g + h)[0];
+}
+typedef double Two __attribute__((vector_size(16)));
+typedef double Four __attribute__((vector_size(32)));
+#ifdef __x86_64__
+[[gnu::target("arch=x86-64-v4")]] double additions_avx512(long count) { return additions<Vector>(count); }
+[[gnu::target("arch=x86-64-v3")]] double additions_avx2(long count) { return additions<Four>(count); }
+#endif
+double additions(long count) {
+#ifdef __x86_64__
+    if (instruction_sets().back() == InstructionSet::avx512) return additions_avx512(count);
+    if (instruction_sets().back() == InstructionSet::avx2) return additions_avx2(count);
+#endif
+    return additions<Two>(count);
 }
 
 std::vector<double> press() {

@@ -85,6 +85,7 @@ std::unique_ptr<Population> crowd(const PopulationPlan& p, const Run& run, Instr
     const auto& plan = *p.plans[0];
     Cast<V> cast{named(table.receptors, plan.receptor),
                  named(table.neurons, plan.neuron),
+                 nullptr,
                  table.lanes,
                  p.units,
                  {},
@@ -95,6 +96,8 @@ std::unique_ptr<Population> crowd(const PopulationPlan& p, const Run& run, Instr
                  fmt::format("{}+{}", plan.receptor, plan.neuron)};
     cast.receptors = models_of<V>(Receptors{}, *cast.receptor, table.lanes, p.plans, p.units, run);
     cast.neurons = models_of<V>(Neurons{}, *cast.neuron, table.lanes, p.plans, p.units, run);
+    const auto& joined = cast.receptor->joined[static_cast<std::size_t>(cast.neuron - table.neurons.data())];
+    if (joined.run && joined.suits(cast.neurons.data(), cast.neurons.size() / cast.neuron->model_bytes)) cast.joined = &joined;
     if (cast.receptors.size() == cast.receptor->model_bytes) cast.once = profile_transduction(plan, run);
     return std::make_unique<Crowd<V>>(std::move(cast), run);
 }

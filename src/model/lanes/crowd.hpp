@@ -19,6 +19,7 @@ template <class V>
 struct Cast {
     const ReceptorLanes<V>* receptor;
     const NeuronLanes<V>* neuron;
+    const JoinedLanes<V>* joined;  ///< both in one loop; or null
     int lanes;
     std::size_t units;
     Buffer<std::byte> receptors, neurons;       ///< models: one, or a tile's after a tile's
@@ -30,13 +31,13 @@ struct Cast {
 
 template <class V>
 class Crowd final : public Population {
-    static constexpr int chunk = chunk_steps<V>;
-    static constexpr std::size_t tiles_a_job = 16;  // 1024 units: a piece of work for one thread
+    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // long: where no currents of their own share the cache
+    static constexpr std::size_t tiles_a_job = 16;                        // 1024 units: a piece of work for one thread
 
     /// What one thread needs for itself.
     struct Scratch {
         Buffer<V> from{most_outputs * current_rows<V> * tile_units}, to{most_outputs * current_rows<V> * tile_units},
-            rows{chunk * tile_units}, gain{tile_units};
+            rows{long_chunk * tile_units}, gain{tile_units};
         Buffer<Firing> firings{record_room};
         Buffer<V> offsets{record_room * 16};
     };
@@ -109,11 +110,16 @@ class Crowd final : public Population {
         }
     }
 
-    /// What the next chunk reads: half of it is asked for while the transductions work, half while the neurons do.
+    /// What the next chunk reads.
     template <class E>
     static Ahead after(const E* rows, int steps) {
         const auto chunk_size = static_cast<std::size_t>(steps) * tile_units;
-        return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E) / 2};
+        return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E)};
+    }
+    /// Half of it is asked for while the transductions work, half, which this returns, while the neurons do.
+    static Ahead second_half(Ahead& all) {
+        all.bytes /= 2;
+        return {all.at + all.bytes, all.bytes};
     }
 
     /// Where the ends of currents go. Of a continuous transduction they are the beginnings of the next step, one row on.
@@ -123,7 +129,7 @@ class Crowd final : public Population {
         const auto [models, stride] = this->models(cast_.receptors, *cast_.receptor, tile);
         TransductionCall<V> c{};
         c.models = models, c.stride = stride, c.state = receptor_state(tile);
-        c.units = units_of(tile), c.steps = steps;
+        c.units = units_of(tile), c.steps = steps, c.method = method_;
         c.from = s.from.data(), c.to = to_of(s), c.gain = s.gain.data();
         const std::size_t row = (tile * b.steps + step) * tile_units;
         if (const auto* columns = std::get_if<ForceColumns>(&b.force)) {
@@ -159,14 +165,6 @@ class Crowd final : public Population {
     /// on the sample; exact has no time to cover yet.
     void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, Job& job) const {
         const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
-        Ahead ahead{};
-        if (!b.once) {
-            auto c = transduction(b, tile, step, steps, s);
-            if (first) cast_.receptor->start(c);
-            cast_.receptor->run(c);
-            job.lost |= c.strange;
-            ahead = {c.ahead.at + c.ahead.bytes, c.ahead.bytes};
-        }
         Collector<V> fired{{s.firings.data(), sampled_ || first ? nullptr : s.offsets.data(), 0, 0, valid(tile), 0,
                             [](FiringList<V>& list) { static_cast<Collector<V>&>(list).empty(); }},
                            job,
@@ -174,12 +172,25 @@ class Crowd final : public Population {
                            static_cast<std::uint32_t>(tile * tile_units),
                            static_cast<std::uint32_t>(step),
                            cast_.lanes};
-        for (int k = 0; k < cast_.receptor->outputs; ++k) {
-            const auto c = firing(b, tile, k, step, steps, s, fired, k == 0 ? ahead : Ahead{});
-            if (first) cast_.neuron->start(c);
-            if (!silent) cast_.neuron->run(c);
-            fired.empty();
+        if (cast_.joined && !b.once && !first) {
+            cast_.joined->run(transduction(b, tile, step, steps, s), firing(b, tile, 0, step, steps, s, fired, {}));
+        } else {
+            Ahead ahead{};
+            if (!b.once) {
+                auto c = transduction(b, tile, step, steps, s);
+                if (first) cast_.receptor->start(c);
+                ahead = second_half(c.ahead);
+                cast_.receptor->run(c);
+                job.lost |= c.strange;
+            }
+            for (int k = 0; k < cast_.receptor->outputs; ++k) {
+                const auto c = firing(b, tile, k, step, steps, s, fired, k == 0 ? ahead : Ahead{});
+                if (first) cast_.neuron->start(c);
+                if (!silent) cast_.neuron->run(c);
+                fired.empty();
+            }
         }
+        fired.empty();
         job.capped += fired.capped;
     }
 
@@ -189,7 +200,7 @@ class Crowd final : public Population {
         for (std::size_t tile = number * tiles_a_job; tile < std::min(tiles_, (number + 1) * tiles_a_job); ++tile) {
             if (const auto* profile = std::get_if<ForceProfile>(&b.force)) gains_of(*profile, tile * tile_units, s.gain.data());
             for (std::size_t step = 0; step < b.steps;) {
-                const std::size_t most = b.once ? 256 : chunk;  // without currents of their own, units need no short chunks
+                const std::size_t most = b.once ? 256 : cast_.joined ? long_chunk : chunk;
                 const int steps = step_ == 0 && step == 0 ? 1 : static_cast<int>(std::min<std::size_t>(most, b.steps - step));
                 run_chunk(b, tile, step, steps, s, job);
                 step += static_cast<std::size_t>(steps);

@@ -35,6 +35,27 @@ template <class N, class S, class I, class F>
     if (num::any(capped)) fired.capped(capped);
 }
 
+/// What flows into vector j, worked out where it is asked for, and so again.
+template <class F>
+struct Flow : F {
+    [[gnu::always_inline]] const Flow& again() const { return *this; }
+};
+/// The same of currents at hand. Only a copy is looked into by number: they can stay in registers.
+template <class T, int J>
+struct AtHand {
+    const Current<T> (&i)[J];
+    struct Copy {
+        Current<T> i[J];
+        const Current<T>& operator()(int j) const { return i[j]; }
+    };
+    [[gnu::always_inline]] const Current<T>& operator()(int j) const { return i[j]; }
+    [[gnu::always_inline]] Copy again() const {
+        Copy copy;
+        each_of<J>([&](auto j) __attribute__((always_inline)) { copy.i[j] = i[j]; });
+        return copy;
+    }
+};
+
 /// One step of J vectors; current(j) is what flows into vector j. Where a neuron can tell at a glance that nothing happens, all are
 /// asked first, and those where something may are looked into one after another.
 template <bool waits, int J, class N, class S, class F, class I>
@@ -45,6 +66,7 @@ template <bool waits, int J, class N, class S, class F, class I>
         each_of<J>([&](auto j) __attribute__((always_inline)) { something[j] = n[j]->template glance<waits>(s[j], current(j), next[j]); });
         if (num::any_of(something)) [[unlikely]] {
             S before[J], after[J];
+            const auto again = current.again();
             unsigned where = 0;
             each_of<J>([&](auto j) __attribute__((always_inline)) {
                 before[j] = s[j], after[j] = next[j];
@@ -53,7 +75,7 @@ template <bool waits, int J, class N, class S, class F, class I>
             for (; where != 0; where &= where - 1) {
                 const int k = __builtin_ctz(where);
                 S one = before[k];
-                step_one(*n[k], one, current(k), fired[k]);
+                step_one(*n[k], one, again(k), fired[k]);
                 after[k] = one;
             }
             each_of<J>([&](auto j) __attribute__((always_inline)) { next[j] = after[j]; });
@@ -86,16 +108,17 @@ void fire(const NeuronCall<V>& c, int unit, Asking& asked) {
         if constexpr (scaled) {
             const T both(both_ends[t]);
             const auto current = [&]<bool rising>(std::bool_constant<rising>) __attribute__((always_inline)) {
-                return [&](int j) __attribute__((always_inline)) { return Scaled<T, V, rising>{load(gain + j * w), both, from[t], to[t]}; };
+                return Flow{[&](int j)
+                                __attribute__((always_inline)) { return Scaled<T, V, rising>{load(gain + j * w), both, from[t], to[t]}; }};
             };
             if (to[t] > from[t])
                 step_all<waits, J>(n, s, fired, current(std::true_type{}));
             else
                 step_all<waits, J>(n, s, fired, current(std::false_type{}));
         } else {
-            step_all<waits, J>(n, s, fired, [&](int j) __attribute__((always_inline)) {
-                return Current<T>{load(from + t * tile_units + j * w), load(to + t * tile_units + j * w)};
-            });
+            step_all<waits, J>(n, s, fired, Flow{[&](int j) __attribute__((always_inline)) {
+                                   return Current<T>{load(from + t * tile_units + j * w), load(to + t * tile_units + j * w)};
+                               }});
         }
     }
     asked = asking;

@@ -3,17 +3,37 @@
 
 #include <array>
 
-#include "model/lanes/firing.hpp"
-#include "model/lanes/transducing.hpp"
+#include "model/lanes/joined.hpp"
 #include "model/models.hpp"
 
 namespace corpuscle::lanes {
 namespace {
 
+template <class V, class R, class N>
+constexpr JoinedLanes<V> joined_lanes() {
+    if constexpr (joins<R, N>)
+        return {none_waits<N>, feel_tile<V, R, N>};
+    else
+        return {};
+}
+template <class V, class R, class Neurons>
+struct Joined;
+template <class V, class R, template <class> class... N>
+struct Joined<V, R, ModelList<N...>> {
+    static constexpr JoinedLanes<V> with_each[] = {joined_lanes<V, R, N<Batch<V>>>()...};
+};
+
 template <class V, class R>
 constexpr ReceptorLanes<V> receptor_lanes() {
-    return {R::name,     R::outputs,  continuous<R>,       sizeof(R), sizeof(typename R::State) / sizeof(Batch<V>),
-            build<V, R>, start<V, R>, transduce_tile<V, R>};
+    return {R::name,
+            R::outputs,
+            continuous<R>,
+            sizeof(R),
+            sizeof(typename R::State) / sizeof(Batch<V>),
+            build<V, R>,
+            start<V, R>,
+            transduce_tile<V, R>,
+            Joined<V, R, Neurons>::with_each};
 }
 template <class V, class N>
 constexpr NeuronLanes<V> neuron_lanes() {

@@ -55,6 +55,7 @@ struct TransductionCall {
     std::size_t stride;  ///< from a vector's model to the next; 0: one for all
     V* state;            ///< [value][tile_units]
     int units, steps;    ///< of the tile's units, those that are no padding
+    Method method;
     Feed feed;
     const V* rows;              ///< rows: force [step][tile_units], N
     const std::int16_t* words;  ///< words: the same as numbers that are N when times `scale`
@@ -82,6 +83,13 @@ struct NeuronCall {
     Ahead ahead;
 };
 
+/// A transduction and a neuron in one loop; null: these two are not.
+template <class V>
+struct JoinedLanes {
+    bool (*suits)(const std::byte* neurons, std::size_t count);     ///< whether it may be used with these models
+    void (*run)(const TransductionCall<V>&, const NeuronCall<V>&);  ///< uses nothing of their currents
+};
+
 template <class V>
 struct ReceptorLanes {
     std::string_view name;
@@ -92,6 +100,7 @@ struct ReceptorLanes {
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
     void (*start)(const TransductionCall<V>&);  ///< the state before the first row of force
     void (*run)(TransductionCall<V>&);
+    std::span<const JoinedLanes<V>> joined;  ///< with each neuron of the table
 };
 
 template <class V>

@@ -59,16 +59,34 @@ const M& model(const std::byte* models, std::size_t stride, int vector) {
 /// A state among those of its tile, value by value. Through a copy: what a loop works on has no address, so it can be registers.
 template <class S, class V>
 [[gnu::always_inline]] inline S read(const V* state, int unit) {
-    S s;
-    auto* values = reinterpret_cast<Batch<V>*>(&s);
-    for (std::size_t k = 0; k < sizeof(S) / sizeof(Batch<V>); ++k) values[k] = load(state + k * tile_units + unit);
-    return s;
+    return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+        return S{load(state + k * tile_units + unit)...};
+    }(std::make_index_sequence<sizeof(S) / sizeof(Batch<V>)>{});
 }
 template <class S, class V>
-[[gnu::always_inline]] inline void write(const S& own, V* state, int unit) {
-    const S s = own;
-    const auto* values = reinterpret_cast<const Batch<V>*>(&s);
-    for (std::size_t k = 0; k < sizeof(S) / sizeof(Batch<V>); ++k) values[k].store_aligned(state + k * tile_units + unit);
+[[gnu::always_inline]] inline void write(const S& s, V* state, int unit) {
+    constexpr auto values = sizeof(S) / sizeof(Batch<V>);
+    const auto put = [&](const auto&... value) __attribute__((always_inline)) {
+        int k = 0;
+        (value.store_aligned(state + k++ * tile_units + unit), ...);
+    };
+    static_assert(values <= 5);
+    if constexpr (values == 1) {
+        const auto& [a] = s;
+        put(a);
+    } else if constexpr (values == 2) {
+        const auto& [a, b] = s;
+        put(a, b);
+    } else if constexpr (values == 3) {
+        const auto& [a, b, c] = s;
+        put(a, b, c);
+    } else if constexpr (values == 4) {
+        const auto& [a, b, c, d] = s;
+        put(a, b, c, d);
+    } else {
+        const auto& [a, b, c, d, e] = s;
+        put(a, b, c, d, e);
+    }
 }
 
 /// Asks for memory ahead, some lines each time, so that all of it is asked for in `times`.
