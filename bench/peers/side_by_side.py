@@ -1,0 +1,80 @@
+"""How many times faster than NumPy and Brian2 is a population, on the works of work.py?
+
+Method: everything is built first. Then in each round, one after another: ours once, NumPy once and Brian2 once, each of these two in
+both of its forms; so a machine whose speed drifts drifts for all. In each round ours is divided by the fastest of the others; told are
+the medians of the rates and of that ratio, with its least and most. Spike totals in double must be equal, or this ends with status 1.
+What each does is said in numpy_in_place.py, brian2_standalone.py and ../population.cpp.
+
+    side_by_side.py build/release/bench-population [--work shared ...] [--dtype float32 ...] [--runs 5]
+"""
+
+import statistics
+import subprocess
+import sys
+import tempfile
+from types import SimpleNamespace
+
+import brian2_standalone
+import numpy as np
+import numpy_in_place
+import work
+
+FORMS = ["as-written", "folded"]
+
+
+def ours(program, name, dtype, n):
+    """Seconds of one run and its spikes, of the best instruction set; the program tells it first."""
+    precision = {"float64": "double", "float32": "float"}[dtype]
+    told = subprocess.run([program, "--runs", "1", "--only", f"{precision} the peers' {name}"], check=True, capture_output=True, text=True)
+    line = next(line for line in told.stdout.splitlines() if "the peers'" in line)
+    rate, _, _, spikes = line[50:].split()
+    return n * len(work.SAMPLES[name]) / float(rate), int(spikes)
+
+
+def of_numpy(name, dtype, form, n):
+    """A function that runs it once, for its seconds; and its spikes."""
+    task = numpy_in_place.Task(name, np.dtype(dtype).type, form, n)
+    block = 2**18 // task.g.itemsize
+    return lambda: numpy_in_place.run(task, block)[0], numpy_in_place.count(numpy_in_place.run(task, block)[1])
+
+
+def of_brian2(name, dtype, form, words, directory):
+    spikes = brian2_standalone.build(name, dtype, form, words, directory)
+    return lambda: brian2_standalone.run(directory), spikes
+
+
+def compare(program, name, dtype, words):
+    """Prints a line. Returns whether all found as many spikes, in double."""
+    with tempfile.TemporaryDirectory() as top:
+        peers = {("numpy", form): of_numpy(name, dtype, form, words.n) for form in FORMS}
+        peers |= {("brian2", form): of_brian2(name, dtype, form, words, f"{top}/{form}") for form in FORMS}
+        taken, ratios, spikes = {key: [] for key in ["ours", *peers]}, [], 0
+        for _ in range(words.runs):
+            seconds, spikes = ours(program, name, dtype, words.n)
+            taken["ours"].append(seconds)
+            for key, (run, _) in peers.items():
+                taken[key].append(run())
+            ratios.append(min(taken[key][-1] for key in peers) / seconds)
+    steps = words.n * len(work.SAMPLES[name])
+    best = {who: max(steps / statistics.median(taken[key]) for key in taken if key == who or key[0] == who) for who in ("ours", "numpy", "brian2")}
+    rates = "  ".join(f"{who} {rate / 1e6:6.0f}" for who, rate in best.items())
+    print(f"{name:9}{dtype:8} {rates}  M afferent-steps/s   {statistics.median(ratios):.1f} times the faster ({min(ratios):.1f} to {max(ratios):.1f},"
+          f" {words.runs} rounds)   {spikes} spikes", flush=True)
+    same = dtype != "float64" or all(found == spikes for _, found in peers.values())
+    if not same:
+        print(f"  not the same work: {[(*key, found) for key, (_, found) in peers.items()]}")
+    return same
+
+
+def main():
+    program = sys.argv.pop(1)
+    words = work.arguments(form=FORMS)
+    words = SimpleNamespace(**vars(words), flags="unrolled", monitor="spikes", rectify="clip")
+    print(work.machine())
+    pairs = dict.fromkeys((name, dtype) for name, dtype, _ in words.works)
+    same = [compare(program, name, dtype, words) for name, dtype in pairs]
+    sys.exit(0 if all(same) else 1)
+
+
+if __name__ == "__main__":
+    main()
