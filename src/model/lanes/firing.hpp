@@ -86,7 +86,7 @@ template <bool waits, int J, class N, class S, class F, class I>
     }
 }
 
-template <class V, class N, bool scaled, bool waits, int J>
+template <class V, class N, bool scaled, bool waits, bool shared, int J>
 void fire(const NeuronCall<V>& c, int unit, Asking& asked) {
     constexpr int w = width<V>;
     using T = Batch<V>;
@@ -94,7 +94,7 @@ void fire(const NeuronCall<V>& c, int unit, Asking& asked) {
     typename N::State s[J];
     Fired<V> fired[J];
     each_of<J>([&](auto j) __attribute__((always_inline)) {
-        n[j] = &model<N>(c.models, c.stride, unit / w + j);
+        n[j] = shared ? &model<N>(c.models, 0, 0) : &model<N>(c.models, c.stride, unit / w + j);
         s[j] = read<typename N::State>(c.state, unit + j * w);
         fired[j] = {c.fired, unit + j * w};
     });
@@ -140,10 +140,13 @@ void fire_tile(const NeuronCall<V>& c) {
     for (int unit = 0; unit < c.units; unit += J * width<V>) {
         if constexpr (requires(const N& n) { n.may_wait(); })
             if (!any_waits<V, N, J>(c, unit)) {
-                c.gain ? fire<V, N, true, false, J>(c, unit, asking) : fire<V, N, false, false, J>(c, unit, asking);
+                if (c.gain)
+                    c.stride == 0 ? fire<V, N, true, false, true, J>(c, unit, asking) : fire<V, N, true, false, false, J>(c, unit, asking);
+                else
+                    fire<V, N, false, false, false, J>(c, unit, asking);
                 continue;
             }
-        c.gain ? fire<V, N, true, true, J>(c, unit, asking) : fire<V, N, false, true, J>(c, unit, asking);
+        c.gain ? fire<V, N, true, true, false, J>(c, unit, asking) : fire<V, N, false, true, false, J>(c, unit, asking);
     }
 }
 
