@@ -1,0 +1,61 @@
+#pragma once
+// A formula of a netlist: read once, worked out often, with its slopes.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+/// What a formula is worked out from where it is not constant: v(a), v(a,b), i(vx), time, temper (C), hertz.
+struct FormulaInput {
+    enum class Kind { voltage, current, time, temperature } kind;
+    std::string name, minus;  ///< voltage: of a node against another ("": ground); current: through the element of this name
+    bool operator==(const FormulaInput&) const = default;
+};
+
+/// What names mean where a formula stands.
+struct FormulaScope {
+    std::function<std::optional<double>(std::string_view)> parameter;  ///< a number, if there is a parameter of this name
+    /// A user's function of this name (.func, .param f(x)=...): its arguments' names and its text; null: there are none.
+    struct Function {
+        std::vector<std::string> arguments;
+        std::string text;
+    };
+    std::function<const Function*(std::string_view)> function;
+    bool inputs = false;               ///< whether voltages, currents and time may be named: not so in .param
+    std::vector<std::string> known{};  ///< names for a suggestion where one is not known
+};
+
+class Formula {
+public:
+    /// Reads "2*v(a) + max(i(vx), 0)": + - * / ** ^ (powers), unary - + !, comparisons, && ||, c ? a : b, numbers with SPICE's
+    /// suffixes, pi and other constants ngspice knows, and its functions. The error has the column within `at`'s line.
+    static Result<Formula> parse(std::string_view text, const Place& at, const FormulaScope&);
+
+    /// In the order in which values must be handed in.
+    std::span<const FormulaInput> inputs() const { return inputs_; }
+    bool constant() const { return inputs_.empty(); }
+
+    double value(std::span<const double> inputs = {}) const;
+    /// The value, and in `slopes` how it changes with each input.
+    double value(std::span<const double> inputs, std::span<double> slopes) const;
+
+private:
+    friend class FormulaReader;
+    struct Step {
+        std::int16_t what;           // an operation, by its number
+        std::int32_t a = 0, b = 0, c = 0;  // steps before this one
+        double number = 0;
+    };
+    std::vector<Step> steps_;  // each uses earlier ones; the last is the value
+    std::vector<FormulaInput> inputs_;
+};
+
+}  // namespace corpuscle
