@@ -1,0 +1,35 @@
+#pragma once
+// Every analysis, by its word. To add one: its declaration, and its line.
+
+#include "circuit/analysis/bench.hpp"
+
+namespace corpuscle {
+
+Result<Findings> analyse_op(const TestBench&, const Command&);
+Result<Findings> analyse_dc(const TestBench&, const Command&);
+Result<Findings> analyse_ac(const TestBench&, const Command&);
+Result<Findings> analyse_noise(const TestBench&, const Command&);
+Result<Findings> analyse_tf(const TestBench&, const Command&);
+Result<Findings> analyse_sens(const TestBench&, const Command&);
+
+struct Analysis {
+    std::string_view word, usage, sentence;
+    Result<Findings> (*run)(const TestBench&, const Command&);
+};
+
+inline constexpr Analysis analyses[] = {
+    {"op", ".op", "the operating point, and every device at it", analyse_op},
+    {"dc", ".dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP] [updown]", "operating points along a source, a resistor or temp", analyse_dc},
+    {"ac", ".ac dec|oct|lin POINTS FROM TO", "small signals over frequency", analyse_ac},
+    {"noise", ".noise v(OUT[,REF]) SOURCE dec|oct|lin POINTS FROM TO", "noise at a node, and each device's part in it", analyse_noise},
+    {"tf", ".tf v(OUT[,REF])|i(V) SOURCE", "gain, resistance in and out at 0 Hz", analyse_tf},
+    {"sens", ".sens v(OUT[,REF])|i(V)", "how the output changes with each element's value", analyse_sens},
+};
+
+inline const Analysis* analysis_of(std::string_view word) {
+    for (const auto& a : analyses)
+        if (a.word == word) return &a;
+    return nullptr;
+}
+
+}  // namespace corpuscle

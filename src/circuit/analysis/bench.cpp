@@ -1,0 +1,122 @@
+#include "circuit/analysis/bench.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "circuit/netlist/number.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+Result<TestBench> TestBench::make(std::shared_ptr<const Circuit> circuit) {
+    auto tolerances = Tolerances::of(*circuit);
+    if (!tolerances) return tolerances.error();
+    auto system = System::make(circuit);
+    if (!system) return system.error();
+    return TestBench{std::move(circuit), std::move(*system), *tolerances, {}};
+}
+
+Error interrupted() { return {Code::interrupted, "interrupted"}; }
+
+Result<double> number_of(const Command& c, std::size_t word, std::string_view what) {
+    if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.place);
+    if (const auto x = whole_number(c.words[word])) return x->value;
+    auto place = c.place;
+    if (word < c.columns.size()) place.column = c.columns[word];
+    return bad_input(fmt::format(".{}: '{}' is no number; {} was expected", c.name, c.words[word], what), place);
+}
+
+Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
+    const std::string kind = word < c.words.size() ? c.words[word] : "";
+    if (kind != "dec" && kind != "oct" && kind != "lin")
+        return bad_input(fmt::format(".{}: '{}' must be dec, oct or lin", c.name, kind), c.place);
+    const auto points = number_of(c, word + 1, "a number of points"), from = number_of(c, word + 2, "a frequency to begin at"),
+               to = number_of(c, word + 3, "a frequency to end at");
+    if (!points) return points.error();
+    if (!from) return from.error();
+    if (!to) return to.error();
+    if (!(*points >= 1 && *points <= 1e7)) return bad_input(fmt::format(".{}: {:g} points; at least 1 and at most 10000000", c.name, *points), c.place);
+    if (!(*to >= *from && (*from > 0 || (kind == "lin" && *from >= 0))))
+        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz; the first must be above 0 and not above the second", c.name, *from, *to), c.place);
+    const auto count = static_cast<long>(*points);
+    std::vector<double> out;
+    if (kind == "lin") {
+        for (long k = 0; k < count; ++k) out.push_back(count == 1 ? *from : *from + (*to - *from) * static_cast<double>(k) / static_cast<double>(count - 1));
+        return out;
+    }
+    // As ngspice: so many steps a decade (octave), evenly, and the last no further than the end.
+    const double base = kind == "dec" ? 10 : 2, steps = std::log(*to / *from) / std::log(base) * static_cast<double>(count);
+    if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; at most 10000000", c.name, steps), c.place);
+    for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(*from * std::pow(base, k / static_cast<double>(count)));
+    return out;
+}
+
+Result<Wanted> wanted_of(const System& system, const Command& c, std::size_t word) {
+    if (word >= c.words.size()) return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.place);
+    auto place = c.place;
+    if (word < c.columns.size()) place.column = c.columns[word];
+    const auto& text = c.words[word];
+    const bool voltage = text.starts_with("v("), closed = text.ends_with(")");
+    if (!closed || !(voltage || text.starts_with("i(")))
+        return bad_input(fmt::format(".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text), place);
+    const auto inside = text.substr(2, text.size() - 3);
+    std::vector<std::string_view> known(system.names().begin(), system.names().end());
+    const auto unknown = [&](const std::string& name) -> Result<int> {
+        if (voltage && (name == "0" || name == "gnd")) return -1;
+        const auto full = fmt::format("{}({})", voltage ? 'v' : 'i', name);
+        const int found = system.unknown(full);
+        if (found < 0) return bad_input(fmt::format(".{}: there is no {}{}", c.name, full, did_you_mean(full, known)), place);
+        return found;
+    };
+    const auto comma = inside.find(',');
+    const auto plus = unknown(inside.substr(0, comma));
+    if (!plus) return plus.error();
+    if (comma == std::string::npos) return Wanted{*plus, -1};
+    const auto minus = unknown(inside.substr(comma + 1));
+    if (!minus) return minus.error();
+    return Wanted{*plus, *minus};
+}
+
+std::complex<double> Wanted::of(std::span<const std::complex<double>> x) const {
+    return (plus < 0 ? 0 : x[static_cast<std::size_t>(plus)]) - (minus < 0 ? 0 : x[static_cast<std::size_t>(minus)]);
+}
+double Wanted::of(std::span<const double> x) const {
+    return (plus < 0 ? 0 : x[static_cast<std::size_t>(plus)]) - (minus < 0 ? 0 : x[static_cast<std::size_t>(minus)]);
+}
+
+Plot plot_of(const System& system, std::string name, std::string swept, std::string type) {
+    Plot plot{std::move(name), false, !swept.empty(), {}};
+    if (plot.swept) plot.curves.push_back({std::move(swept), std::move(type), {}});
+    for (int n = 0; n < system.size(); ++n)
+        plot.curves.push_back({system.names()[static_cast<std::size_t>(n)], system.is_voltage(n) ? "voltage" : "current", {}});
+    return plot;
+}
+
+void append(Plot& plot, std::complex<double> swept, std::span<const std::complex<double>> x) {
+    plot.curves[0].values.push_back(swept);
+    for (std::size_t n = 0; n < x.size(); ++n) plot.curves[n + 1].values.push_back(x[n]);
+}
+void append(Plot& plot, std::complex<double> swept, std::span<const double> x) {
+    plot.curves[0].values.push_back(swept);
+    for (std::size_t n = 0; n < x.size(); ++n) plot.curves[n + 1].values.emplace_back(x[n]);
+}
+
+std::vector<std::complex<double>> admittances(const Sums& sums, std::size_t entries, double omega) {
+    std::vector<std::complex<double>> out(entries);
+    for (std::size_t k = 0; k < entries; ++k) out[k] = {sums.G[k], omega * sums.C[k]};
+    return out;
+}
+
+Sums sums_at(const TestBench& bench, std::span<const double> x) {
+    Sums sums;
+    Instant at;
+    at.gmin = bench.tolerances.gmin;
+    auto memory = bench.system.fresh_memory();
+    for (int k = 0; k < 200; ++k) {  // until no device shortens its look
+        bench.system.eval(x, at, memory, sums);
+        if (!sums.limited) break;
+    }
+    return sums;
+}
+
+}  // namespace corpuscle

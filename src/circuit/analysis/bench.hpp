@@ -1,0 +1,60 @@
+#pragma once
+// What analyses work on: a circuit's equations, its tolerances, and what they leave behind.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "circuit/plot.hpp"
+#include "circuit/solve/operating_point.hpp"
+
+namespace corpuscle {
+
+/// What an analysis found.
+struct Findings {
+    std::vector<Plot> plots;
+    std::vector<std::pair<std::string, double>> numbers;  ///< printed as "name = value"
+    std::string table;                                    ///< for people
+    std::vector<Error> remarks;
+};
+
+/// A circuit ready for its analyses. Asked now and then by long work whether to stop.
+struct TestBench {
+    std::shared_ptr<const Circuit> circuit;
+    System system;
+    Tolerances tolerances;
+    std::function<bool(double share)> stop;  ///< told how far the work is; true: stop
+
+    static Result<TestBench> make(std::shared_ptr<const Circuit>);
+    bool stopped(double share) const { return stop && stop(share); }
+};
+
+Error interrupted();
+
+/// A number among a command's words, SPICE's suffixes and all; names the command, the word and its place if it is none.
+Result<double> number_of(const Command&, std::size_t word, std::string_view what);
+
+/// Frequencies of "dec 10 1 1k", "oct ...", "lin ...", from the given word on.
+Result<std::vector<double>> frequencies_of(const Command&, std::size_t word);
+
+/// v(a), v(a,b) or i(x) as unknowns: their difference is meant. -1: nothing.
+struct Wanted {
+    int plus = -1, minus = -1;
+    std::complex<double> of(std::span<const std::complex<double>> x) const;
+    double of(std::span<const double> x) const;
+};
+Result<Wanted> wanted_of(const System&, const Command&, std::size_t word);
+
+/// Curves for all unknowns, empty, after the one that is swept.
+Plot plot_of(const System&, std::string name, std::string swept, std::string type);
+void append(Plot&, std::complex<double> swept, std::span<const double> x);
+void append(Plot&, std::complex<double> swept, std::span<const std::complex<double>> x);
+
+/// G + j w C of a system at its operating point, in the pattern's places.
+std::vector<std::complex<double>> admittances(const Sums&, std::size_t entries, double omega);
+
+/// All sums at an operating point.
+Sums sums_at(const TestBench&, std::span<const double> x);
+
+}  // namespace corpuscle

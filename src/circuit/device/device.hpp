@@ -1,0 +1,83 @@
+#pragma once
+// A device says its currents, charges and slopes, once; operating points, sweeps, spectra and noise are uses of them.
+
+#include <complex>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "circuit/netlist/netlist.hpp"
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+/// Under what a device is looked at.
+struct Instant {
+    double time = 0;
+    double sources = 1;  ///< what part of their value sources give: less than 1 on the way to an operating point
+    double gmin = 0;     ///< S, beside every junction
+};
+
+/// What a device adds: for each of its unknowns (terminals, then its own) the current out of the node into the device and the charge that
+/// follows it, A and C; of an unknown of its own that is no node, the two sides of its equation. Slopes row by row.
+struct Stamp {
+    std::span<double> f, q, df, dq;
+    double& slope(std::size_t row, std::size_t column) const { return df[row * f.size() + column]; }
+    double& capacitance(std::size_t row, std::size_t column) const { return dq[row * f.size() + column]; }
+};
+
+/// A noise current between two unknowns of a device: its spectral density, A^2/Hz, is white + flicker / f.
+struct NoiseSource {
+    std::string_view what;  ///< "thermal", "shot", "flicker" ...
+    std::size_t from, to;   ///< of the device's unknowns
+    double white = 0, flicker = 0;
+};
+
+/// One line of the table of an operating point.
+struct Reading {
+    std::string_view name, unit;
+    double value;
+};
+
+class Device {
+public:
+    std::string name;
+    Place place;
+    std::vector<int> unknowns;  ///< in the system; -1: ground
+
+    virtual ~Device() = default;
+    /// Adds to a stamp that is zero. v: of its unknowns.
+    virtual void eval(std::span<const double> v, const Instant&, const Stamp&) const = 0;
+    virtual bool linear() const { return true; }
+
+    /// How many numbers it keeps between the steps of an iteration, and what may become of a step: v is changed to where it is to be
+    /// looked at, if it would go too far at once. Returns whether it was.
+    virtual std::size_t memory() const { return 0; }
+    virtual bool limit(std::span<double>, std::span<double>) const { return false; }
+
+    /// Of a source: the value that a sweep gives it, and what drives .ac.
+    virtual bool set(double) { return false; }
+    virtual std::optional<double> setting() const { return {}; }
+    virtual void drive(std::span<std::complex<double>>) const {}
+
+    /// At the operating point; v as in eval.
+    virtual std::vector<NoiseSource> noise(std::span<const double>) const { return {}; }
+    virtual std::vector<Reading> readings(std::span<const double>) const { return {}; }
+    virtual std::string_view state(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...
+};
+
+/// Where a device gets its unknowns when it is made.
+class Setup {
+public:
+    virtual ~Setup() = default;
+    virtual int node(int number) const = 0;                            ///< the unknown of a node
+    virtual int branch(int element) const = 0;                         ///< of the current through an element; -1: it has none
+    virtual int own(std::string_view name) = 0;                        ///< a new one: "x1.d1#anode"
+    virtual double temperature(const Element&) const = 0;              ///< K
+    virtual const Circuit& circuit() const = 0;
+};
+
+}  // namespace corpuscle

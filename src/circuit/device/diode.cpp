@@ -1,0 +1,174 @@
+#include "circuit/device/diode.hpp"
+
+#include <cmath>
+
+#include "circuit/device/constants.hpp"
+#include "circuit/device/values.hpp"
+#include "signal/elementary.hpp"
+
+namespace corpuscle {
+namespace {
+
+struct DiodeCard {
+    double is = 1e-14, n = 1, rs = 0, cjo = 0, vj = 1, m = 0.5, fc = 0.5, tt = 0, bv = 0, ibv = 1e-3, eg = 1.11, xti = 3, kf = 0, af = 1, tnom = 27;
+};
+
+constexpr Field<DiodeCard> fields[] = {
+    {"is", &DiodeCard::is, "A", 1e-40, 1, "saturation current"},
+    {"n", &DiodeCard::n, "", 0.1, 100, "emission coefficient"},
+    {"rs", &DiodeCard::rs, "ohm", 0, 1e12, "series resistance"},
+    {"cjo", &DiodeCard::cjo, "F", 0, 1, "junction capacitance at 0 V"},
+    {"vj", &DiodeCard::vj, "V", 0.1, 10, "junction potential"},
+    {"m", &DiodeCard::m, "", 0, 0.95, "grading coefficient"},
+    {"fc", &DiodeCard::fc, "", 0, 0.95, "where the forward capacitance becomes a straight line, in vj"},
+    {"tt", &DiodeCard::tt, "s", 0, 1, "transit time"},
+    {"bv", &DiodeCard::bv, "V", 0, 1e6, "breakdown voltage; 0: none"},
+    {"ibv", &DiodeCard::ibv, "A", 1e-15, 1e3, "current at the breakdown voltage"},
+    {"eg", &DiodeCard::eg, "eV", 0.1, 10, "band gap"},
+    {"xti", &DiodeCard::xti, "", 0, 10, "exponent of the saturation current's temperature"},
+    {"kf", &DiodeCard::kf, "", 0, 1, "flicker noise coefficient"},
+    {"af", &DiodeCard::af, "", 0.1, 10, "flicker noise exponent"},
+    {"tnom", &DiodeCard::tnom, "C", -273, 1000, "temperature at which the parameters were measured"},
+};
+
+/// Band gap of silicon, eV (Thurmond 1975, as SPICE has it).
+double band_gap(double kelvin) { return 1.16 - 7.02e-4 * kelvin * kelvin / (kelvin + 1108); }
+
+/// vj and cjo at another temperature, after SPICE.
+void warm(DiodeCard& c, double kelvin) {
+    const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);
+    c.is *= num::exp((ratio - 1) * c.eg / (c.n * vt) + c.xti / c.n * num::log(ratio));
+    const auto pb = [](double t) {  // built-in potential's own part, V
+        const double reference = 300.15, v = thermal_voltage(t);
+        const double arg = -band_gap(t) / (2 * v) + 1.1150877 / (2 * thermal_voltage(reference));
+        return -2 * v * (1.5 * num::log(t / reference) + arg);
+    };
+    const double reference = 300.15, base = (c.vj - pb(nominal)) / (nominal / reference);
+    const double nominal_part = 1 + c.m * (4e-4 * (nominal - reference) - (c.vj - base) / base);
+    const double vj = base * kelvin / reference + pb(kelvin);
+    c.cjo = c.cjo / nominal_part * (1 + c.m * (4e-4 * (kelvin - reference) - (vj - base) / base));
+    c.vj = vj;
+}
+
+/// Anode to cathode: i = is (exp(v / n V_t) - 1), flattening below -3 n V_t as SPICE has it, breakdown at -bv; the charge of its
+/// depletion layer (the integral of cjo / (1 - v/vj)^m, a parabola beyond fc vj) and of transit, tt i.
+/// Unknowns: anode, cathode and, where there is rs, the junction's inner side.
+class Diode final : public Device {
+    DiodeCard c_;
+    double area_, n_vt_, v_crit_, v_breakdown_;
+
+    struct Flow {
+        double i, g;
+    };
+    Flow flow(double v) const {
+        const double is = c_.is * area_;
+        if (v >= -3 * n_vt_) {
+            const double e = std::exp(v / n_vt_);
+            return {is * (e - 1), is * e / n_vt_};
+        }
+        if (c_.bv == 0 || v >= -v_breakdown_) {
+            const double arg = 3 * n_vt_ / (v * 2.718281828459045), cube = arg * arg * arg;
+            return {-is * (1 + cube), is * 3 * cube / v};
+        }
+        const double e = std::exp(-(v_breakdown_ + v) / n_vt_);
+        return {-is * e, is * e / n_vt_};
+    }
+    /// Charge, C, and capacitance, F, of the depletion layer.
+    std::pair<double, double> depletion(double v) const {
+        const double c0 = c_.cjo * area_, knee = c_.fc * c_.vj;
+        if (c0 == 0) return {0, 0};
+        const auto charge = [&](double u) { return c0 * c_.vj * (1 - std::pow(1 - u / c_.vj, 1 - c_.m)) / (1 - c_.m); };
+        if (v < knee) return {charge(v), c0 * std::pow(1 - v / c_.vj, -c_.m)};
+        const double f2 = std::pow(1 - c_.fc, 1 + c_.m), f3 = 1 - c_.fc * (1 + c_.m), slope = c_.m / c_.vj;
+        return {charge(knee) + c0 / f2 * (f3 * (v - knee) + slope / 2 * (v * v - knee * knee)), c0 / f2 * (f3 + slope * v)};
+    }
+    std::size_t inner() const { return c_.rs > 0 ? 2 : 0; }
+
+public:
+    Diode(DiodeCard card, double area, double kelvin) : c_(card), area_(area) {
+        warm(c_, kelvin);
+        n_vt_ = c_.n * thermal_voltage(kelvin);
+        v_crit_ = n_vt_ * std::log(n_vt_ / (1.4142135623730951 * c_.is * area_));
+        v_breakdown_ = c_.bv;
+        if (c_.bv > 0 && c_.ibv > c_.is * area_)  // where the current of breakdown is ibv at bv
+            v_breakdown_ = c_.bv - n_vt_ * std::log(c_.ibv / (c_.is * area_));
+    }
+    bool linear() const override { return false; }
+    std::size_t memory() const override { return 1; }
+    bool limit(std::span<double> v, std::span<double> memory) const override {
+        double u = v[inner()] - v[1];
+        const double wanted = u;
+        bool shortened = false;
+        if (c_.bv > 0 && u < std::min(0.0, -c_.bv + 10 * n_vt_)) {
+            double mirrored = -(u + c_.bv);
+            shortened = limit_junction(mirrored, -(memory[0] + c_.bv), n_vt_, v_crit_);
+            u = -(mirrored + c_.bv);
+        } else {
+            shortened = limit_junction(u, memory[0], n_vt_, v_crit_);
+        }
+        memory[0] = u;
+        v[inner()] += u - wanted;
+        return shortened;
+    }
+    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
+        const std::size_t a = inner();
+        const double u = v[a] - v[1];
+        auto [i, g] = flow(u);
+        auto [q, c] = depletion(u);
+        q += c_.tt * i, c += c_.tt * g;
+        i += at.gmin * u, g += at.gmin;
+        out.f[a] += i, out.f[1] -= i, out.q[a] += q, out.q[1] -= q;
+        out.slope(a, a) += g, out.slope(a, 1) -= g, out.slope(1, a) -= g, out.slope(1, 1) += g;
+        out.capacitance(a, a) += c, out.capacitance(a, 1) -= c, out.capacitance(1, a) -= c, out.capacitance(1, 1) += c;
+        if (a == 0) return;
+        const double series = area_ / c_.rs, through = series * (v[0] - v[2]);
+        out.f[0] += through, out.f[2] -= through;
+        out.slope(0, 0) += series, out.slope(0, 2) -= series, out.slope(2, 0) -= series, out.slope(2, 2) += series;
+    }
+    std::vector<NoiseSource> noise(std::span<const double> v) const override {
+        const double i = std::abs(flow(v[inner()] - v[1]).i);
+        std::vector<NoiseSource> out = {{"shot", inner(), 1, 2 * electron_charge * i, 0}};
+        if (c_.kf > 0) out.push_back({"flicker", inner(), 1, 0, c_.kf * std::pow(i, c_.af)});
+        if (c_.rs > 0) out.push_back({"thermal", 0, 2, 4 * boltzmann * (n_vt_ / c_.n * electron_charge / boltzmann) * area_ / c_.rs, 0});
+        return out;
+    }
+    std::vector<Reading> readings(std::span<const double> v) const override {
+        const double u = v[inner()] - v[1];
+        const auto [i, g] = flow(u);
+        return {{"v", "V", u}, {"i", "A", i}, {"g", "S", g}, {"c", "F", depletion(u).second + c_.tt * g}};
+    }
+};
+
+}  // namespace
+
+bool limit_junction(double& v, double before, double n_vt, double v_crit) {
+    const double wanted = v;
+    if (v > v_crit && std::abs(v - before) > 2 * n_vt) {
+        if (before > 0) {
+            const double arg = 1 + (v - before) / n_vt;
+            v = arg > 0 ? before + n_vt * std::log(arg) : v_crit;
+        } else {
+            v = n_vt * std::log(v / n_vt);
+        }
+    }
+    return v != wanted;
+}
+
+Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
+    static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "level"};
+    if (auto wrong = unknown_value(e.name, e.values, known, e.place)) return *wrong;
+    const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
+    const auto card = card_from<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});
+    if (!card) return card.error();
+    DiodeCard c = *card;
+    if (const auto other = model.values.find("cj0"); other != model.values.end()) c.cjo = other->second;
+    for (const std::string_view name : {"jsw", "ikf", "trs", "rsw"})
+        if (value_or(model.values, name, 0) != 0)
+            return bad_input(fmt::format("{}: {} is not part of this diode (level 1 without sidewalls and high injection)", model.name, name), model.place);
+    auto device = std::make_unique<Diode>(c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
+    device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
+    if (c.rs > 0) device->unknowns.push_back(setup.own(e.name + "#junction"));
+    return std::unique_ptr<Device>(std::move(device));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,183 @@
+#include "circuit/device/source.hpp"
+
+#include "circuit/device/formula_inputs.hpp"
+#include "circuit/device/values.hpp"
+#include "signal/elementary.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// An independent source before any time has passed: its DC value, or where its course begins.
+double at_rest(const Waveform& w) {
+    if (w.has_dc || w.numbers.empty()) return w.dc;
+    switch (w.shape) {
+        case Waveform::Shape::pulse:
+        case Waveform::Shape::exponential: return w.numbers[0];
+        case Waveform::Shape::sine: return w.numbers[0];
+        case Waveform::Shape::points: return w.numbers.size() > 1 ? w.numbers[1] : 0;
+        default: return w.dc;
+    }
+}
+
+std::complex<double> phasor(const Waveform& w) {
+    const double turns = w.ac_phase / 360;
+    return {w.ac_magnitude * num::cos_turns(turns), w.ac_magnitude * num::sin_turns(turns)};
+}
+
+/// Unknowns: two nodes, and the current from the first through the source to the second.
+/// v(+) - v(-) = V
+class VoltageSource final : public Device {
+    double value_;
+    std::complex<double> phasor_;
+
+public:
+    VoltageSource(double value, std::complex<double> phasor) : value_(value), phasor_(phasor) {}
+    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
+        out.f[0] += v[2], out.f[1] -= v[2];
+        out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
+        out.f[2] += v[0] - v[1] - value_ * at.sources;
+        out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
+    }
+    bool set(double value) override { return value_ = value, true; }
+    std::optional<double> setting() const override { return value_; }
+    void drive(std::span<std::complex<double>> out) const override { out[2] += phasor_; }
+};
+
+class CurrentSource final : public Device {
+    double value_, m_;
+    std::complex<double> phasor_;
+
+public:
+    CurrentSource(double value, double m, std::complex<double> phasor) : value_(value), m_(m), phasor_(phasor) {}
+    void eval(std::span<const double>, const Instant& at, const Stamp& out) const override {
+        const double i = value_ * m_ * at.sources;
+        out.f[0] += i, out.f[1] -= i;
+    }
+    bool set(double value) override { return value_ = value, true; }
+    std::optional<double> setting() const override { return value_; }
+    void drive(std::span<std::complex<double>> out) const override { out[0] -= m_ * phasor_, out[1] += m_ * phasor_; }
+};
+
+/// v(+) - v(-) = gain times a voltage (E: unknowns 3 and 4) or a current (H: unknown 3)
+class ControlledVoltage final : public Device {
+    double gain_;
+
+public:
+    explicit ControlledVoltage(double gain) : gain_(gain) {}
+    void eval(std::span<const double> v, const Instant&, const Stamp& out) const override {
+        out.f[0] += v[2], out.f[1] -= v[2];
+        out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
+        out.f[2] += v[0] - v[1] - gain_ * (v[3] - (v.size() > 4 ? v[4] : 0));
+        out.slope(2, 0) += 1, out.slope(2, 1) -= 1, out.slope(2, 3) -= gain_;
+        if (v.size() > 4) out.slope(2, 4) += gain_;
+    }
+    bool set(double gain) override { return gain_ = gain, true; }
+    std::optional<double> setting() const override { return gain_; }
+};
+
+/// i = gain times a voltage (G: unknowns 2 and 3) or a current (F: unknown 2)
+class ControlledCurrent final : public Device {
+    double gain_;
+
+public:
+    explicit ControlledCurrent(double gain) : gain_(gain) {}
+    void eval(std::span<const double> v, const Instant&, const Stamp& out) const override {
+        const double i = gain_ * (v[2] - (v.size() > 3 ? v[3] : 0));
+        out.f[0] += i, out.f[1] -= i;
+        out.slope(0, 2) += gain_, out.slope(1, 2) -= gain_;
+        if (v.size() > 3) out.slope(0, 3) -= gain_, out.slope(1, 3) += gain_;
+    }
+    bool set(double gain) override { return gain_ = gain, true; }
+    std::optional<double> setting() const override { return gain_; }
+};
+
+class FormulaCurrent final : public Device {
+    Formula formula_;
+    FormulaInputs inputs_;
+    double m_;
+
+public:
+    FormulaCurrent(Formula formula, FormulaInputs inputs, double m) : formula_(std::move(formula)), inputs_(std::move(inputs)), m_(m) {}
+    bool linear() const override { return false; }
+    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
+        inputs_.eval(formula_, v, at, [&](double i, std::span<const FormulaInputs::Slope> slopes) {
+            out.f[0] += m_ * i * at.sources, out.f[1] -= m_ * i * at.sources;
+            for (const auto& s : slopes) {
+                out.slope(0, s.unknown) += m_ * s.value * at.sources;
+                out.slope(1, s.unknown) -= m_ * s.value * at.sources;
+            }
+        });
+    }
+};
+
+class FormulaVoltage final : public Device {
+    Formula formula_;
+    FormulaInputs inputs_;
+
+public:
+    FormulaVoltage(Formula formula, FormulaInputs inputs) : formula_(std::move(formula)), inputs_(std::move(inputs)) {}
+    bool linear() const override { return false; }
+    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
+        out.f[0] += v[2], out.f[1] -= v[2];
+        out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
+        inputs_.eval(formula_, v, at, [&](double value, std::span<const FormulaInputs::Slope> slopes) {
+            out.f[2] += v[0] - v[1] - value * at.sources;
+            out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
+            for (const auto& s : slopes) out.slope(2, s.unknown) -= s.value * at.sources;
+        });
+    }
+};
+
+constexpr std::string_view source_values[] = {"m", "temp", "dtemp", "tc1", "tc2"};
+
+template <class D>
+std::unique_ptr<Device> with(std::unique_ptr<D> device, std::vector<int> unknowns) {
+    device->unknowns = std::move(unknowns);
+    return device;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, Setup& setup) {
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    return with(std::make_unique<VoltageSource>(at_rest(e.waveform), phasor(e.waveform)),
+                {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))});
+}
+
+Result<std::unique_ptr<Device>> make_current_source(const Element& e, Setup& setup) {
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    return with(std::make_unique<CurrentSource>(at_rest(e.waveform), value_or(e.values, "m", 1), phasor(e.waveform)),
+                {setup.node(e.nodes[0]), setup.node(e.nodes[1])});
+}
+
+Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, Setup& setup) {
+    if (e.formula) return make_formula_source(e, setup);
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    const bool voltage = e.letter == 'e' || e.letter == 'h', by_current = e.letter == 'f' || e.letter == 'h';
+    std::vector<int> unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
+    if (voltage) unknowns.push_back(setup.branch(setup.circuit().element(e.name)));
+    if (by_current) {
+        const int control = setup.circuit().element(e.control);
+        if (control < 0 || setup.branch(control) < 0)
+            return bad_input(fmt::format("{}: there is no voltage source '{}' whose current could control it", e.name, e.control), e.place);
+        unknowns.push_back(setup.branch(control));
+    } else {
+        unknowns.push_back(setup.node(e.nodes[2]));
+        unknowns.push_back(setup.node(e.nodes[3]));
+    }
+    if (voltage) return with(std::make_unique<ControlledVoltage>(e.value), std::move(unknowns));
+    return with(std::make_unique<ControlledCurrent>(e.value * value_or(e.values, "m", 1)), std::move(unknowns));
+}
+
+Result<std::unique_ptr<Device>> make_formula_source(const Element& e, Setup& setup) {
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    std::vector<int> first = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
+    if (e.formula_is_voltage) first.push_back(setup.branch(setup.circuit().element(e.name)));
+    auto inputs = FormulaInputs::make(*e.formula, e, setup, std::move(first));
+    if (!inputs) return inputs.error();
+    auto unknowns = inputs->unknowns();
+    if (e.formula_is_voltage) return with(std::make_unique<FormulaVoltage>(*e.formula, std::move(*inputs)), std::move(unknowns));
+    return with(std::make_unique<FormulaCurrent>(*e.formula, std::move(*inputs), value_or(e.values, "m", 1)), std::move(unknowns));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,13 @@
+#pragma once
+// Independent sources, controlled sources, sources by formula.
+
+#include "circuit/device/device.hpp"
+
+namespace corpuscle {
+
+Result<std::unique_ptr<Device>> make_voltage_source(const Element&, Setup&);
+Result<std::unique_ptr<Device>> make_current_source(const Element&, Setup&);
+Result<std::unique_ptr<Device>> make_controlled_source(const Element&, Setup&);  ///< E F G H
+Result<std::unique_ptr<Device>> make_formula_source(const Element&, Setup&);     ///< B, and E and G by formula
+
+}  // namespace corpuscle

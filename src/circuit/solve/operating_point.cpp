@@ -1,0 +1,153 @@
+#include "circuit/solve/operating_point.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/device/values.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// One way after another, from where the last good answer was.
+class Search {
+    const System& system_;
+    Newton newton_;
+    std::vector<double> start_, last_;  // last: where plain Newton gave up
+    std::size_t nodes_;
+
+    Springs all(double g, const std::vector<double>& to) const { return {std::vector<double>(nodes_, g), to}; }
+
+    bool plain(std::vector<double>& x) {
+        newton_.memory = system_.fresh_memory();
+        return newton_.run(x);
+    }
+
+    /// Every node hangs at ground by a conductance that is taken away, decade by decade.
+    bool by_gmin(std::vector<double>& x) {
+        const std::vector<double> ground(x.size());
+        double g = 1e-2, factor = 10;
+        newton_.memory = system_.fresh_memory();
+        for (int tries = 0; tries < 200; ++tries) {
+            auto next = x;
+            const auto memory = newton_.memory;
+            if (newton_.run(next, all(g, ground), 50)) {
+                x = next;
+                if (g < 1e-15) return newton_.run(x);
+                g /= factor, factor = std::min(factor * 1.5, 10.0);
+            } else {
+                newton_.memory = memory;
+                if (factor < 1.001) return false;
+                g *= factor, factor = std::sqrt(factor), g /= factor;
+            }
+        }
+        return false;
+    }
+
+    /// All sources rise from nothing.
+    bool by_sources(std::vector<double>& x) {
+        double reached = 0, step = 0.1;
+        newton_.memory = system_.fresh_memory();
+        newton_.instant.sources = 0;
+        bool found = newton_.run(x);
+        for (int tries = 0; found && reached < 1 && tries < 500; ++tries) {
+            auto next = x;
+            const auto memory = newton_.memory;
+            newton_.instant.sources = std::min(1.0, reached + step);
+            if (newton_.run(next, {}, 30)) {
+                x = next, reached = newton_.instant.sources, step *= 2;
+            } else {
+                newton_.memory = memory, step /= 4;
+                found = step > 1e-7;
+            }
+        }
+        newton_.instant.sources = 1;
+        return found && reached >= 1;
+    }
+
+    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves.
+    bool by_time(std::vector<double>& x) {
+        double g = 1e-4;
+        newton_.memory = system_.fresh_memory();
+        for (int tries = 0; tries < 2000; ++tries) {
+            auto next = x;
+            const auto memory = newton_.memory;
+            if (newton_.run(next, all(g, x), 20)) {
+                x = next;
+                if (g < 1e-19) return newton_.run(x);
+                g /= 2;
+            } else {
+                newton_.memory = memory;
+                g *= 8;
+                if (g > 1e6) return false;
+            }
+        }
+        return false;
+    }
+
+    /// Nodes of .nodeset are held there first, then let go.
+    void hold(std::vector<double>& x) {
+        const auto& wanted = system_.circuit().nodesets;
+        if (wanted.empty()) return;
+        Springs springs = all(0, std::vector<double>(x.size()));
+        for (const auto& [node, v] : wanted) springs.g[static_cast<std::size_t>(node) - 1] = 1e3, springs.to[static_cast<std::size_t>(node) - 1] = v;
+        auto held = x;
+        if (newton_.run(held, springs)) x = held;
+    }
+
+public:
+    Search(const System& system, const Tolerances& t, std::vector<double> start)
+        : system_(system), newton_(system, t), start_(std::move(start)), nodes_(static_cast<std::size_t>(system.nodes())) {
+        start_.resize(static_cast<std::size_t>(system.size()));
+    }
+
+    Result<OperatingPoint> run() {
+        hold(start_);
+        struct Way {
+            std::string_view name;
+            bool (Search::*go)(std::vector<double>&);
+        };
+        for (const Way& way : {Way{"newton", &Search::plain}, {"gmin", &Search::by_gmin}, {"source", &Search::by_sources}, {"pseudo-transient", &Search::by_time}}) {
+            auto x = start_;
+            if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
+            if (last_.empty()) last_ = std::move(x);
+            if (system_.linear()) break;
+        }
+        return failure();
+    }
+
+private:
+    Error failure() {
+        const auto& c = system_.circuit();
+        if (system_.linear() && newton_.singular >= 0)
+            return {Code::bad_input, fmt::format("the equations have no single answer: the matrix is singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]),
+                    Place{c.file}};
+        return {Code::not_converged,
+                fmt::format("no operating point: neither Newton's steps nor gmin, source and pseudo-transient continuation arrived ({} steps); {}{}",
+                            newton_.iterations, newton_.distance(last_),
+                            newton_.singular >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]) : ""),
+                Place{c.file}};
+    }
+};
+
+}  // namespace
+
+Result<Tolerances> Tolerances::of(const Circuit& c) {
+    Tolerances t;
+    t.reltol = value_or(c.options, "reltol", t.reltol);
+    t.vntol = value_or(c.options, "vntol", t.vntol);
+    t.abstol = value_or(c.options, "abstol", t.abstol);
+    t.gmin = value_or(c.options, "gmin", t.gmin);
+    t.itl1 = static_cast<int>(value_or(c.options, "itl1", t.itl1));
+    for (const auto& [name, value] : {std::pair<std::string_view, double>{"reltol", t.reltol}, {"vntol", t.vntol}, {"abstol", t.abstol}})
+        if (!(value > 0 && value < 1)) return bad_input(fmt::format(".options {} = {:g} must be above 0 and below 1", name, value), Place{c.file});
+    if (!(t.gmin >= 0 && t.gmin < 1)) return bad_input(fmt::format(".options gmin = {:g} must be in [0, 1)", t.gmin), Place{c.file});
+    if (t.itl1 < 1 || t.itl1 > 1'000'000) return bad_input(fmt::format(".options itl1 = {} must be in [1, 1000000]", t.itl1), Place{c.file});
+    return t;
+}
+
+Result<OperatingPoint> operating_point(const System& system, const Tolerances& t, std::vector<double> start) {
+    return Search(system, t, std::move(start)).run();
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,130 @@
+#include "circuit/solve/system.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/device/constants.hpp"
+#include "circuit/device/values.hpp"
+#include "circuit/devices.hpp"
+#include "circuit/solve/topology.hpp"
+
+namespace corpuscle {
+
+class System::Maker final : public Setup {
+    System& system_;
+    std::vector<int> branches_;
+
+public:
+    explicit Maker(System& system) : system_(system), branches_(system.circuit_->elements.size(), -1) {
+        const auto& c = *system_.circuit_;
+        for (std::size_t k = 1; k < c.nodes.size(); ++k) system_.names_.push_back("v(" + c.nodes[k] + ")");
+        system_.nodes_ = static_cast<int>(system_.names_.size());
+        for (std::size_t k = 0; k < c.elements.size(); ++k) {
+            if (!has_branch(c.elements[k])) continue;
+            branches_[k] = static_cast<int>(system_.names_.size());
+            system_.names_.push_back("i(" + c.elements[k].name + ")");
+        }
+    }
+    int node(int number) const override { return number - 1; }
+    int branch(int element) const override { return element < 0 ? -1 : branches_[static_cast<std::size_t>(element)]; }
+    int own(std::string_view name) override {
+        system_.names_.push_back(fmt::format("v({})", name));
+        return static_cast<int>(system_.names_.size()) - 1;
+    }
+    double temperature(const Element& e) const override {
+        return value_or(e.values, "temp", circuit().temperature + value_or(e.values, "dtemp", 0)) + zero_celsius;
+    }
+    const Circuit& circuit() const override { return *system_.circuit_; }
+};
+
+Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
+    if (auto wrong = unanswerable(*circuit)) return *wrong;
+    System system;
+    system.circuit_ = std::move(circuit);
+    Maker maker(system);
+    for (const auto& e : system.circuit_->elements) {
+        const auto* kind = device_of(e.letter);
+        if (kind == nullptr) return bad_input(fmt::format("{}: no device has the letter '{}'", e.name, e.letter), e.place);
+        auto device = kind->make(e, maker);
+        if (!device) return device.error();
+        (*device)->name = e.name, (*device)->place = e.place;
+        system.memory_at_.push_back(system.memory_);
+        system.memory_ += (*device)->memory();
+        system.devices_.push_back(std::move(*device));
+    }
+    std::vector<std::pair<int, int>> entries;
+    for (int k = 0; k < system.size(); ++k) entries.emplace_back(k, k);
+    for (const auto& d : system.devices_)
+        for (const int row : d->unknowns)
+            for (const int column : d->unknowns)
+                if (row >= 0 && column >= 0) entries.emplace_back(row, column);
+    system.pattern_ = std::make_unique<Pattern>(system.size(), std::move(entries));
+    for (const auto& d : system.devices_) {
+        auto& places = system.places_.emplace_back();
+        for (const int row : d->unknowns)
+            for (const int column : d->unknowns)
+                places.push_back(row >= 0 && column >= 0 ? system.pattern_->place(row, column) : system.pattern_->entries());
+    }
+    return system;
+}
+
+int System::unknown(std::string_view name) const {
+    const auto at = std::find(names_.begin(), names_.end(), name);
+    return at == names_.end() ? -1 : static_cast<int>(at - names_.begin());
+}
+
+Device* System::device(std::string_view name) const {
+    const auto at = std::find_if(devices_.begin(), devices_.end(), [&](const auto& d) { return d->name == name; });
+    return at == devices_.end() ? nullptr : at->get();
+}
+
+bool System::linear() const {
+    return std::all_of(devices_.begin(), devices_.end(), [](const auto& d) { return d->linear(); });
+}
+
+std::vector<double> System::terminals(const Device& d, std::span<const double> x) const {
+    std::vector<double> v;
+    for (const int u : d.unknowns) v.push_back(u < 0 ? 0 : x[static_cast<std::size_t>(u)]);
+    return v;
+}
+
+void System::eval(std::span<const double> x, const Instant& at, std::vector<double>& memory, Sums& sums) const {
+    const auto count = static_cast<std::size_t>(size());
+    sums.f.assign(count, 0), sums.q.assign(count, 0), sums.size.assign(count, 0);
+    sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: of ground
+    sums.limited = false;
+    std::vector<double> v, looked, own;
+    for (std::size_t k = 0; k < devices_.size(); ++k) {
+        const Device& d = *devices_[k];
+        const auto n = d.unknowns.size();
+        v.assign(n, 0);
+        for (std::size_t j = 0; j < n; ++j)
+            if (d.unknowns[j] >= 0) v[j] = x[static_cast<std::size_t>(d.unknowns[j])];
+        looked = v;
+        const bool limited = d.memory() > 0 && d.limit(looked, std::span(memory).subspan(memory_at_[k], d.memory()));
+        sums.limited |= limited;
+        own.assign(2 * n + 2 * n * n, 0);
+        const std::span<double> all(own);
+        const Stamp stamp{all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)};
+        d.eval(looked, at, stamp);
+        const auto& places = places_[k];
+        for (std::size_t row = 0; row < n; ++row) {
+            double f = stamp.f[row], q = stamp.q[row];
+            for (std::size_t column = 0; column < n; ++column) {
+                if (limited) {
+                    f += stamp.slope(row, column) * (v[column] - looked[column]);
+                    q += stamp.capacitance(row, column) * (v[column] - looked[column]);
+                }
+                sums.G[places[row * n + column]] += stamp.slope(row, column);
+                sums.C[places[row * n + column]] += stamp.capacitance(row, column);
+            }
+            if (d.unknowns[row] < 0) continue;
+            const auto u = static_cast<std::size_t>(d.unknowns[row]);
+            sums.f[u] += f, sums.q[u] += q;
+            sums.size[u] = std::max(sums.size[u], std::abs(f));
+        }
+    }
+}
+
+}  // namespace corpuscle

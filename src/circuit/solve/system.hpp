@@ -1,0 +1,54 @@
+#pragma once
+// A circuit as equations: f(x) + dq(x)/dt = 0, x the nodes' voltages and the branches' currents.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "circuit/device/device.hpp"
+#include "circuit/solve/matrix.hpp"
+
+namespace corpuscle {
+
+/// What all devices add up to at one x.
+struct Sums {
+    std::vector<double> f, q;  ///< of each unknown's equation
+    std::vector<double> G, C;  ///< slopes of f and q, in the pattern's places
+    std::vector<double> size;  ///< the largest single contribution to each equation: what it is small against
+    bool limited = false;      ///< some device was looked at elsewhere than at x: f is what its straight line gives at x
+};
+
+class System {
+    std::shared_ptr<const Circuit> circuit_;
+    std::vector<std::string> names_;
+    std::vector<std::unique_ptr<Device>> devices_;
+    std::vector<std::size_t> memory_at_;
+    std::size_t memory_ = 0;
+    std::unique_ptr<Pattern> pattern_;
+    std::vector<std::vector<std::size_t>> places_;  // of each device's slopes; beyond the pattern: of ground, nowhere
+    int nodes_ = 0;
+
+    class Maker;
+
+public:
+    /// Refuses what cannot have an answer: floating nodes, loops of voltage sources, missing models.
+    static Result<System> make(std::shared_ptr<const Circuit>);
+
+    const Circuit& circuit() const { return *circuit_; }
+    int size() const { return static_cast<int>(names_.size()); }
+    int nodes() const { return nodes_; }                                ///< the first unknowns are nodes' voltages
+    bool is_voltage(int unknown) const { return names_[static_cast<std::size_t>(unknown)][0] == 'v'; }
+    const std::vector<std::string>& names() const { return names_; }    ///< "v(out)", "i(v1)"
+    int unknown(std::string_view name) const;                           ///< -1: none of this name
+    const Pattern& pattern() const { return *pattern_; }
+    const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
+    Device* device(std::string_view name) const;                        ///< null: none of this name
+    bool linear() const;
+    std::vector<double> fresh_memory() const { return std::vector<double>(memory_); }
+
+    void eval(std::span<const double> x, const Instant&, std::vector<double>& memory, Sums&) const;
+    /// A device's own unknowns' values.
+    std::vector<double> terminals(const Device&, std::span<const double> x) const;
+};
+
+}  // namespace corpuscle
