@@ -20,8 +20,7 @@ T rough_exp(T x) {
 template <class T>
 T rough_log(T x) {
     const T m = num::mantissa(x);
-    return num::exponent(x) * T(0.6931471805599453) +
-           (T(-1.49277583) + m * (T(2.11263167) + m * (T(-0.72910377) + m * T(0.10968954))));
+    return num::exponent(x) * T(0.6931471805599453) + (T(-1.49277583) + m * (T(2.11263167) + m * (T(-0.72910377) + m * T(0.10968954))));
 }
 
 /// q to about 3e-4 of itself: a series in e^x below -2.5, one in ln x above 6, a polynomial between.
