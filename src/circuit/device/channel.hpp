@@ -1,0 +1,107 @@
+#pragma once
+
+#include "circuit/device/inversion.hpp"
+
+namespace corpuscle {
+
+/// A quantity of the channel, and how it changes with x at its source and at its drain.
+template <class T>
+struct Sloped {
+    T value, by_S, by_D;
+};
+
+/// The channel between two ends, in units: currents of I_S, charges of n phi_t C_ox W L (their amount; an electron's sign is the caller's).
+template <class T>
+struct Channel {
+    T q_S, q_D;             ///< charge densities that the ends' voltages ask for
+    Sloped<T> i, Q_S, Q_D;  ///< current from drain to source; what of the channel's charge belongs to source and to drain
+    T Q() const { return Q_S.value + Q_D.value; }
+};
+
+/// Unified current control model (thesis app. A), with velocity saturation as ACM2 has it. x = (V_P - V)/phi_t + 1 at either end:
+///     q + ln q = x;     i = (q_S + q_D + 2)(q_S - q_D) / (1 + zeta |q_S - q_D|)
+/// Of the two charges the lower, l, does not fall below what saturated carriers need, q_sat = zeta i / 2, of the higher, h:
+///     s = q_sat / h = zeta (h + 2) / (zeta h + 1 + zeta + sqrt((1 + zeta)^2 + 2 zeta h));
+///     l' = (q_sat + (1 - 2 s) l) / (1 - s l / h) takes l's place
+/// ACM2 solves a third logarithm for l'. This rational one agrees with it where it matters (i = 2 q_sat / zeta in saturation, i never
+/// falls as V_DS grows) and is better at V_DS = 0: there the conductance is that of free carriers, so that noise is 4kTg, and the
+/// capacitances do not jump where source and drain change places. zeta = 0 is the plain model to the last bit, smooth to all
+/// orders; otherwise current and charges have continuous slopes, and a second one that jumps at V_DS = 0 by order zeta.
+/// In saturation i = 2 q_S / (1 + zeta) as q_S goes to 0: carriers do not diffuse faster than that velocity, either.
+///
+/// Charges (ACM2; u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2), in a form that loses no digits as q goes to 0:
+///     Q_D = (2/15) (2u^3 + 4u^2 w + 6u w^2 + 3w^3) / (u + w)^2 - 1/2 + q_x / 2,   Q_S with u and w exchanged
+template <class T>
+class HalfChannels {  // by the higher and the lower end
+    T h, l;
+    T zeta;
+
+public:
+    struct By {
+        T high, low;  // slopes by x at the higher and at the lower end
+    };
+    T i, Q_high, Q_low;
+    By di, dQ_high, dQ_low;
+
+    HalfChannels(T higher, T lower, T zeta) : h(higher), l(lower), zeta(zeta) {
+        const T one(1.0), two(2.0);
+        // the lower charge l', and delta = h - l'
+        const T root = num::sqrt((one + zeta) * (one + zeta) + two * zeta * h);
+        const T s = zeta * (h + two) / (zeta * h + one + zeta + root), hs = one - one / root - s;  // hs = h ds/dh
+        const T r = l / h, per_D = one / (one - s * r), t = (one - s) * per_D, rest = (one - r) * per_D;
+        const T low = (h * s + l * (one - two * s)) * per_D, low_l = t * t;
+        const T delta = t * (h - l), delta_h = t * (one - r) + r * low_l - rest * rest * hs;
+        // the current
+        const T per_E = one / (one + zeta * delta);
+        i = (h + low + two) * delta * per_E;
+        const T drift = (two * (low + one) - zeta * i) * per_E;  // di/d(delta)
+        const T i_h = two * delta * per_E + drift * delta_h, i_l = -drift * low_l;
+        const T high_x = h / (one + h), low_x = l / (one + l);
+        di = {i_h * high_x, i_l * low_x};
+        // the charges
+        const T half = T(0.5) * zeta, X = half * i, X_h = half * i_h, X_l = half * i_l;
+        const T A = h - X, B = low - X;
+        const T A_h = one - X_h, A_l = -X_l, B_h = (one - delta_h) - X_h, B_l = low_l - X_l;
+        const T per_T = one / (two + A + B), per_T2 = per_T * per_T;
+        const Share high_share(A, B, per_T, per_T2), low_share(B, A, per_T, per_T2);
+        Q_high = high_share.value + T(0.5) * X;
+        Q_low = low_share.value + T(0.5) * X;
+        dQ_high = {(high_share.own * A_h + high_share.other * B_h + T(0.5) * X_h) * high_x,
+                   (high_share.own * A_l + high_share.other * B_l + T(0.5) * X_l) * low_x};
+        dQ_low = {(low_share.own * B_h + low_share.other * A_h + T(0.5) * X_h) * high_x,
+                  (low_share.own * B_l + low_share.other * A_l + T(0.5) * X_l) * low_x};
+    }
+
+private:
+    /// An end's share of the charge between two ends, and its slopes by either: a, at the end itself, and b, at the other.
+    struct Share {
+        T value, own, other;
+        Share(T a, T b, T per_T, T per_T2) {
+            constexpr double c = 2.0 / 15;
+            const T aa = a * a, ab = a * b, bb = b * b;
+            const T P = T(4.0 / 3) * a + T(2.0 / 3) * b + T(1.5) * aa + T(5.0 / 3) * ab + T(5.0 / 6) * bb +
+                        (a * (T(3 * c) * aa + T(6 * c) * ab + T(4 * c) * bb) + b * (T(2 * c) * bb));
+            const T P_a = T(4.0 / 3) + T(3.0) * a + T(5.0 / 3) * b + (T(9 * c) * aa + T(12 * c) * ab + T(4 * c) * bb);
+            const T P_b = T(2.0 / 3) + T(5.0 / 3) * (a + b) + (T(6 * c) * aa + T(8 * c) * ab + T(6 * c) * bb);
+            value = P * per_T2;
+            const T less = T(2.0) * value * per_T;
+            own = P_a * per_T2 - less;
+            other = P_b * per_T2 - less;
+        }
+    };
+};
+
+template <class T>
+Channel<T> channel(T x_S, T x_D, T zeta) {
+    const T q_S = inversion(x_S), q_D = inversion(x_D);
+    const auto forward = q_S >= q_D;
+    const HalfChannels<T> c(num::select(forward, q_S, q_D), num::select(forward, q_D, q_S), zeta);
+    const auto pick = [forward](T yes, T no) { return num::select(forward, yes, no); };
+    return {q_S,
+            q_D,
+            {pick(c.i, -c.i), pick(c.di.high, -c.di.low), pick(c.di.low, -c.di.high)},
+            {pick(c.Q_high, c.Q_low), pick(c.dQ_high.high, c.dQ_low.low), pick(c.dQ_high.low, c.dQ_low.high)},
+            {pick(c.Q_low, c.Q_high), pick(c.dQ_low.high, c.dQ_high.low), pick(c.dQ_low.low, c.dQ_high.high)}};
+}
+
+}  // namespace corpuscle

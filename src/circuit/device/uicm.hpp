@@ -1,0 +1,159 @@
+#pragma once
+
+#include "circuit/device/channel.hpp"
+#include "circuit/device/junction.hpp"
+#include "circuit/device/uicm_card.hpp"
+
+namespace corpuscle {
+
+/// Their order, in an M line and in every array below.
+struct Terminals {
+    enum { D, G, S, B };
+};
+
+/// Currents from the nodes into the device and charges on it, at drain, gate, source, bulk; and how they change: di[a][b] is the
+/// slope of i[a] with the voltage of b.
+template <class T>
+struct UicmAnswer : Terminals {
+    T i[4], q[4], di[4][4], dq[4][4];
+};
+
+/// Powers of noise, A^2/Hz: the channel's between drain and source (flicker at 1 Hz; it goes with 1/f), and of the two junctions.
+template <class T>
+struct UicmNoise {
+    T thermal, flicker, shot_s, shot_d;
+};
+
+/// What lies behind a transistor's currents, in its own polarity.
+template <class T>
+struct UicmInside {
+    T q_S, q_D;     ///< of the two ends; i_f = q_S (q_S + 2), i_r = q_D (q_D + 2)
+    T I, I_s, I_d;  ///< of the channel, drain to source, and of the junctions, bulk to source and to drain
+};
+
+/// Transistor, after the unified current control model (thesis app. A; channel.hpp has its equations and ACM2's part in them):
+///     V_P = (V_GB - V_T + sigma (V_DB + V_SB)) / n;     x_S(D) = (V_P - V_S(D)B) / phi_t + 1
+///     I_D = I_S i(x_S, x_D) (1 + (sqrt(V_DS^2 + knee^2) - knee) / V_A),   knee = 4 phi_t, V_A = V_E L:
+/// beyond the knee, where weak inversion saturates, the conductance is I_D / V_A; at V_DS = 0 the factor is 1 and even, so that source and
+/// drain may change places: that negates I_D to the last bit.
+/// Charges: Q_S, Q_D of the channel; Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion that a constant n implies (ACM2's charges leave
+/// its first part out, though its capacitances have it), Q_G = -(Q_S + Q_D + Q_B); overlaps; junctions (junction.hpp) to source and drain.
+/// Noise: thermal 4kT mu |Q_I| / L^2; flicker q^2 N_ot mu I_D / (L^2 n C_ox) ln((1 + q_S) / (1 + q_D)) / f; shot 2q (I + 2 I_sat).
+/// Temperature: V_T linear, I_S as a power of T, phi_t, the junctions' saturation current; n, sigma, zeta, V_E and capacitances stay.
+/// Left out: gate leakage, impact ionisation and drain leakage by the gate, accumulation, quasi-static lag, self-heating, series
+/// resistance.
+template <class T>
+class Uicm : public Terminals {
+    T polarity, V_T, per_n, per_phi_t, sigma_n, zeta, I_S, lambda, knee, Q_0, C_dep, C_gs, C_gd, C_gb;
+    T I_sat_s, I_sat_d, top_s, top_d, C_js, C_jd, thermal, flicker;
+    JunctionLaw<T> law;
+
+public:
+    /// `value(&UicmConstants::x)` gives each constant; they may differ from lane to lane.
+    template <class Values>
+    explicit Uicm(const Values& value)
+        : polarity(value(&UicmConstants::polarity)), V_T(value(&UicmConstants::V_T)), per_n(value(&UicmConstants::per_n)),
+          per_phi_t(value(&UicmConstants::per_phi_t)), sigma_n(value(&UicmConstants::sigma_n)), zeta(value(&UicmConstants::zeta)),
+          I_S(value(&UicmConstants::I_S)), lambda(value(&UicmConstants::lambda)), knee(value(&UicmConstants::knee)),
+          Q_0(value(&UicmConstants::Q_0)), C_dep(value(&UicmConstants::C_dep)), C_gs(value(&UicmConstants::C_gs)),
+          C_gd(value(&UicmConstants::C_gd)), C_gb(value(&UicmConstants::C_gb)), I_sat_s(value(&UicmConstants::I_sat_s)),
+          I_sat_d(value(&UicmConstants::I_sat_d)), top_s(value(&UicmConstants::top_s)), top_d(value(&UicmConstants::top_d)),
+          C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)), thermal(value(&UicmConstants::thermal)),
+          flicker(value(&UicmConstants::flicker)),
+          law{value(&UicmConstants::per_n_phi_t), value(&UicmConstants::P_B), value(&UicmConstants::per_P_B), value(&UicmConstants::M_J),
+              value(&UicmConstants::t_least)} {}
+
+    /// One transistor, or the same in all lanes.
+    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::* at) { return T(c.*at); }) {}
+
+    /// The answer to the voltages of drain, gate, source and bulk. Inlined so that an answer whose slopes nobody reads costs no slopes.
+    [[gnu::always_inline]] void eval(const T (&v)[4], UicmAnswer<T>& out) const {
+        const Voltages at(v, polarity);
+        const Channel<T> c = between(at);
+        const T early = num::sqrt(at.ds * at.ds + knee * knee), factor = I_S * (T(1.0) + lambda * (early - knee));
+        const auto b_s = junction(-at.sb, I_sat_s, top_s, C_js, law), b_d = junction(-at.db, I_sat_d, top_d, C_jd, law);
+        currents(c.i, factor, I_S * c.i.value * lambda * (at.ds / early), b_s, b_d, out);
+        charges(at, c, b_s, b_d, out);
+    }
+
+    UicmNoise<T> noise(const T (&v)[4]) const {
+        const Voltages at(v, polarity);
+        const Channel<T> c = between(at);
+        const auto b_s = junction(-at.sb, I_sat_s, top_s, C_js, law), b_d = junction(-at.db, I_sat_d, top_d, C_jd, law);
+        const auto shot = [](const T& i, const T& I_sat) { return T(2 * 1.602176634e-19) * num::abs(i + T(2.0) * I_sat); };
+        const T span = num::abs(num::log((T(1.0) + c.q_S) / (T(1.0) + c.q_D)));
+        return {thermal * c.Q(), flicker * I_S * num::abs(c.i.value) * span, shot(b_s.i, I_sat_s), shot(b_d.i, I_sat_d)};
+    }
+
+    UicmInside<T> inside(const T (&v)[4]) const {
+        const Voltages at(v, polarity);
+        const Channel<T> c = between(at);
+        const T early = num::sqrt(at.ds * at.ds + knee * knee);
+        return {c.q_S, c.q_D, I_S * (T(1.0) + lambda * (early - knee)) * c.i.value, junction(-at.sb, I_sat_s, top_s, C_js, law).i,
+                junction(-at.db, I_sat_d, top_d, C_jd, law).i};
+    }
+
+private:
+    /// Against the bulk, as an NMOS sees them.
+    struct Voltages {
+        T gb, sb, db, ds;
+        Voltages(const T (&v)[4], T polarity)
+            : gb(polarity * (v[G] - v[B])), sb(polarity * (v[S] - v[B])), db(polarity * (v[D] - v[B])), ds(polarity * (v[D] - v[S])) {}
+    };
+
+    [[gnu::always_inline]] Channel<T> between(const Voltages& at) const {
+        const T V_P = (at.gb - V_T) * per_n + sigma_n * (at.db + at.sb);
+        return channel((V_P - at.sb) * per_phi_t + T(1.0), (V_P - at.db) * per_phi_t + T(1.0), zeta);
+    }
+
+    /// Slopes of what changes with x at source and drain by the four voltages; they sum to zero.
+    struct Slopes {
+        T d, g, s, b;
+    };
+    Slopes by_voltages(T by_S, T by_D) const {
+        const T all = (by_S + by_D) * per_phi_t;
+        const T d = all * sigma_n - by_D * per_phi_t, g = all * per_n, s = all * sigma_n - by_S * per_phi_t;
+        return {d, g, s, -(d + g + s)};
+    }
+
+    /// `early_d`: the slope of I_D that its Early factor makes.
+    [[gnu::always_inline]] void currents(const Sloped<T>& i, T factor, T early_d, const JunctionAnswer<T>& b_s,
+                                         const JunctionAnswer<T>& b_d, UicmAnswer<T>& out) const {
+        const T I = factor * i.value, zero(0.0);
+        const Slopes g = by_voltages(factor * i.by_S, factor * i.by_D);
+        const T g_d = g.d + early_d, g_s = g.s - early_d;
+        out.i[D] = polarity * (I - b_d.i), out.i[G] = zero, out.i[S] = -polarity * (I + b_s.i);
+        out.i[B] = polarity * (b_s.i + b_d.i);
+        const T rows[4][4] = {{g_d + b_d.g, g.g, g_s, g.b - b_d.g},
+                              {zero, zero, zero, zero},
+                              {-g_d, -g.g, b_s.g - g_s, -g.b - b_s.g},
+                              {-b_d.g, zero, -b_s.g, b_s.g + b_d.g}};
+        copy(rows, out.di);
+    }
+
+    [[gnu::always_inline]] void charges(const Voltages& at, const Channel<T>& c, const JunctionAnswer<T>& b_s, const JunctionAnswer<T>& b_d,
+                                        UicmAnswer<T>& out) const {
+        const T gd = at.gb - at.db, gs = at.gb - at.sb, o_d = C_gd * gd, o_s = C_gs * gs, o_b = (C_gb + C_dep) * at.gb;
+        const T Q_S = -(Q_0 * c.Q_S.value), Q_D = -(Q_0 * c.Q_D.value), Q_B = -((T(1.0) - per_n) * (Q_S + Q_D));
+        const T d = Q_D - o_d - b_d.q, s = Q_S - o_s - b_s.q, b = Q_B - o_b + b_s.q + b_d.q;
+        out.q[D] = polarity * d, out.q[S] = polarity * s, out.q[B] = polarity * b, out.q[G] = -polarity * (d + s + b);
+
+        const Slopes d_by = by_voltages(-(Q_0 * c.Q_D.by_S), -(Q_0 * c.Q_D.by_D)),
+                     s_by = by_voltages(-(Q_0 * c.Q_S.by_S), -(Q_0 * c.Q_S.by_D));
+        const T part = per_n - T(1.0), C_b = C_gb + C_dep;
+        const T rows[4][4] = {{d_by.d + C_gd + b_d.c, d_by.g - C_gd, d_by.s, d_by.b - b_d.c},
+                              {-(per_n * (d_by.d + s_by.d)) - C_gd, C_gd + C_gs + C_b - per_n * (d_by.g + s_by.g),
+                               -(per_n * (d_by.s + s_by.s)) - C_gs, -(per_n * (d_by.b + s_by.b)) - C_b},
+                              {s_by.d, s_by.g - C_gs, s_by.s + C_gs + b_s.c, s_by.b - b_s.c},
+                              {part * (d_by.d + s_by.d) - b_d.c, part * (d_by.g + s_by.g) - C_b, part * (d_by.s + s_by.s) - b_s.c,
+                               part * (d_by.b + s_by.b) + C_b + b_s.c + b_d.c}};
+        copy(rows, out.dq);
+    }
+
+    [[gnu::always_inline]] static void copy(const T (&from)[4][4], T (&to)[4][4]) {
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < 4; ++b) to[a][b] = from[a][b];
+    }
+};
+
+}  // namespace corpuscle

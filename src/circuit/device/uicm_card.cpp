@@ -1,0 +1,76 @@
+#include "circuit/device/uicm_card.hpp"
+
+#include <algorithm>
+
+#include "signal/elementary.hpp"
+#include "signal/random.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, zero_celsius = 273.15;
+
+/// x^p, by our own exp and log: the same on every machine.
+double power(double x, double p) { return num::exp(p * num::log(x)); }
+
+/// What a source or drain is made of, all columns together.
+struct Diffusion {
+    double area, perimeter;
+};
+Diffusion diffusion(const UicmCard& card, const UicmInstance& at, double area, double perimeter) {
+    return {at.m * (area < 0 ? at.W * card.L_dif : area), at.m * (perimeter < 0 ? 2 * (at.W + card.L_dif) : perimeter)};
+}
+
+/// As SPICE has it: I_sat goes as T^(XTI / n_dio) exp((T / T_nom - 1) E_g / (n_dio phi_t)).
+double junction_growth(const UicmCard& card, double T, double T_nom, double phi_t) {
+    return power(T / T_nom, card.XTI / card.n_dio) * num::exp((T / T_nom - 1) * card.E_g / (card.n_dio * phi_t));
+}
+
+/// exp's argument at which a junction carries junction_current_top.
+double top_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_top / I_sat), 0.0, 600.0) : 0; }
+
+enum Purpose : std::uint32_t { mismatch_of_vto = 0x75690001, mismatch_of_isq, process_of_vto, process_of_isq };  // of Philox's draws
+
+}  // namespace
+
+UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, double temperature, bool pmos) {
+    const double T = temperature + zero_celsius, T_nom = card.T_nom + zero_celsius, phi_t = boltzmann * T / elementary_charge;
+    const double length = at.L * at.stack, width = at.W * at.m, gate = card.C_ox * at.area();
+    const double I_S = card.I_SQ * at.mulu0 * power(T / T_nom, card.I_S_exponent) * width / length;
+    const double growth = junction_growth(card, T, T_nom, phi_t);
+    const Diffusion source = diffusion(card, at, at.AS, at.PS), drain = diffusion(card, at, at.AD, at.PD);
+    const auto I_sat = [&](const Diffusion& d) { return growth * (card.J_S * d.area + card.J_SSW * d.perimeter); };
+    const auto C_0 = [&](const Diffusion& d) { return card.C_J * d.area + card.C_JSW * d.perimeter; };
+
+    UicmConstants c{};
+    c.polarity = pmos ? -1 : 1;
+    c.V_T = card.V_T0 + at.delvto + card.alpha_VT * (temperature - card.T_nom);
+    c.per_n = 1 / card.n, c.per_phi_t = 1 / phi_t;
+    c.sigma_n = card.sigma_L / length / card.n, c.zeta = card.zeta_L * at.mulu0 / length;
+    c.I_S = I_S, c.lambda = 1 / (card.V_E * length), c.knee = 4 * phi_t;
+    c.Q_0 = card.n * phi_t * gate, c.C_dep = (card.n - 1) / card.n * gate;
+    c.C_gs = card.C_GSO * width, c.C_gd = card.C_GDO * width, c.C_gb = card.C_GBO * length * at.m;
+    c.I_sat_s = I_sat(source), c.I_sat_d = I_sat(drain), c.top_s = top_of(c.I_sat_s), c.top_d = top_of(c.I_sat_d);
+    c.C_js = C_0(source), c.C_jd = C_0(drain);
+    c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.P_B = card.P_B, c.per_P_B = 1 / card.P_B, c.M_J = card.M_J, c.t_least = 1 - card.F_C;
+    c.thermal = 8 * boltzmann * T * I_S / phi_t;
+    const double e_n = elementary_charge / (card.n * card.C_ox * phi_t);
+    c.flicker = card.C_ox > 0 ? 2 * e_n * e_n * card.N_ot * I_S / at.area() : 0;
+    return c;
+}
+
+UicmInstance with_mismatch(UicmInstance at, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
+    const double per_side = 1 / num::sqrt(at.area());
+    at.delvto += card.A_VT * per_side * normal(seed, device, mismatch_of_vto, chip);
+    at.mulu0 *= num::exp(card.A_IS * per_side * normal(seed, device, mismatch_of_isq, chip));
+    return at;
+}
+
+UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_t chip) {
+    const std::uint32_t polarity = pmos ? 1 : 0;
+    card.V_T0 += card.S_VT0 * normal(seed, polarity, process_of_vto, chip);
+    card.I_SQ *= num::exp(card.S_IS * normal(seed, polarity, process_of_isq, chip));
+    return card;
+}
+
+}  // namespace corpuscle
