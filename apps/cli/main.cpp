@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "circuit/analyses.hpp"
 #include "model/spread.hpp"
 #include "signal/version.hpp"
 #include "study/studies.hpp"
@@ -59,6 +60,15 @@ Examples:
 Matched are the spikes that the Victor-Purpura distance moves at a cost of 2 a window: closest first, none crossed. That
 distance at --cost is the least sum of 1 a spike removed or added and --cost a second moved; a spike = that over all spikes,
 0 to 1. The van Rossum distance is scaled so that one extra spike counts 1.)";
+
+constexpr const char* run_examples = R"(
+
+.print dc v(out) prints columns; .meas dc NAME find v(out) at=0.3 a number; .expect NAME VALUE 1% makes the netlist its own test.
+
+Examples:
+  corpuscle run circuits/divider.cir
+  corpuscle run amplifier.cir -o amplifier.raw
+  corpuscle run amplifier.cir -o amplifier.csv --json)";
 
 void add_common(CLI::App& verb, Common& common) {
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
@@ -190,6 +200,19 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
     add_common(verb, common);
 }
 
+void add_run(CLI::App& app, RunWords& w, Common& common) {
+    auto& verb = *app.add_subcommand("run", "the analyses written in a netlist -> .raw, CSV, printed measures");
+    std::string known;
+    for (const auto& a : analyses) known += fmt::format("\n  {:72} {}", a.usage, a.sentence);
+    verb.footer("A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include, .lib, .options ... and what\n"
+                "is asked of it:" +
+                known + run_examples);
+    verb.add_option("NETLIST", w.netlist, "a SPICE netlist")->required();
+    verb.add_option("--out,-o", w.out, "write what was found: x.raw, as ngspice's (binary), or x.csv")->type_name("FILE")->group("Output");
+    verb.add_flag("--ascii", w.ascii, "the .raw file in letters")->group("Output");
+    add_common(verb, common);
+}
+
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
@@ -206,6 +229,7 @@ int main(int argc, char** argv) {
     RespondWords respond_words;
     CompareWords compare_words;
     StudyWords study_words;
+    RunWords run_words;
     ListWords list_words;
 
     CLI::App app(about, "corpuscle");
@@ -215,6 +239,7 @@ int main(int argc, char** argv) {
     add_respond(app, respond_words, common);
     add_compare(app, compare_words, common);
     add_study(app, study_words, common);
+    add_run(app, run_words, common);
     add_list(app, list_words, common);
     try {
         app.parse(argc, argv);
@@ -226,6 +251,7 @@ int main(int argc, char** argv) {
     }
     try {
         return app.got_subcommand("list")      ? list(list_words, common)
+               : app.got_subcommand("run")     ? run(run_words, common)
                : app.got_subcommand("study")   ? study(study_words, common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);

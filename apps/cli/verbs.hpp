@@ -39,6 +39,11 @@ struct StudyWords {
     std::string report_file;
 };
 
+struct RunWords {
+    std::string netlist, out;
+    bool ascii = false;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
@@ -46,6 +51,7 @@ struct ListWords {
 int respond(const RespondWords&, const Common&);
 int compare(const CompareWords&, const Common&);
 int study(const StudyWords&, const Common&);
+int run(const RunWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle

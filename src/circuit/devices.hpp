@@ -4,6 +4,7 @@
 #include "circuit/device/diode.hpp"
 #include "circuit/device/passive.hpp"
 #include "circuit/device/source.hpp"
+#include "circuit/device/transistor.hpp"
 
 namespace corpuscle {
 
@@ -27,6 +28,7 @@ inline constexpr DeviceKind devices[] = {
     {'h', "voltage by a current", make_controlled_source, true, true},
     {'b', "voltage or current by a formula", make_formula_source, true, false},
     {'d', "junction diode", make_diode, true, false},
+    {'m', "MOS transistor, UICM", make_transistor, true, false},
 };
 
 inline const DeviceKind* device_of(char letter) {

@@ -25,7 +25,7 @@ Result<Findings> analyse_ac(const TestBench& bench, const Command& c) {
     plot.is_complex = true;
     Solver<std::complex<double>> solver(system.pattern());
     for (const double f : *frequencies) {
-        if (bench.stopped(static_cast<double>(plot.points()) / static_cast<double>(frequencies->size()))) return interrupted();
+        if (bench.stopped(static_cast<double>(plot.points()) / static_cast<double>(frequencies->size()))) return interruption();
         const auto values = admittances(sums, system.pattern().entries(), 6.283185307179586 * f);
         if (!solver.factor(values)) {
             const int at = solver.where().column;

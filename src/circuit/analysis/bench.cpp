@@ -16,7 +16,7 @@ Result<TestBench> TestBench::make(std::shared_ptr<const Circuit> circuit) {
     return TestBench{std::move(circuit), std::move(*system), *tolerances, {}};
 }
 
-Error interrupted() { return {Code::interrupted, "interrupted"}; }
+Error interruption() { return {Code::interrupted, "interrupted"}; }
 
 Result<double> number_of(const Command& c, std::size_t word, std::string_view what) {
     if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.place);

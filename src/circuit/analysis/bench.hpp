@@ -30,7 +30,7 @@ struct TestBench {
     bool stopped(double share) const { return stop && stop(share); }
 };
 
-Error interrupted();
+Error interruption();
 
 /// A number among a command's words, SPICE's suffixes and all; names the command, the word and its place if it is none.
 Result<double> number_of(const Command&, std::size_t word, std::string_view what);

@@ -106,7 +106,7 @@ Result<Findings> analyse_dc(const TestBench& given, const Command& c) {
             if (auto ok = swept.set(outer->what, outers[k]); !ok) return ok.error();
         std::vector<double> x;
         for (std::size_t j = 0; j < values.size(); ++j) {
-            if (given.stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outers.size() * values.size()))) return interrupted();
+            if (given.stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outers.size() * values.size()))) return interruption();
             if (auto ok = swept.set(inner->what, values[j]); !ok) return ok.error();
             auto& bench = swept.bench();
             const auto found = operating_point(bench.system, bench.tolerances, x);

@@ -57,7 +57,7 @@ Result<Findings> analyse_noise(const TestBench& bench, const Command& c) {
     Solver<std::complex<double>> solver(system.pattern());
     double total = 0, total_in = 0, before = 0, before_in = 0, f_before = 0;
     for (const double f : *frequencies) {
-        if (bench.stopped(static_cast<double>(plot.points()) / static_cast<double>(frequencies->size()))) return interrupted();
+        if (bench.stopped(static_cast<double>(plot.points()) / static_cast<double>(frequencies->size()))) return interruption();
         if (!solver.factor(admittances(sums, system.pattern().entries(), 6.283185307179586 * f)))
             return bad_input(fmt::format(".noise at {:g} Hz: the matrix is singular", f), c.place);
         std::vector<std::complex<double>> lambda(rest->x.size());

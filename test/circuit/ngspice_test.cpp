@@ -1,0 +1,120 @@
+// The same netlists through Debian's ngspice and through us: every curve that both give, at every point.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "circuit/run.hpp"
+#include "support/raw_file.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> decks() {
+    std::vector<std::string> out;
+    for (const auto& entry : fs::directory_iterator(CORPUSCLE_ROOT "/test/circuit/decks"))
+        if (entry.path().extension() == ".cir") out.push_back(entry.path().stem());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/// What ngspice writes on standard output for a deck, and its .raw file if one is named.
+std::string ngspice(const std::string& deck, const std::string& raw) {
+    const auto command = "ngspice -b " + (raw.empty() ? "" : "-r " + raw + " ") + deck + " 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    std::string out;
+    char buffer[4096];
+    for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, n);
+    pclose(pipe);
+    return out;
+}
+
+RunOutcome ours(const std::string& deck) {
+    const auto netlist = Netlist::read(deck);
+    EXPECT_TRUE(netlist) << (netlist ? "" : netlist.error().text());
+    if (!netlist) return {};
+    const auto circuit = netlist->elaborate();
+    EXPECT_TRUE(circuit) << (circuit ? "" : circuit.error().text());
+    if (!circuit) return {};
+    static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points at its circuit's commands
+    kept.push_back(std::make_shared<const Circuit>(*circuit));
+    auto outcome = run(kept.back());
+    EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
+    return outcome ? *outcome : RunOutcome{};
+}
+
+/// ngspice leaves 1e-7 of the largest value of a curve, and currents below what its own tolerances mean.
+void hold(const Plot& mine, const Plot& theirs, double share) {
+    ASSERT_EQ(mine.points(), theirs.points()) << mine.name;
+    std::size_t held = 0;
+    for (const auto& c : theirs.curves) {
+        const auto* other = mine.curve(c.name);
+        if (other == nullptr) continue;
+        ++held;
+        double most = 0;
+        for (const auto& x : c.values) most = std::max(most, std::abs(x));
+        const double floor = (c.type == "current" ? 2e-15 : 1e-9) + 1e-7 * most;
+        for (std::size_t k = 0; k < c.values.size(); ++k)
+            EXPECT_LE(std::abs(other->values[k] - c.values[k]), share * std::abs(c.values[k]) + floor)
+                << c.name << " at point " << k << ": ours " << other->values[k] << ", theirs " << c.values[k];
+    }
+    EXPECT_GE(held, mine.curves.size() - 1) << "curves that both have";
+}
+
+class Deck : public testing::TestWithParam<std::string> {};
+
+TEST_P(Deck, GivesWhatNgspiceGives) {
+    const std::string deck = CORPUSCLE_ROOT "/test/circuit/decks/" + GetParam() + ".cir";
+    const auto raw = fs::temp_directory_path() / ("corpuscle-" + GetParam() + "-" + std::to_string(getpid()) + ".raw");
+    const auto log = ngspice(deck, raw);
+    const auto theirs = read_raw_file(raw);
+    fs::remove(raw);
+    ASSERT_FALSE(theirs.empty()) << log;
+    const auto outcome = ours(deck);
+    for (const auto& plot : theirs) {
+        bool found = false;
+        for (const auto& mine : outcome.plots())
+            if (mine.name == plot.name || (plot.name == "Operating Point" && mine.name == plot.name)) {
+                found = true;
+                hold(mine, plot, mine.is_complex ? 1e-3 : 1e-5);
+            }
+        if (!found) ADD_FAILURE() << "no plot of ours is called '" << plot.name << "'";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(decks()), [](const auto& info) {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+});
+
+/// "name = value" lines.
+double number_of(const std::string& log, const std::string& name) {
+    for (std::size_t at = log.find("\n" + name); at != std::string::npos; at = log.find("\n" + name, at + 1)) {
+        const auto equals = log.find('=', at + 1);
+        const auto between = log.substr(at + 1 + name.size(), equals - at - 1 - name.size());
+        if (between.find_first_not_of(' ') == std::string::npos) return std::stod(log.substr(equals + 1));
+    }
+    return std::nan("");
+}
+
+TEST(Measures, AreThoseOfNgspice) {
+    for (const std::string name : {"measures_dc", "measures_ac"}) {
+        const std::string deck = CORPUSCLE_ROOT "/test/circuit/decks/" + name + ".cir";
+        const auto log = ngspice(deck, "");
+        const auto outcome = ours(deck);
+        EXPECT_GE(outcome.numbers.size(), 3U);
+        for (const auto& [what, value] : outcome.numbers) {
+            const double theirs = number_of(log, what);
+            EXPECT_NEAR(value, theirs, std::abs(theirs) * 2e-5) << what << "\n" << log;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle
