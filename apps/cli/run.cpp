@@ -6,6 +6,7 @@
 
 #include "circuit/raw.hpp"
 #include "circuit/run.hpp"
+#include "circuit/variants.hpp"
 #include "io/output.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -38,7 +39,6 @@ Json document_of(const Circuit& circuit, const RunOutcome& outcome) {
     return {{"title", circuit.title}, {"plots", plots}, {"numbers", numbers}, {"expectations", expectations}, {"warnings", remarks}};
 }
 
-/// x.csv of one plot; of several x-1.csv, x-2.csv ...
 Result<void> write_file(const std::string& path, const std::string& text) {
     auto file = OutputFile::create(path);
     if (!file) return file.error();
@@ -46,10 +46,22 @@ Result<void> write_file(const std::string& path, const std::string& text) {
     return file->commit();
 }
 
-Result<void> write(const RunWords& words, const Circuit& circuit, const RunOutcome& outcome) {
+/// One of the circuits that a netlist asks for, and what was found.
+struct Done {
+    Variant variant;
+    RunOutcome outcome;
+};
+
+/// A .raw file of all plots; x.csv of one plot, of several x-1.csv, x-2.csv ...
+Result<void> write(const RunWords& words, std::span<const Done> all) {
     if (words.out.empty()) return {};
-    const auto plots = outcome.plots();
-    if (!words.out.ends_with(".csv")) return write_file(words.out, raw_text(circuit.title, plots, !words.ascii));
+    std::vector<Plot> plots;
+    for (const auto& done : all)
+        for (auto plot : done.outcome.plots()) {
+            if (!done.variant.label.empty()) plot.name += fmt::format(" ({})", done.variant.label);
+            plots.push_back(std::move(plot));
+        }
+    if (!words.out.ends_with(".csv")) return write_file(words.out, raw_text(all[0].variant.circuit->title, plots, !words.ascii));
     for (std::size_t k = 0; k < plots.size(); ++k) {
         auto path = words.out;
         if (plots.size() > 1) path.insert(path.size() - 4, fmt::format("-{}", k + 1));
@@ -58,42 +70,75 @@ Result<void> write(const RunWords& words, const Circuit& circuit, const RunOutco
     return {};
 }
 
-void print(const Circuit& circuit, const RunOutcome& outcome) {
-    for (const auto& a : outcome.analyses) {
-        const auto columns = printed(circuit, a);
-        std::size_t points = 0;
-        if (!a.findings.plots.empty()) points = a.findings.plots[0].points();
-        fmt::print("{}.{}: {} point{}\n", &a == &outcome.analyses[0] ? "" : "\n", a.command->name, points, points == 1 ? "" : "s");
-        fmt::print("{}{}", a.findings.table, columns);
-    }
-    if (!outcome.numbers.empty()) fmt::print("\n");
+void print_numbers(const RunOutcome& outcome) {
     for (const auto& [name, value] : outcome.numbers)
         std::isnan(value) ? fmt::print("{:20} = failed\n", name) : fmt::print("{:20} = {:.6e}\n", name, value);
     for (const auto& e : outcome.expectations)
         fmt::print("{:20} = {:.6e}, expected {:g} within {:g}: {}\n", e.what, e.found, e.expected, e.tolerance, e.held ? "holds" : "does not hold");
 }
 
+void print(const Done& done) {
+    for (const auto& a : done.outcome.analyses) {
+        const std::size_t points = a.findings.plots.empty() ? 0 : a.findings.plots[0].points();
+        fmt::print("{}.{}: {} point{}\n", &a == &done.outcome.analyses[0] ? "" : "\n", a.command->name, points, points == 1 ? "" : "s");
+        fmt::print("{}{}", a.findings.table, printed(*done.variant.circuit, a));
+    }
+    if (!done.outcome.numbers.empty() || !done.outcome.expectations.empty()) fmt::print("\n");
+    print_numbers(done.outcome);
+}
+
+/// Of many: a line each, its measures.
+void print_line(const Done& done) {
+    fmt::print("{}:", done.variant.label);
+    for (const auto& [name, value] : done.outcome.numbers) fmt::print("  {} = {:.6e}", name, value);
+    fmt::print("\n");
+    for (const auto& a : done.outcome.analyses) fmt::print("{}", printed(*done.variant.circuit, a));
+}
+
 Result<void> run_netlist(const RunWords& words, const Common& common) {
     const auto netlist = Netlist::read(words.netlist);
     if (!netlist) return netlist.error();
-    auto circuit = netlist->elaborate();
-    if (!circuit) return circuit.error();
-    const auto shared = std::make_shared<const Circuit>(std::move(*circuit));
-    std::optional<RunOutcome> outcome;
+    const auto variants = Variants::of(*netlist);
+    if (!variants) return variants.error();
+    const auto count = variants->count();
+    std::vector<Done> all;
     {
         Progress progress(common.quiet);
-        auto found = run(shared, [&](std::string_view, double share) { return progress.at(share), interrupted(); });
-        if (!found) return found.error();
-        outcome = std::move(*found);
+        for (std::size_t k = 0; k < count; ++k) {
+            auto variant = variants->at(k);
+            if (!variant) return variant.error();
+            auto found = run(variant->circuit, [&](std::string_view, double share) {
+                progress.at((static_cast<double>(k) + share) / static_cast<double>(count));
+                return interrupted();
+            });
+            if (!found) {
+                auto error = found.error();
+                if (!variant->label.empty()) error.sentence = fmt::format("{}: {}", variant->label, error.sentence);
+                return error;
+            }
+            if (interrupted()) return Error{Code::interrupted, "interrupted"};
+            all.push_back({std::move(*variant), std::move(*found)});
+        }
     }
-    for (const auto& r : outcome->remarks) fmt::print(stderr, "corpuscle: warning: {}\n", r.text());
-    if (auto ok = write(words, *shared, *outcome); !ok) return ok;
-    if (common.json)
-        fmt::print("{}\n", document_of(*shared, *outcome).dump(1));
-    else if (!common.quiet)
-        print(*shared, *outcome);
-    for (const auto& e : outcome->expectations)
-        if (!e.held) return bad_input(fmt::format("{} is {:g}, not {:g} within {:g}", e.what, e.found, e.expected, e.tolerance), e.place);
+    for (const auto& done : std::span(all).first(1))
+        for (const auto& r : done.outcome.remarks) fmt::print(stderr, "corpuscle: warning: {}\n", r.text());
+    if (auto ok = write(words, all); !ok) return ok;
+    Json documents = Json::array();
+    for (const auto& done : all) {
+        if (common.json) {
+            documents.push_back(document_of(*done.variant.circuit, done.outcome));
+            if (count > 1) documents.back()["step"] = done.variant.label;
+        } else if (!common.quiet) {
+            count > 1 ? print_line(done) : print(done);
+        }
+    }
+    if (common.json) fmt::print("{}\n", (count > 1 ? documents : documents[0]).dump(1));
+    for (const auto& done : all)
+        for (const auto& e : done.outcome.expectations)
+            if (!e.held)
+                return bad_input(fmt::format("{}{} is {:g}, not {:g} within {:g}", done.variant.label.empty() ? "" : done.variant.label + ": ", e.what, e.found,
+                                             e.expected, e.tolerance),
+                                 e.place);
     return {};
 }
 

@@ -94,19 +94,17 @@ void System::eval(std::span<const double> x, const Instant& at, std::vector<doub
     sums.f.assign(count, 0), sums.q.assign(count, 0), sums.size.assign(count, 0);
     sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: of ground
     sums.limited = false;
-    std::vector<double> v, looked, own;
     for (std::size_t k = 0; k < devices_.size(); ++k) {
         const Device& d = *devices_[k];
         const auto n = d.unknowns.size();
-        v.assign(n, 0);
-        for (std::size_t j = 0; j < n; ++j)
-            if (d.unknowns[j] >= 0) v[j] = x[static_cast<std::size_t>(d.unknowns[j])];
-        looked = v;
+        if (sums.v_.size() < n) sums.v_.resize(n), sums.looked_.resize(n), sums.own_.resize(2 * n + 2 * n * n);
+        const auto v = std::span(sums.v_).first(n), looked = std::span(sums.looked_).first(n), own = std::span(sums.own_).first(2 * n + 2 * n * n);
+        for (std::size_t j = 0; j < n; ++j) v[j] = d.unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[j])];
+        std::copy(v.begin(), v.end(), looked.begin());
         const bool limited = d.memory() > 0 && d.limit(looked, std::span(memory).subspan(memory_at_[k], d.memory()));
         sums.limited |= limited;
-        own.assign(2 * n + 2 * n * n, 0);
-        const std::span<double> all(own);
-        const Stamp stamp{all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)};
+        std::fill(own.begin(), own.end(), 0.0);
+        const Stamp stamp{own.first(n), own.subspan(n, n), own.subspan(2 * n, n * n), own.subspan(2 * n + n * n)};
         d.eval(looked, at, stamp);
         const auto& places = places_[k];
         for (std::size_t row = 0; row < n; ++row) {

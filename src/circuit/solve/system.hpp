@@ -16,6 +16,10 @@ struct Sums {
     std::vector<double> G, C;  ///< slopes of f and q, in the pattern's places
     std::vector<double> size;  ///< the largest single contribution to each equation: what it is small against
     bool limited = false;      ///< some device was looked at elsewhere than at x: f is what its straight line gives at x
+
+private:
+    friend class System;
+    std::vector<double> v_, looked_, own_;  // of the device at work
 };
 
 class System {

@@ -1,0 +1,38 @@
+#pragma once
+// What .step and .mc make of one netlist: the same circuit with other values, one after another.
+
+#include <memory>
+
+#include "circuit/netlist/netlist.hpp"
+
+namespace corpuscle {
+
+struct Variant {
+    std::string label;  ///< "r=1000", "temp=85", "mc=17"; several with blanks between; "" if there is only one
+    std::shared_ptr<const Circuit> circuit;
+};
+
+/// .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS; NAME may be temp (without
+/// param). Several .step lines: every value of the first with every of the second. .mc COUNT [seed=S] [process=0] [mismatch=0]: each
+/// transistor draws its own delvto and mulu0, each chip its process, after the card's deviations (avt, ais, svt0, sis).
+class Variants {
+    Netlist netlist_;
+    struct Axis {
+        std::string name;
+        std::vector<double> values;
+    };
+    std::vector<Axis> axes_;
+    std::size_t draws_ = 0;
+    std::uint64_t seed_ = 0;
+    bool process_ = true, mismatch_ = true;
+    std::shared_ptr<const Circuit> plain_;
+
+    Circuit drawn(Circuit, std::uint64_t chip) const;
+
+public:
+    static Result<Variants> of(const Netlist&);
+    std::size_t count() const;
+    Result<Variant> at(std::size_t number) const;
+};
+
+}  // namespace corpuscle
