@@ -58,7 +58,7 @@ private:
     template <class Room>
     double run(std::span<const double> inputs, Room& values) const;
     struct Step {
-        std::int16_t what;           // an operation, by its number
+        std::int16_t what;                 // an operation, by its number
         std::int32_t a = 0, b = 0, c = 0;  // steps before this one
         double number = 0;
     };
