@@ -22,21 +22,27 @@ struct FormulaInput {
 
 /// What names mean where a formula stands.
 struct FormulaScope {
-    std::function<std::optional<double>(std::string_view)> parameter;  ///< a number, if there is a parameter of this name
+    std::function<std::optional<double>(std::string_view)> parameter{};  ///< a number, if there is a parameter of this name
     /// A user's function of this name (.func, .param f(x)=...): its arguments' names and its text; null: there are none.
     struct Function {
         std::vector<std::string> arguments;
         std::string text;
     };
-    std::function<const Function*(std::string_view)> function;
+    std::function<const Function*(std::string_view)> function{};
     bool inputs = false;               ///< whether voltages, currents and time may be named: not so in .param
     std::vector<std::string> known{};  ///< names for a suggestion where one is not known
+    /// What a node or an element named in the formula is called in the circuit ("n3" is "x1.n3" inside x1); null: the same.
+    std::function<std::string(std::string_view)> node{}, element{};
 };
 
 class Formula {
 public:
     /// Reads "2*v(a) + max(i(vx), 0)": + - * / ** ^ (powers), unary - + !, comparisons, && ||, c ? a : b, numbers with SPICE's
     /// suffixes, pi and other constants ngspice knows, and its functions. The error has the column within `at`'s line.
+    /// As in ngspice 39: x^y and x**y are |x|^y and go from left to right; -x^2 is -(x^2); log is the natural logarithm; pow(x,y) is
+    /// C's in a parameter and |x|^y among voltages; pwr(x,y) is |x|^y in a parameter and sgn(x)|x|^y among voltages; u(0) is 1/2.
+    /// Otherwise than there: exp(x) stays at e^700 beyond x = 700 (and its slope with it), limit(x,a,b) keeps x within a and b,
+    /// agauss, gauss, unif, aunif and limit(x,d) give their nominal value x.
     static Result<Formula> parse(std::string_view text, const Place& at, const FormulaScope&);
 
     /// In the order in which values must be handed in.
@@ -49,8 +55,10 @@ public:
 
 private:
     friend class FormulaReader;
+    template <class Room>
+    double run(std::span<const double> inputs, Room& values) const;
     struct Step {
-        std::int16_t what;           // an operation, by its number
+        std::int16_t what;                 // an operation, by its number
         std::int32_t a = 0, b = 0, c = 0;  // steps before this one
         double number = 0;
     };

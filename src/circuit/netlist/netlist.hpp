@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "circuit/netlist/formula.hpp"
@@ -23,22 +24,22 @@ struct Waveform {
     double dc = 0;
     bool has_dc = false;
     double ac_magnitude = 0, ac_phase = 0;  ///< phase in degrees
-    std::vector<double> numbers;  ///< as they stand in PULSE( SIN( EXP( ; points: t1 v1 t2 v2 ...
+    std::vector<double> numbers;            ///< as they stand in PULSE( SIN( EXP( ; points: t1 v1 t2 v2 ...
 };
 
 /// An element, all its numbers worked out.
 struct Element {
-    std::string name;  ///< small letters; inside subcircuits with their path: "x1.xinv.m1"
-    char letter = 0;   ///< r c l v i e f g h b d m
+    std::string name;        ///< small letters; inside subcircuits with their path: "x1.xinv.m1"
+    char letter = 0;         ///< r c l v i e f g h b d m
     std::vector<int> nodes;  ///< numbers in Circuit::nodes, in the netlist's order; E, G: the controlling ones too
     Place place;
-    int model = -1;                  ///< in Circuit::models
-    double value = 0;                ///< R C L: ohm, farad, henry; E F G H: the gain
-    Values values;                   ///< everything said by name: w, l, m, stack, delvto, ic, tc1 ...
-    Waveform waveform;               ///< V, I
-    std::optional<Formula> formula;  ///< B (v= or i=), C (q=), E and G (value=)
+    int model = -1;                   ///< in Circuit::models
+    double value = 0;                 ///< R C L: ohm, farad, henry; E F G H: the gain
+    Values values;                    ///< everything said by name: w, l, m, stack, delvto, ic, tc1 ...
+    Waveform waveform;                ///< V, I
+    std::optional<Formula> formula;   ///< B (v= or i=), C (q=), E and G (value=)
     bool formula_is_voltage = false;  ///< B: v= rather than i=
-    std::string control;             ///< F, H: name of the voltage source whose current controls, with its path
+    std::string control;              ///< F, H: name of the voltage source whose current controls, with its path
 };
 
 struct Model {
@@ -63,10 +64,13 @@ struct Circuit {
     std::vector<Element> elements;
     std::vector<Model> models;
     std::vector<Command> commands;
-    Values options;
-    double temperature = 27;                       ///< C
-    std::vector<std::pair<int, double>> ic, nodesets;  ///< node, V
-    std::vector<Error> remarks;                    ///< what deserves a warning, such as "1F is a femtofarad"
+    Values options;                                                ///< .options; a flag is 1
+    std::map<std::string, std::string, std::less<>> option_words;  ///< those whose value is a word: method=gear
+    double temperature = 27;                                       ///< C
+    std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
+    std::vector<Error> remarks;                                    ///< what deserves a warning, such as "1F is a femtofarad"
+
+    std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< by name, as elaborate() leaves them
 
     int node(std::string_view name) const;     ///< its number, or -1
     int element(std::string_view name) const;  ///< its number, or -1

@@ -1,0 +1,71 @@
+#pragma once
+// What was read of a netlist before any parameter has a value. Inside circuit/netlist only.
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "circuit/netlist/formula.hpp"
+#include "circuit/netlist/netlist.hpp"
+#include "circuit/netlist/statement.hpp"
+
+namespace corpuscle {
+
+inline constexpr std::size_t most_elements = 2000000;  // and statements
+inline constexpr std::size_t most_text = std::size_t{256} << 20;
+
+/// A word of a statement: a value not yet worked out.
+struct Text {
+    const Statement* in = nullptr;
+    Word word;
+    std::string_view view() const { return in->text(word); }
+    Place place() const { return in->place(word); }
+};
+
+template <class T>
+using ByName = std::map<std::string, T, std::less<>>;
+
+/// The top level of a netlist, or a subcircuit.
+struct Body {
+    std::string name;
+    const Statement* head = nullptr;  ///< its .subckt line; null: the top level
+    Body* outer = nullptr;            ///< in which it is defined
+    std::vector<std::string> ports;
+    ByName<Text> defaults;  ///< of the .subckt line
+    ByName<Text> parameters;
+    ByName<FormulaScope::Function> functions;
+    ByName<const Statement*> models;
+    ByName<std::unique_ptr<Body>> subcircuits;
+    std::vector<const Statement*> elements, ics;  ///< ics: .ic and .nodeset
+};
+
+struct ParsedNetlist {
+    std::string title, file;
+    std::deque<Statement> statements;
+    Body top;
+    std::vector<const Statement*> commands, options, temperatures;
+    std::set<std::string, std::less<>> globals;
+    std::vector<Error> remarks;
+};
+
+/// Reads the text and all it includes.
+Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener&, ParsedNetlist&);
+
+/// Remarks on numbers that SPICE reads otherwise than they look: 1F, 5M.
+void remark_on_units(const Statement& element, std::vector<Error>& remarks);
+
+inline bool is_ground(std::string_view node) { return node == "0" || node == "gnd"; }
+
+/// The keys, for suggestions.
+template <class Map>
+std::vector<std::string_view> names_in(const Map& map) {
+    std::vector<std::string_view> names;
+    for (const auto& entry : map) names.push_back(entry.first);
+    return names;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,311 @@
+// From bodies to the flat circuit: subcircuits put in place, dot lines worked out.
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "circuit/netlist/flat.hpp"
+#include "circuit/netlist/number.hpp"
+#include "circuit/netlist/parsed.hpp"
+#include "signal/field.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr int deepest = 200;  // subcircuits within each other
+
+class Elaboration {
+    const ParsedNetlist& parsed_;
+    Flat flat_;
+    Frame top_;
+
+    struct Start {  // of .ic, .nodeset
+        std::string node;
+        double value;
+        Place place;
+        bool ic;
+    };
+    std::vector<Start> starts_;
+
+public:
+    explicit Elaboration(const ParsedNetlist& parsed) : parsed_(parsed), flat_(parsed) { top_.body = &parsed.top; }
+
+    Result<Circuit> run(const Values& given) {
+        Circuit& c = flat_.circuit;
+        c.title = parsed_.title, c.file = parsed_.file, c.remarks = parsed_.remarks;
+        c.node_numbers.emplace("0", 0);
+        if (auto ok = define_top(given); !ok) return ok.error();
+        if (auto ok = settings(); !ok) return ok.error();
+        if (auto ok = contents(top_); !ok) return ok.error();
+        if (auto ok = keep_promises(); !ok) return ok.error();
+        if (auto ok = starts(); !ok) return ok.error();
+        for (const auto* s : parsed_.commands) command(*s);
+        return std::move(c);
+    }
+
+private:
+    Result<void> define_top(const Values& given) {
+        for (const auto& [name, value] : given)
+            if (!parsed_.top.parameters.contains(name))
+                return bad_input(fmt::format("no .param {}{}", name, did_you_mean(name, names_in(parsed_.top.parameters))), {parsed_.file});
+        return top_.define(given);
+    }
+
+    // ---- bodies ----
+
+    Result<void> contents(Frame& frame) {
+        for (const auto* s : frame.body->elements) {
+            if (const auto ok = flat_.visit(frame, *s); !ok) return ok;
+            const auto ok = s->line.text[0] == 'x' ? instance(frame, *s) : read_element(flat_, frame, *s);
+            if (!ok) return ok;
+        }
+        for (const auto* s : frame.body->ics) {
+            if (const auto ok = flat_.visit(frame, *s); !ok) return ok;
+            if (const auto ok = start(frame, *s); !ok) return ok;
+        }
+        return {};
+    }
+
+    Result<void> instance(Frame& frame, const Statement& s) {
+        const auto name = s.text(std::size_t{0});
+        auto words = node_words(s);
+        if (words.size() < 1) return bad_input(fmt::format("{}: nodes and a subcircuit's name are wanted", name), s.place(std::size_t{1}));
+        const Word of = words.back();
+        words.pop_back();
+        Frame inner;
+        if (const auto ok = find_body(frame, s, of, inner); !ok) return ok;
+        if (const auto ok = connect(frame, s, words, inner); !ok) return ok;
+        inner.caller = &frame, inner.depth = frame.depth + 1, inner.path = fmt::format("{}{}.", frame.path, name);
+        if (inner.depth > deepest)
+            return bad_input(fmt::format("{}: subcircuits are nested more than {} deep", name, deepest), s.line.place());
+        if (const auto ok = not_itself(inner, s); !ok) return ok;
+        Values given;
+        if (const auto ok = overrule(frame, s, inner, given); !ok) return ok;
+        if (const auto ok = inner.define(given); !ok) return ok;
+        return contents(inner);
+    }
+
+    static std::vector<Word> node_words(const Statement& s) {
+        std::vector<Word> words;
+        for (std::size_t k = 1; k < s.words.size(); ++k)
+            if (s.text(k) != "params:") words.push_back(s.words[k]);
+        return words;
+    }
+
+    static Result<void> find_body(Frame& frame, const Statement& s, const Word& of, Frame& inner) {
+        std::vector<std::string_view> known;
+        for (Frame* f = &frame; f; f = f->enclosing) {
+            if (const auto at = f->body->subcircuits.find(s.text(of)); at != f->body->subcircuits.end()) {
+                inner.body = at->second.get(), inner.enclosing = f;
+                return {};
+            }
+            for (const auto n : names_in(f->body->subcircuits)) known.push_back(n);
+        }
+        return bad_input(fmt::format("{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(of), did_you_mean(s.text(of), known)),
+                         s.place(of));
+    }
+
+    Result<void> connect(Frame& frame, const Statement& s, const std::vector<Word>& words, Frame& inner) {
+        const auto& ports = inner.body->ports;
+        if (words.size() != ports.size()) {
+            std::string wanted;
+            for (const auto& port : ports) wanted += wanted.size() < 100 ? ' ' + port : std::string();
+            return bad_input(fmt::format("{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(std::size_t{0}), words.size(),
+                                         words.size() == 1 ? "" : "s", inner.body->name, ports.size(), wanted),
+                             s.line.place());
+        }
+        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], flat_.node(frame, s.text(words[k])));
+        return {};
+    }
+
+    static Result<void> not_itself(const Frame& inner, const Statement& s) {
+        for (const Frame* f = inner.caller; f; f = f->caller) {
+            if (f->body != inner.body) continue;
+            std::string chain = inner.body->name;
+            for (const Frame* g = inner.caller; g != f->caller; g = g->caller) chain = fmt::format("{} -> {}", g->body->name, chain);
+            return bad_input(fmt::format("subcircuit '{}' contains itself: {}", inner.body->name, chain), s.line.place());
+        }
+        return {};
+    }
+
+    /// The parameters on the X line, worked out where it stands.
+    Result<void> overrule(const Frame& frame, const Statement& s, Frame& inner, Values& given) {
+        inner.m = frame.m;
+        for (const auto& pair : s.named) {
+            auto name = s.text(pair.name);
+            if (name.starts_with("params:")) name.remove_prefix(7);
+            const auto value = frame.number({&s, pair.value});
+            if (!value) return value.error();
+            if (inner.body->defaults.contains(name))
+                given.insert_or_assign(std::string(name), *value);
+            else if (name != "m")
+                return unknown_parameter(s, pair, name, *inner.body);
+            else if (!(*value > 0))
+                return bad_input(fmt::format("{}: m = {:g} must be positive", s.text(std::size_t{0}), *value), s.place(pair.value));
+            else
+                inner.m *= *value;
+        }
+        return {};
+    }
+    static Error unknown_parameter(const Statement& s, const Named& pair, std::string_view name, const Body& body) {
+        return bad_input(fmt::format("{}: subcircuit '{}' has no parameter '{}'{}", s.text(std::size_t{0}), body.name, name,
+                                     did_you_mean(name, names_in(body.defaults))),
+                         s.place(pair.name));
+    }
+
+    /// What formulas, F and H name must be there.
+    Result<void> keep_promises() const {
+        const Circuit& c = flat_.circuit;
+        for (const auto& p : flat_.promises) {
+            if (p.of == Promise::Of::node) {
+                if (c.node_numbers.contains(p.name)) continue;
+                const std::vector<std::string_view> known(c.nodes.begin(), c.nodes.end());
+                return bad_input(fmt::format("{}: unknown node '{}'{}", p.who, p.name, did_you_mean(p.name, known)), p.place);
+            }
+            const int k = c.element(p.name);
+            if (k < 0) return bad_input(fmt::format("{}: unknown element '{}'{}", p.who, p.name, did_you_mean(p.name, sources())), p.place);
+            const Element& e = c.elements[static_cast<std::size_t>(k)];
+            const bool has_current =
+                e.letter == 'v' || (p.of == Promise::Of::current &&
+                                    (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' || (e.letter == 'b' && e.formula_is_voltage)));
+            if (!has_current)
+                return bad_input(
+                    fmt::format("{}: '{}' is no voltage source; one of 0 V in series with it measures its current", p.who, p.name),
+                    p.place);
+        }
+        return {};
+    }
+    std::vector<std::string_view> sources() const {
+        std::vector<std::string_view> names;
+        for (const auto& e : flat_.circuit.elements)
+            if (e.letter == 'v') names.push_back(e.name);
+        return names;
+    }
+
+    // ---- .options, .temp, .ic, .nodeset ----
+
+    Result<void> settings() {
+        Circuit& c = flat_.circuit;
+        for (const auto* s : parsed_.options)
+            if (const auto ok = options(*s); !ok) return ok;
+        if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
+        for (const auto* s : parsed_.temperatures) {
+            if (s->words.size() != 2)
+                return bad_input(".temp wants one temperature, in Celsius", s->place(std::min<std::size_t>(2, s->words.size())));
+            const auto value = top_.number(braced(*s, s->words[1], 0));
+            if (!value) return value.error();
+            c.temperature = *value;
+        }
+        return {};
+    }
+
+    Result<void> options(const Statement& s) {
+        Circuit& c = flat_.circuit;
+        for (std::size_t k = 1; k < s.words.size(); ++k) c.options.insert_or_assign(std::string(s.text(k)), 1.0);
+        for (const auto& pair : s.named) {
+            const std::string name(s.text(pair.name));
+            const auto text = s.text(pair.value);
+            const bool word = pair.value.kind == Word::Kind::quoted ||
+                              (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
+            if (word) {
+                c.option_words.insert_or_assign(name, std::string(text));
+                continue;
+            }
+            const auto value = top_.number({&s, pair.value});
+            if (!value) return value.error();
+            c.options.insert_or_assign(name, *value);
+        }
+        return {};
+    }
+
+    /// What stands in a command's word from `from` on, without the braces or quotes about it.
+    static Text braced(const Statement& s, Word w, std::uint32_t from) {
+        w.at += from, w.size -= from;
+        const auto text = s.text(w);
+        if (text.size() >= 2 && ((text[0] == '{' && text.back() == '}') || (text[0] == '\'' && text.back() == '\'')))
+            w = {Word::Kind::formula, w.at + 1, w.size - 2};
+        return {&s, w};
+    }
+
+    /// .ic v(a)=1 v(b)={x}
+    Result<void> start(const Frame& frame, const Statement& s) {
+        for (std::size_t k = 1; k < s.words.size(); ++k) {
+            const auto text = s.text(k);
+            const auto close = text.find(')'), gives = text.find_first_not_of(" \t", std::min(close, text.size() - 1) + 1);
+            if (!text.starts_with("v(") || close == std::string_view::npos || gives == std::string_view::npos || text[gives] != '=')
+                return bad_input(fmt::format("'{}' where v(node)=value was expected", text), s.place(k));
+            auto from = text.find_first_not_of(" \t", gives + 1);
+            const auto value = frame.number(braced(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
+            if (!value) return value.error();
+            const auto node = trimmed(text.substr(2, close - 2));
+            if (is_ground(node)) return bad_input("ground is at 0 V always", s.place(k));
+            starts_.push_back({flat_.node_name(frame, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
+        }
+        return {};
+    }
+    Result<void> starts() {
+        Circuit& c = flat_.circuit;
+        for (const auto& start : starts_) {
+            const int k = c.node(start.node);
+            if (k < 0) {
+                const std::vector<std::string_view> known(c.nodes.begin(), c.nodes.end());
+                return bad_input(fmt::format("unknown node '{}'{}", start.node, did_you_mean(start.node, known)), start.place);
+            }
+            (start.ic ? c.ic : c.nodesets).emplace_back(k, start.value);
+        }
+        return {};
+    }
+
+    // ---- commands ----
+
+    void command(const Statement& s) {
+        Command out{std::string(s.text(std::size_t{0}).substr(1)), {}, {}, s.line.place()};
+        for (std::size_t k = 1; k < s.words.size(); ++k) {
+            out.words.push_back(without_blanks(s, s.words[k]));
+            out.columns.push_back(static_cast<int>(s.place(k).column));
+        }
+        flat_.circuit.commands.push_back(std::move(out));
+    }
+
+    /// The word without blanks but those in quotes and braces; formulas of parameters alone as their values.
+    std::string without_blanks(const Statement& s, const Word& w) const {
+        std::string out;
+        const auto text = s.text(w);
+        for (std::size_t k = 0; k < text.size(); ++k) {
+            const char c = text[k];
+            if (c != '{' && c != '\'' && c != '"') {
+                if (c != ' ' && c != '\t') out += c;
+                continue;
+            }
+            const auto end = group_end(text, k);
+            out += worked_out(s, w, k, end);
+            k = end - 1;
+        }
+        return out;
+    }
+    static std::size_t group_end(std::string_view text, std::size_t from) {
+        if (text[from] != '{') return std::min(text.find(text[from], from + 1), text.size() - 1) + 1;
+        int depth = 0;
+        for (std::size_t k = from; k < text.size(); ++k) {
+            depth += text[k] == '{' ? 1 : text[k] == '}' ? -1 : 0;
+            if (depth == 0) return k + 1;
+        }
+        return text.size();
+    }
+    std::string worked_out(const Statement& s, const Word& w, std::size_t from, std::size_t end) const {
+        const std::string as_is(s.text(w).substr(from, end - from));
+        if (as_is[0] == '"' || as_is.size() < 3) return as_is;
+        const Word inside{Word::Kind::formula, static_cast<std::uint32_t>(w.at + from + 1), static_cast<std::uint32_t>(end - from - 2)};
+        const auto value = top_.number({&s, inside});
+        return value ? fmt::format("{:.17g}", *value) : as_is;
+    }
+};
+
+}  // namespace
+
+Result<Circuit> Netlist::elaborate(const Values& parameters) const {
+    if (!parsed_) return Circuit{};
+    return Elaboration(*parsed_).run(parameters);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,145 @@
+#include "circuit/netlist/lines.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+bool blank(char c) { return c == ' ' || c == '\t'; }
+
+/// Whether the text is UTF-8, as far as lengths of its sequences tell.
+bool is_utf8(std::string_view s) {
+    for (std::size_t k = 0; k < s.size();) {
+        const auto c = static_cast<unsigned char>(s[k++]);
+        int more = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : c >= 0xf0 && c < 0xf5 ? 3 : -1;
+        if (more < 0) return false;
+        for (; more > 0; --more, ++k)
+            if (k >= s.size() || (static_cast<unsigned char>(s[k]) & 0xc0) != 0x80) return false;
+    }
+    return true;
+}
+
+std::string from_latin1(std::string_view s) {
+    std::string out;
+    for (const char c : s) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x80) out += static_cast<char>(0xc0 | byte >> 6);
+        out += byte >= 0x80 ? static_cast<char>(0x80 | (byte & 0x3f)) : c;
+    }
+    return out;
+}
+
+bool is_text(char c) { return c == '\t' || (c >= ' ' && c <= '~'); }
+
+Error strange_byte(std::string_view line, std::size_t at, Place place) {
+    const auto byte = static_cast<unsigned char>(line[at]);
+    place.column = static_cast<long>(at) + 1;
+    const bool micro = byte == 0xb5 || (byte == 0xc2 && at + 1 < line.size() && static_cast<unsigned char>(line[at + 1]) == 0xb5);
+    const char* hint = micro       ? "write u for micro"
+                       : byte == 0 ? "a netlist is text; is this UTF-16? Save it as UTF-8"
+                                   : "outside comments a netlist has plain ASCII letters";
+    return bad_input(fmt::format("byte 0x{:02X}: {}", byte, hint), std::move(place));
+}
+
+/// Whether a comment begins here, outside quotes.
+bool comments(std::string_view line, std::size_t k) {
+    if (line[k] == ';') return true;
+    if (line[k] == '/') return k + 1 < line.size() && line[k + 1] == '/';
+    if (line[k] != '$') return false;
+    return (k == 0 || blank(line[k - 1]) || line[k - 1] == ',') && (k + 1 == line.size() || blank(line[k + 1]));
+}
+
+bool names_a_file(std::string_view text) {
+    text = text.substr(0, 9);
+    const auto word = lower(text.substr(0, text.find_first_of(" \t'\"")));
+    return word == ".include" || word == ".inc" || word == ".lib";
+}
+
+}  // namespace
+
+Place Line::place(std::size_t at) const {
+    const auto after = std::upper_bound(pieces.begin(), pieces.end(), at, [](std::size_t a, const Piece& p) { return a < p.at; });
+    const Piece piece = after == pieces.begin() ? Piece{0, 0, 0} : *(after - 1);
+    return {file ? *file : "", static_cast<long>(piece.line), static_cast<long>(piece.column + (at - piece.at))};
+}
+
+bool Line::was_capital(std::size_t at) const { return std::binary_search(capitals.begin(), capitals.end(), at); }
+
+Lines::Lines(std::string_view text, std::shared_ptr<const std::string> file) : file_(std::move(file)), rest_(text) {
+    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+}
+
+bool Lines::take(std::string_view& physical) {
+    if (rest_.empty()) return false;
+    const auto end = std::min(rest_.find('\n'), rest_.size());
+    physical = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (physical.ends_with('\r')) physical.remove_suffix(1);
+    ++number_;
+    return true;
+}
+
+Result<std::string> Lines::title() {
+    std::string_view line;
+    if (!take(line)) return std::string();
+    for (std::size_t k = 0; k < line.size(); ++k)
+        if (!is_text(line[k]) && static_cast<unsigned char>(line[k]) < 0x80) return strange_byte(line, k, {*file_, 1, 0});
+    return is_utf8(line) ? std::string(line) : from_latin1(line);
+}
+
+Result<bool> Lines::next(Line& out) {
+    std::string_view line;
+    while (take(line)) {
+        const auto first = std::min(line.find_first_not_of(" \t"), line.size());
+        if (first == line.size() || line[first] == '*') continue;
+        const bool goes_on = line[first] == '+';
+        if (goes_on && !begun_)
+            return bad_input("'+' goes on with the line before it, but there is none",
+                             {*file_, static_cast<long>(number_), static_cast<long>(first) + 1});
+        if (!goes_on && begun_) {  // the line before is complete; this one begins the next
+            if (auto given = give(out); !given || *given) {
+                if (const auto ok = add(line, first); !ok) return ok.error();
+                return given;
+            }
+        }
+        if (const auto ok = add(line, goes_on ? first + 1 : first); !ok) return ok.error();
+    }
+    return begun_ ? give(out) : Result<bool>(false);
+}
+
+/// Adds a physical line's text, up to its comment, to the logical one.
+Result<void> Lines::add(std::string_view line, std::size_t from) {
+    if (begun_) next_.text += ' ';
+    next_.pieces.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(from) + 1});
+    const bool as_is = names_a_file(begun_ ? next_.text : line.substr(from));
+    begun_ = true;
+    for (std::size_t k = from; k < line.size(); ++k) {
+        char c = line[k];
+        if (quote_ == 0 && comments(line, k)) break;
+        if (!is_text(c)) return strange_byte(line, k, {*file_, static_cast<long>(number_), 0});
+        const auto at = static_cast<std::uint32_t>(next_.text.size());
+        if (c == quote_)
+            quote_ = 0;
+        else if (quote_ == 0 && (c == '\'' || c == '"'))
+            quote_ = c, quote_at_ = at;
+        if (c == 'M' || c == 'F') next_.capitals.push_back(at);
+        next_.text += as_is || quote_ == '"' ? c : lower(c);
+    }
+    return {};
+}
+
+/// The line that is complete; false if nothing but a comment was in it.
+Result<bool> Lines::give(Line& out) {
+    begun_ = false;
+    out = std::exchange(next_, {});
+    out.file = file_;
+    if (std::exchange(quote_, '\0') != 0)
+        return bad_input(fmt::format("this {} is not closed", out.text[quote_at_] == '"' ? "\"" : "'"), out.place(quote_at_));
+    while (!out.text.empty() && blank(out.text.back())) out.text.pop_back();
+    return !out.text.empty();
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,62 @@
+#include "circuit/netlist/netlist.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "circuit/netlist/parsed.hpp"
+
+namespace corpuscle {
+namespace {
+
+Result<std::string> text_of(const std::string& path) {
+    std::error_code failed;
+    if (std::filesystem::is_directory(path, failed)) return bad_input("is a directory, not a netlist", {path});
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return bad_input(fmt::format("cannot be read: {}", std::strerror(errno)), {path});
+    std::string text;
+    for (char block[1 << 16]; file.read(block, sizeof block) || file.gcount() > 0;) {
+        text.append(block, static_cast<std::size_t>(file.gcount()));
+        if (text.size() > most_text) return bad_input(fmt::format("is larger than {} MB", most_text >> 20), {path});
+    }
+    return text;
+}
+
+int found(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
+    const auto at = numbers.find(std::string(name));
+    return at == numbers.end() ? -1 : at->second;
+}
+
+}  // namespace
+
+int Circuit::node(std::string_view name) const {
+    if (is_ground(name)) return 0;
+    if (node_numbers.size() == nodes.size()) return found(node_numbers, name);
+    const auto at = std::find(nodes.begin(), nodes.end(), name);
+    return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());
+}
+
+int Circuit::element(std::string_view name) const {
+    if (element_numbers.size() == elements.size()) return found(element_numbers, name);
+    const auto at = std::find_if(elements.begin(), elements.end(), [&](const Element& e) { return e.name == name; });
+    return at == elements.end() ? -1 : static_cast<int>(at - elements.begin());
+}
+
+Result<Netlist> Netlist::parse(std::string text, std::string file, const Opener& open) {
+    auto parsed = std::make_shared<Parsed>();
+    if (auto ok = read_netlist(text, file, open, *parsed); !ok) return ok.error();
+    Netlist out;
+    out.parsed_ = std::move(parsed);
+    return out;
+}
+
+Result<Netlist> Netlist::read(const std::string& path) {
+    auto text = text_of(path);
+    if (!text) return text.error();
+    return parse(std::move(*text), path, text_of);
+}
+
+}  // namespace corpuscle

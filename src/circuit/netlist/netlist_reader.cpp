@@ -1,0 +1,420 @@
+// The statements of a netlist into bodies; files it includes, sections of libraries.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
+
+#include "circuit/netlist/body.hpp"
+#include "circuit/netlist/number.hpp"
+#include "signal/field.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t deepest_include = 50, deepest_subcircuit = 200;
+constexpr std::string_view letters = "rclveifghbdmx";
+
+constexpr std::string_view own_words[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
+                                          ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
+                                          ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
+constexpr std::string_view command_words[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",    ".sens", ".tran",
+                                              ".meas", ".measure", ".print", ".plot",  ".probe", ".save", ".step",
+                                              ".mc",   ".expect",  ".force", ".spike", ".four"};
+
+/// Values that go on over blanks: formulas of sources and charges.
+bool goes_on(char letter, std::string_view name) {
+    if (letter == 'b') return name == "v" || name == "i";
+    if (letter == 'c') return name == "q";
+    return (letter == 'e' || letter == 'g') && (name == "value" || name == "vol" || name == "cur");
+}
+
+std::string_view unquoted(std::string_view s) {
+    const bool quoted = s.size() >= 2 && (s[0] == '\'' || s[0] == '"') && s.back() == s[0];
+    return quoted ? s.substr(1, s.size() - 2) : s;
+}
+
+std::string resolved(const std::string& from, std::string_view name) {
+    return (std::filesystem::path(from).parent_path() / std::filesystem::path(name)).lexically_normal().string();
+}
+
+class NetlistReader {
+    using Opener = Netlist::Opener;
+    struct Source {
+        std::string path, section;
+        bool operator==(const Source&) const = default;
+    };
+    ParsedNetlist& out_;
+    const Opener& open_;
+    std::map<std::string, std::shared_ptr<const std::string>> texts_;  // a library is often read for several sections
+    std::vector<Source> within_;                                       // files being read, outermost first
+    Body *body_, *floor_;                                              // the one being read; what a file began in, which it cannot close
+    std::size_t text_read_ = 0, opened_ = 0, subcircuit_depth_ = 0;
+    bool ended_ = false;
+
+public:
+    NetlistReader(ParsedNetlist& out, const Opener& open) : out_(out), open_(open), body_(&out.top), floor_(body_) {}
+
+    Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
+        text_read_ += text.size();
+        if (text_read_ > most_text) return bad_input(fmt::format("more than {} MB of netlist", most_text >> 20), {path});
+        Lines lines(text, std::make_shared<const std::string>(path));
+        if (within_.empty())
+            if (const auto ok = take_title(lines); !ok) return ok;
+        within_.push_back({path, section});
+        Body* const outer_floor = std::exchange(floor_, body_);
+        auto ok = section.empty() ? statements(lines) : section_of(lines, section);
+        if (ok && body_ != floor_)
+            ok = bad_input(fmt::format(".subckt {} is not closed by .ends", body_->name), body_->head->place(std::size_t{0}));
+        floor_ = outer_floor;
+        within_.pop_back();
+        ended_ = false;
+        return ok;
+    }
+
+private:
+    Result<void> take_title(Lines& lines) {
+        auto title = lines.title();
+        if (!title) return title.error();
+        out_.title = std::string(trimmed(*title));
+        if (swallowed(out_.title))
+            out_.remarks.push_back(bad_input(
+                fmt::format("the first line is the title, so '{}' is not read as a statement", std::string_view(out_.title).substr(0, 40)),
+                {out_.file, 1, 1}));
+        return {};
+    }
+
+    /// Whether a title looks like an element line or a dot line: "R1 a b 1k".
+    static bool swallowed(std::string_view title) {
+        std::vector<std::string> words;
+        for (std::size_t at = title.find_first_not_of(" \t"); at != std::string_view::npos && words.size() < 5;) {
+            const auto end = std::min(title.find_first_of(" \t", at), title.size());
+            words.push_back(lower(title.substr(at, end - at)));
+            at = title.find_first_not_of(" \t", end);
+        }
+        if (words.empty()) return false;
+        if (words[0][0] == '.') return true;
+        if (words.size() < 4 || words[0].size() < 2 || letters.find(words[0][0]) == std::string_view::npos) return false;
+        if (!std::any_of(words[0].begin(), words[0].end(), [](char c) { return c >= '0' && c <= '9'; })) return false;
+        return words.size() == 5 || whole_number(words[3]) || words[3].find_first_of("{'=") != std::string::npos;
+    }
+
+    Result<void> statements(Lines& lines) {
+        Line line;
+        while (!ended_) {
+            const auto more = lines.next(line);
+            if (!more) return more.error();
+            if (!*more) return {};
+            if (const auto ok = statement(lines, std::move(line)); !ok) return ok;
+        }
+        return {};
+    }
+
+    Result<void> statement(Lines& lines, Line line) {
+        if (out_.statements.size() >= most_elements) return bad_input(fmt::format("more than {} statements", most_elements), line.place());
+        if (line.text[0] != '.') return element(std::move(line));
+        const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
+        if (word == ".end") return ended_ = true, Result<void>();
+        if (word == ".control") return skip_control(lines, line);
+        if (word == ".param") return parameters(std::move(line));
+        if (word == ".func") return function(std::move(line));
+        if (word == ".model") return model(std::move(line));
+        if (word == ".subckt") return subcircuit(std::move(line));
+        if (word == ".ends") return end_of_subcircuit(std::move(line));
+        if (word == ".include" || word == ".inc") return include(std::move(line));
+        if (word == ".lib") return library(lines, std::move(line));
+        if (word == ".endl" || word == ".endc")
+            return bad_input(fmt::format("{} without {}", word, word == ".endl" ? ".lib" : ".control"), line.place());
+        if (word == ".ic" || word == ".nodeset") return keep_command(std::move(line), body_->ics);
+        if (std::find(std::begin(own_words), std::end(own_words), word) == std::end(own_words) &&
+            std::find(std::begin(command_words), std::end(command_words), word) == std::end(command_words))
+            return unknown(word, line.place());
+        if (body_->head) return bad_input(fmt::format("{} stands inside .subckt {}; it belongs outside", word, body_->name), line.place());
+        return of_top(word, std::move(line));
+    }
+
+    Result<void> of_top(std::string_view word, Line line) {
+        if (word == ".title") return out_.title = trimmed(std::string_view(line.text).substr(word.size())), Result<void>();
+        if (word == ".global") return global(std::move(line));
+        if (word == ".temp") return keep_command(std::move(line), out_.temperatures);
+        if (word.starts_with(".opt")) {
+            auto read = element_statement(std::move(line), nullptr);
+            if (!read) return read.error();
+            out_.options.push_back(&keep(std::move(*read)));
+            return {};
+        }
+        return keep_command(std::move(line), out_.commands);
+    }
+
+    static Error unknown(std::string_view word, Place place) {
+        std::vector<std::string_view> known(std::begin(own_words), std::end(own_words));
+        known.insert(known.end(), std::begin(command_words), std::end(command_words));
+        if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
+            return bad_input(fmt::format("{}: parts of a netlist on a condition are not read", word), std::move(place));
+        return bad_input(fmt::format("unknown statement '{}'{}", word, did_you_mean(word, known)), std::move(place));
+    }
+
+    Statement& keep(Statement s) { return out_.statements.emplace_back(std::move(s)); }
+
+    Result<void> keep_command(Line line, std::vector<const Statement*>& where) {
+        auto read = command_statement(std::move(line));
+        if (!read) return read.error();
+        where.push_back(&keep(std::move(*read)));
+        return {};
+    }
+
+    Result<void> element(Line line) {
+        if (letters.find(line.text[0]) == std::string_view::npos)
+            return bad_input(
+                fmt::format("'{}': no element is known by the letter {}; known are R C L V I E F G H B D M X",
+                            std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0]),
+                line.place());
+        auto read = element_statement(std::move(line), goes_on);
+        if (!read) return read.error();
+        if (const auto ok = said_once(*read); !ok) return ok;
+        body_->elements.push_back(&keep(std::move(*read)));
+        remark_on_units(*body_->elements.back(), out_.remarks);
+        return {};
+    }
+
+    static Result<void> said_once(const Statement& s) {
+        if (s.words.empty()) return bad_input("a name is missing before '='", s.line.place());
+        std::vector<std::string_view> names;
+        for (const auto& pair : s.named) names.push_back(s.text(pair.name));
+        std::sort(names.begin(), names.end());
+        const auto twice = std::adjacent_find(names.begin(), names.end());
+        if (twice == names.end()) return {};
+        Place place;
+        for (const auto& pair : s.named)
+            if (s.text(pair.name) == *twice) place = s.place(pair.name);
+        return bad_input(fmt::format("{}: {} is said twice", s.text(std::size_t{0}), *twice), std::move(place));
+    }
+
+    // ---- .param, .func, .model, .global ----
+
+    Result<void> parameters(Line line) {
+        auto read = assignments(std::move(line));
+        if (!read) return read.error();
+        const Statement& s = keep(std::move(*read));
+        if (s.named.empty()) return bad_input(".param without name=value", s.line.place());
+        for (const auto& pair : s.named) {
+            const std::string name(s.text(pair.name));
+            if (const auto open = name.find('('); open != std::string::npos) {
+                if (const auto ok = define(name, std::string(s.text(pair.value)), s.place(pair.name)); !ok) return ok;
+                continue;
+            }
+            const auto [at, fresh] = body_->parameters.insert_or_assign(name, Text{&s, pair.value});
+            if (!fresh)
+                out_.remarks.push_back(bad_input(fmt::format(".param {} is given twice; this one holds", name), s.place(pair.name)));
+        }
+        return {};
+    }
+
+    /// .func f(x, y) {text}, with or without '=' before the text, which may stand in quotes, too.
+    Result<void> function(Line line) {
+        const std::string_view text = line.text;
+        const auto from = std::min(text.find_first_not_of(" \t", 5), text.size()), close = text.find(')', from);
+        if (close == std::string_view::npos) return bad_input(".func wants a function such as f(x) {2*x}", line.place(from));
+        auto body = trimmed(text.substr(close + 1));
+        if (body.starts_with('=')) body = trimmed(body.substr(1));
+        const bool wrapped = body.size() >= 2 && ((body[0] == '{' && body.back() == '}') || (body[0] == '\'' && body.back() == '\''));
+        if (wrapped && body[0] == '\'') body = body.substr(1, body.size() - 2);
+        if (body.empty()) return bad_input(".func: the function has no formula; write f(x) {2*x}", line.place(close));
+        return define(std::string(text.substr(from, close + 1 - from)), std::string(body), line.place(from));
+    }
+
+    Result<void> define(std::string_view head, std::string text, Place place) {
+        const auto open = head.find('(');
+        const std::string name(trimmed(head.substr(0, open)));
+        if (open == std::string_view::npos || name.empty() || head.back() != ')')
+            return bad_input(fmt::format("'{}' is no function's head; write f(x,y)", head), std::move(place));
+        FormulaScope::Function f{{}, std::move(text)};
+        for (auto rest = trimmed(head.substr(open + 1, head.size() - open - 2)); !rest.empty();) {
+            const auto comma = std::min(rest.find(','), rest.size());
+            f.arguments.emplace_back(trimmed(rest.substr(0, comma)));
+            rest.remove_prefix(std::min(comma + 1, rest.size()));
+        }
+        if (f.arguments.size() > 100) return bad_input(fmt::format("{}() has more than 100 arguments", name), std::move(place));
+        body_->functions.insert_or_assign(name, std::move(f));
+        return {};
+    }
+
+    Result<void> model(Line line) {
+        auto read = element_statement(std::move(line), nullptr);
+        if (!read) return read.error();
+        if (read->words.size() < 3)
+            return bad_input(".model wants a name and a type, such as .model nm nmos (vto=0.5)", read->place(read->words.size()));
+        if (read->words.size() > 3)
+            return bad_input(fmt::format("'{}' where name=value was expected", read->text(3)), read->place(std::size_t{3}));
+        if (const auto ok = said_once(*read); !ok) return ok;
+        const std::string name(read->text(1));
+        if (const auto known = body_->models.find(name); known != body_->models.end())
+            return bad_input(fmt::format("model '{}' is already given at {}", name, where(*known->second)), read->place(std::size_t{1}));
+        body_->models.emplace(name, &keep(std::move(*read)));
+        return {};
+    }
+    static std::string where(const Statement& s) {
+        const Place p = s.line.place();
+        return fmt::format("{}:{}", p.file, p.line);
+    }
+
+    Result<void> global(Line line) {
+        auto read = command_statement(std::move(line));
+        if (!read) return read.error();
+        for (std::size_t k = 1; k < read->words.size(); ++k) out_.globals.emplace(read->text(k));
+        return {};
+    }
+
+    // ---- .subckt ----
+
+    Result<void> subcircuit(Line line) {
+        auto read = element_statement(std::move(line), nullptr);
+        if (!read) return read.error();
+        if (read->words.size() < 2) return bad_input(".subckt wants a name and its nodes", read->place(std::size_t{1}));
+        if (const auto ok = said_once(*read); !ok) return ok;
+        if (++subcircuit_depth_ > deepest_subcircuit)
+            return bad_input(fmt::format("subcircuits are defined more than {} deep within each other", deepest_subcircuit),
+                             read->line.place());
+        const std::string name(read->text(1));
+        auto& body = body_->subcircuits[name];
+        if (body)
+            return bad_input(fmt::format("subcircuit '{}' is already given at {}", name, where(*body->head)), read->place(std::size_t{1}));
+        body = std::make_unique<Body>();
+        body->name = name, body->outer = body_, body->head = &keep(std::move(*read));
+        body_ = body.get();
+        return head_of(*body);
+    }
+
+    Result<void> head_of(Body& body) {
+        const Statement& s = *body.head;
+        std::set<std::string_view> seen;
+        for (std::size_t k = 2; k < s.words.size(); ++k) {
+            const auto port = s.text(k);
+            if (port == "params:") continue;
+            if (is_ground(port)) return bad_input(fmt::format(".subckt {}: ground cannot be one of its nodes", body.name), s.place(k));
+            if (!seen.insert(port).second) return bad_input(fmt::format(".subckt {}: node '{}' stands twice", body.name, port), s.place(k));
+            body.ports.emplace_back(port);
+        }
+        for (const auto& pair : s.named) {
+            auto name = s.text(pair.name);
+            if (name.starts_with("params:")) name.remove_prefix(7);
+            body.defaults.insert_or_assign(std::string(name), Text{&s, pair.value});
+        }
+        return {};
+    }
+
+    Result<void> end_of_subcircuit(Line line) {
+        auto read = command_statement(std::move(line));
+        if (!read) return read.error();
+        if (body_ == floor_) return bad_input(".ends without .subckt", read->line.place());
+        if (read->words.size() > 1 && read->text(1) != body_->name)
+            return bad_input(fmt::format(".ends {} closes .subckt {}", read->text(1), body_->name), read->place(std::size_t{1}));
+        body_ = body_->outer;
+        --subcircuit_depth_;
+        return {};
+    }
+
+    // ---- .control, .include, .lib ----
+
+    Result<void> skip_control(Lines& lines, const Line& from) {
+        out_.remarks.push_back(bad_input(".control ... .endc is ngspice's own script and is not run", from.place()));
+        Line line;
+        while (true) {
+            const auto more = lines.next(line);
+            if (!more) return more.error();
+            if (!*more) return bad_input(".control is not closed by .endc", from.place());
+            if (line.text.starts_with(".endc")) return {};
+        }
+    }
+
+    Result<void> include(Line line) {
+        auto read = command_statement(std::move(line));
+        if (!read) return read.error();
+        if (read->words.size() != 2)
+            return bad_input(".include wants one file; a name with blanks stands in quotes", read->place(read->words.size() < 2 ? 1 : 2));
+        return open(unquoted(read->text(1)), "", read->place(std::size_t{1}));
+    }
+
+    Result<void> library(Lines& lines, Line line) {
+        auto read = command_statement(std::move(line));
+        if (!read) return read.error();
+        if (read->words.size() == 3) return open(unquoted(read->text(1)), lower(unquoted(read->text(2))), read->place(std::size_t{1}));
+        const bool file = read->words.size() == 2 && unquoted(read->text(1)) != read->text(1);
+        if (read->words.size() != 2 || file)
+            return bad_input(".lib wants a file and a section; a whole file is read by .include", read->place(std::size_t{1}));
+        return skip_section(lines, read->line.place());
+    }
+
+    /// A section defined here, which only a ".lib file section" reads.
+    Result<void> skip_section(Lines& lines, Place from) {
+        Line line;
+        while (true) {
+            const auto more = lines.next(line);
+            if (!more) return more.error();
+            if (!*more) return bad_input(".lib with one word begins a section, and .endl is missing; a file is read by .include", from);
+            if (lower(std::string_view(line.text).substr(0, 5)) == ".endl") return {};
+        }
+    }
+
+    Result<void> open(std::string_view name, const std::string& section, Place place) {
+        ++opened_;
+        const std::string path = resolved(within_.back().path, name);
+        if (std::find(within_.begin(), within_.end(), Source{path, section}) != within_.end())
+            return bad_input(fmt::format("'{}' includes itself", name), std::move(place));
+        if (within_.size() > deepest_include)
+            return bad_input(fmt::format("files include each other more than {} deep", deepest_include), std::move(place));
+        if (opened_ > most_elements) return bad_input(fmt::format("more than {} files are included", most_elements), std::move(place));
+        auto& text = texts_[path];
+        if (!text) {
+            auto opened = open_(path);
+            if (!opened) return bad_input(fmt::format("'{}': {}", name, opened.error().sentence), std::move(place));
+            text = std::make_shared<const std::string>(std::move(*opened));
+        }
+        const auto kept = text;
+        auto ok = read(*kept, path, section);
+        if (!ok && ok.error().place.file.empty()) return bad_input(ok.error().sentence, std::move(place));
+        return ok;
+    }
+
+    /// What stands between ".lib section" and ".endl" of a library's file.
+    Result<void> section_of(Lines& lines, const std::string& section) {
+        std::vector<std::string> known;
+        Line line;
+        while (true) {
+            const auto more = lines.next(line);
+            if (!more) return more.error();
+            if (!*more) {
+                const std::vector<std::string_view> names(known.begin(), known.end());
+                return bad_input(
+                    fmt::format("library '{}' has no section '{}'{}", within_.back().path, section, did_you_mean(section, names)));
+            }
+            if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
+            const auto head = command_statement(std::move(line));
+            if (!head) return head.error();
+            if (head->words.size() != 2) continue;
+            known.emplace_back(lower(unquoted(head->text(1))));
+            if (known.back() == section) return until_endl(lines, head->line.place());
+        }
+    }
+
+    Result<void> until_endl(Lines& lines, const Place& from) {
+        Line line;
+        while (!ended_) {
+            const auto more = lines.next(line);
+            if (!more) return more.error();
+            if (!*more) break;
+            if (line.text.starts_with(".endl")) return {};
+            if (const auto ok = statement(lines, std::move(line)); !ok) return ok;
+        }
+        return bad_input(".lib is not closed by .endl", from);
+    }
+};
+
+}  // namespace
+
+Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener& open, ParsedNetlist& out) {
+    out.file = file;
+    return NetlistReader(out, open).read(text, file, "");
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,88 @@
+#include "circuit/netlist/number.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <string>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+bool digit(char c) { return c >= '0' && c <= '9'; }
+bool letter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
+
+/// Digits with at most one point; 0 if there are none.
+std::size_t mantissa_length(std::string_view s) {
+    std::size_t n = 0;
+    bool point = false;
+    while (n < s.size() && (digit(s[n]) || (s[n] == '.' && !point))) point |= s[n++] == '.';
+    return n > (point ? 1 : 0) ? n : 0;
+}
+
+/// "e-9", "E+3", "d5": its length, 0 if it is none (a unit that begins with e).
+std::size_t exponent_length(std::string_view s) {
+    if (s.empty() || (lower(s[0]) != 'e' && lower(s[0]) != 'd')) return 0;
+    std::size_t n = 1;
+    if (n < s.size() && (s[n] == '+' || s[n] == '-')) ++n;
+    const auto first = n;
+    while (n < s.size() && digit(s[n])) ++n;
+    return n > first ? n : 0;
+}
+
+int exponent_of(std::string_view s) {
+    if (s.size() < 2) return 0;
+    const bool minus = s[1] == '-';
+    int value = 0;
+    for (const char c : s)
+        if (digit(c)) value = std::min(value * 10 + (c - '0'), 100000000);
+    return minus ? -value : value;
+}
+
+struct Scale {
+    int power = 0;
+    double factor = 1;
+};
+
+Scale scale_of(std::string_view letters) {
+    if (same_letters(letters.substr(0, 3), "meg")) return {6};
+    if (same_letters(letters.substr(0, 3), "mil")) return {0, 25.4e-6};
+    constexpr std::string_view names = "tgkmunpfa";
+    constexpr int powers[] = {12, 9, 3, -3, -6, -9, -12, -15, -18};
+    const auto k = letters.empty() ? std::string_view::npos : names.find(lower(letters[0]));
+    return k == std::string_view::npos ? Scale{} : Scale{powers[k]};
+}
+
+/// "10" with power -6 as "10e-6" is the nearest double to it; 10 times 1e-6 is not always.
+double nearest(std::string_view mantissa, int power) {
+    const std::string text = std::string(mantissa) + 'e' + std::to_string(power);
+    double value = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc::result_out_of_range) return value;
+    return power < 0 ? 0 : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::optional<SpiceNumber> leading_number(std::string_view text) {
+    const auto digits = mantissa_length(text);
+    if (digits == 0) return {};
+    const auto exponent = exponent_length(text.substr(digits)), start = digits + exponent;
+    std::size_t end = start;
+    while (end < text.size() && letter(text[end])) ++end;
+    const auto letters = text.substr(start, end - start);
+    const auto scale = scale_of(letters);
+    const int power = exponent_of(text.substr(digits, exponent)) + scale.power;
+    return SpiceNumber{nearest(text.substr(0, digits), power) * scale.factor, end, letters};
+}
+
+std::optional<SpiceNumber> whole_number(std::string_view text) {
+    const bool sign = !text.empty() && (text[0] == '-' || text[0] == '+');
+    auto number = leading_number(text.substr(sign));
+    if (!number || number->length + sign != text.size()) return {};
+    if (sign && text[0] == '-') number->value = -number->value;
+    number->length = text.size();
+    return number;
+}
+
+}  // namespace corpuscle

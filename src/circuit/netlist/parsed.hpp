@@ -1,0 +1,10 @@
+#pragma once
+// What a Netlist holds. Inside circuit/netlist only.
+
+#include "circuit/netlist/body.hpp"
+
+namespace corpuscle {
+
+struct Netlist::Parsed : ParsedNetlist {};
+
+}  // namespace corpuscle
