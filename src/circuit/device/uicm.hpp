@@ -2,7 +2,7 @@
 
 #include "circuit/device/channel.hpp"
 #include "circuit/device/junction.hpp"
-#include "circuit/device/uicm_card.hpp"
+#include "circuit/device/uicm_constants.hpp"
 
 namespace corpuscle {
 

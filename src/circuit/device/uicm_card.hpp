@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "circuit/device/uicm_constants.hpp"
 #include "signal/field.hpp"
 
 namespace corpuscle {
@@ -27,7 +28,7 @@ struct UicmCard {
         {"n", &UicmCard::n, "", 1.000001, 5, "slope factor"},
         {"sigmal", &UicmCard::sigma_L, "m", 0, 1e-3, "DIBL times length: V_T falls by sigmal / L times V_DB + V_SB"},
         {"zetal", &UicmCard::zeta_L, "m", 0, 1e-3, "velocity saturation times length, mu phi_t / v_sat"},
-        {"ve", &UicmCard::V_E, "V/m", 1, 1e12, "Early voltage of a metre of channel: V_A = V_E L"},
+        {"ve", &UicmCard::V_E, "V/m", 1, 1e30, "Early voltage of a metre of channel: V_A = V_E L"},
         {"cox", &UicmCard::C_ox, "F/m^2", 0, 10, "gate capacitance of an area"},
         {"cgso", &UicmCard::C_GSO, "F/m", 0, 1, "overlap of gate and source, of a width"},
         {"cgdo", &UicmCard::C_GDO, "F/m", 0, 1, "overlap of gate and drain, of a width"},
@@ -74,17 +75,6 @@ struct UicmInstance {
         {"pd", &UicmInstance::PD, "m", -1, 1, "perimeter of a column's drain; below 0: 2 (w + ldif)"},
     };
     double area() const { return W * L * m * stack; }
-};
-
-/// The numbers that a transistor's equations use, worked out once: see uicm.hpp.
-struct UicmConstants {
-    double polarity;                              // 1: NMOS, -1: PMOS
-    double V_T, per_n, per_phi_t, sigma_n, zeta;  // V, -, 1/V, -, -; sigma_n is sigma / n
-    double I_S, lambda, knee;                     // A, 1/V, V
-    double Q_0, C_dep, C_gs, C_gd, C_gb;          // n phi_t C_ox W L; (n - 1)/n C_ox W L; overlaps
-    double I_sat_s, I_sat_d, top_s, top_d, C_js, C_jd;
-    double per_n_phi_t, P_B, per_P_B, M_J, t_least;  // of the junctions
-    double thermal, flicker;                         // noise powers: see uicm.hpp
 };
 
 /// Junction currents beyond this go on along their tangents: far above all these devices carry, and Newton cannot overflow.

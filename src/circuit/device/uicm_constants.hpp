@@ -1,0 +1,17 @@
+#pragma once
+// Plain numbers alone: this header is also read where code is compiled for one instruction set, and nothing else may be there.
+
+namespace corpuscle {
+
+/// The numbers that a transistor's equations use, worked out once: see uicm.hpp.
+struct UicmConstants {
+    double polarity;                              // 1: NMOS, -1: PMOS
+    double V_T, per_n, per_phi_t, sigma_n, zeta;  // V, -, 1/V, -, -; sigma_n is sigma / n
+    double I_S, lambda, knee;                     // A, 1/V, V
+    double Q_0, C_dep, C_gs, C_gd, C_gb;          // n phi_t C_ox W L; (n - 1)/n C_ox W L; overlaps
+    double I_sat_s, I_sat_d, top_s, top_d, C_js, C_jd;
+    double per_n_phi_t, P_B, per_P_B, M_J, t_least;  // of the junctions
+    double thermal, flicker;                         // noise powers: see uicm.hpp
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,33 @@
+#pragma once
+// All that a transistor says, in one order, for any kind of number; include uicm.hpp before.
+
+#include <cstddef>
+
+namespace corpuscle::test {
+
+template <class T, class Put>
+void each_number(const Uicm<T>& device, const T (&v)[4], const Put& put) {
+    UicmAnswer<T> answer;
+    device.eval(v, answer);
+    std::size_t f = 0;
+    for (const T& y : answer.i) put(f++, y);
+    for (const T& y : answer.q) put(f++, y);
+    for (const auto& row : answer.di)
+        for (const T& y : row) put(f++, y);
+    for (const auto& row : answer.dq)
+        for (const T& y : row) put(f++, y);
+    const auto noise = device.noise(v);
+    for (const T& y : {noise.thermal, noise.flicker, noise.shot_s, noise.shot_d}) put(f++, y);
+}
+
+template <class T>
+T sum_of(const UicmAnswer<T>& answer) {
+    T sum(0.0);
+    for (int a = 0; a < 4; ++a) {
+        sum = sum + answer.i[a] + answer.q[a];
+        for (int b = 0; b < 4; ++b) sum = sum + answer.di[a][b] + answer.dq[a][b];
+    }
+    return sum;
+}
+
+}  // namespace corpuscle::test
