@@ -203,7 +203,7 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
 void add_run(CLI::App& app, RunWords& w, Common& common) {
     auto& verb = *app.add_subcommand("run", "the analyses written in a netlist -> .raw, CSV, printed measures");
     std::string known;
-    for (const auto& a : analyses) known += fmt::format("\n  {:72} {}", a.usage, a.sentence);
+    for (const auto& a : circuit::analyses) known += fmt::format("\n  {:72} {}", a.usage, a.sentence);
     verb.footer("A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include, .lib, .options ... and what\n"
                 "is asked of it:" +
                 known + run_examples);

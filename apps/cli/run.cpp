@@ -14,6 +14,7 @@
 namespace corpuscle {
 namespace {
 
+using namespace circuit;
 using Json = nlohmann::ordered_json;
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
@@ -24,19 +25,19 @@ Json column(const Plot& plot, const Curve& curve) {
     return out;
 }
 
-Json document_of(const Circuit& circuit, const RunOutcome& outcome) {
+Json document_of(const Circuit& c, const RunOutcome& outcome) {
     Json plots = Json::array(), numbers = Json::object(), expectations = Json::array(), remarks = Json::array();
     for (const auto& a : outcome.analyses)
         for (const auto& plot : a.findings.plots) {
             Json curves = Json::object();
-            for (const auto& c : plot.curves) curves[c.name] = column(plot, c);
+            for (const auto& curve : plot.curves) curves[curve.name] = column(plot, curve);
             plots.push_back({{"analysis", a.command->name}, {"plot", plot.name}, {"complex", plot.is_complex}, {"curves", curves}});
         }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = number(value);
     for (const auto& e : outcome.expectations)
         expectations.push_back({{"what", e.what}, {"found", number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
     for (const auto& r : outcome.remarks) remarks.push_back(r.text());
-    return {{"title", circuit.title}, {"plots", plots}, {"numbers", numbers}, {"expectations", expectations}, {"warnings", remarks}};
+    return {{"title", c.title}, {"plots", plots}, {"numbers", numbers}, {"expectations", expectations}, {"warnings", remarks}};
 }
 
 Result<void> write_file(const std::string& path, const std::string& text) {
@@ -107,7 +108,7 @@ Result<void> run_netlist(const RunWords& words, const Common& common) {
         for (std::size_t k = 0; k < count; ++k) {
             auto variant = variants->at(k);
             if (!variant) return variant.error();
-            auto found = run(variant->circuit, [&](std::string_view, double share) {
+            auto found = circuit::run(variant->circuit, [&](std::string_view, double share) {
                 progress.at((static_cast<double>(k) + share) / static_cast<double>(count));
                 return interrupted();
             });

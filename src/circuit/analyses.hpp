@@ -3,7 +3,7 @@
 
 #include "circuit/analysis/bench.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 Result<Findings> analyse_op(const TestBench&, const Command&);
 Result<Findings> analyse_dc(const TestBench&, const Command&);
@@ -32,4 +32,4 @@ inline const Analysis* analysis_of(std::string_view word) {
     return nullptr;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

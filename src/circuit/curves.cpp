@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// What the letters between v or i and the parenthesis make of a value.
@@ -46,4 +46,4 @@ std::optional<std::vector<std::complex<double>>> values_of(const Plot& plot, std
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

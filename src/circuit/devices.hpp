@@ -6,7 +6,7 @@
 #include "circuit/device/source.hpp"
 #include "circuit/device/transistor.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 struct DeviceKind {
     char letter;
@@ -50,4 +50,4 @@ inline bool has_branch(const Element& e) {
     }
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -8,7 +8,7 @@
 #include "circuit/curves.hpp"
 #include "circuit/netlist/number.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -258,4 +258,4 @@ Result<void> measure(const Circuit& circuit, RunOutcome& out) {
     return {};
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

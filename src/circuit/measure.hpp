@@ -3,10 +3,10 @@
 
 #include "circuit/run.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// All .meas of a circuit, in order, on what its analyses found; appended to the outcome's numbers. One that finds nothing is NaN, with
 /// a remark; one that is ill-formed is an error.
 Result<void> measure(const Circuit&, RunOutcome&);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 struct Curve {
     std::string name;  ///< "v(out)", "i(v1)", "frequency"
@@ -29,4 +29,4 @@ struct Plot {
     }
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <iterator>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 void append_bytes(std::string& out, double x) {
@@ -66,4 +66,4 @@ std::string csv_text(const Plot& plot) {
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

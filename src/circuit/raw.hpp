@@ -6,7 +6,7 @@
 
 #include "circuit/plot.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// All plots one after another, as ngspice's `write` does. Binary numbers are little-endian doubles.
 std::string raw_text(std::string_view title, std::span<const Plot>, bool binary);
@@ -14,4 +14,4 @@ std::string raw_text(std::string_view title, std::span<const Plot>, bool binary)
 /// One plot as CSV: a header of names, a row a point; complex curves as two columns, name.re and name.im.
 std::string csv_text(const Plot&);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -11,7 +11,7 @@
 #include "circuit/solve/topology.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// "0.35 1%" or "0.35 2m" after a name, with or without "=".
@@ -121,4 +121,4 @@ std::string printed(const Circuit& circuit, const Analysed& a) {
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -3,7 +3,7 @@
 
 #include "circuit/analysis/bench.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// One analysis and what it found.
 struct Analysed {
@@ -35,4 +35,4 @@ Result<RunOutcome> run(std::shared_ptr<const Circuit>, const RunStop& stop = {})
 /// .print lines of an analysis, as columns for people; "" if there are none.
 std::string printed(const Circuit&, const Analysed&);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -9,7 +9,7 @@
 #include "circuit/device/values.hpp"
 #include "circuit/netlist/number.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr double most_variants = 1e6;
@@ -155,4 +155,4 @@ Circuit Variants::drawn(Circuit circuit, std::uint64_t chip) const {
     return circuit;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

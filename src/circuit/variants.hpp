@@ -5,7 +5,7 @@
 
 #include "circuit/netlist/netlist.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 struct Variant {
     std::string label;  ///< "r=1000", "temp=85", "mc=17"; several with blanks between; "" if there is only one
@@ -35,4 +35,4 @@ public:
     Result<Variant> at(std::size_t number) const;
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

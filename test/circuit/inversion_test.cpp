@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// q of q + ln q = x to 200 bits.
@@ -77,4 +77,4 @@ TEST(Inversion, SlopeOfADualMatchesFiniteDifferences) {
 }
 
 }  // namespace
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

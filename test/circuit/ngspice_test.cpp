@@ -10,7 +10,7 @@
 #include "circuit/run.hpp"
 #include "support/raw_file.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,4 +117,4 @@ TEST(Measures, AreThoseOfNgspice) {
 }
 
 }  // namespace
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -16,7 +16,7 @@
 #include "signal/instruction_set.hpp"
 #include "signal/random.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr double charge = 1.602176634e-19, boltzmann = 1.380649e-23, phi_t = boltzmann * 300.15 / charge;
@@ -423,4 +423,4 @@ TEST(Uicm, LanesGiveTheBitsOfOne) {
 }
 
 }  // namespace
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -12,7 +12,7 @@
 
 #include "circuit/plot.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 inline std::vector<Plot> read_raw(const std::string& text) {
     std::vector<Plot> plots;
@@ -74,4 +74,4 @@ inline std::vector<Plot> read_raw_file(const std::string& path) {
     return read_raw(text.str());
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

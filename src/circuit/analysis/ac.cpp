@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 Result<Findings> analyse_ac(const TestBench& bench, const Command& c) {
     const auto frequencies = frequencies_of(c, 0);
@@ -39,4 +39,4 @@ Result<Findings> analyse_ac(const TestBench& bench, const Command& c) {
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -6,7 +6,7 @@
 #include "circuit/netlist/number.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 Result<TestBench> TestBench::make(std::shared_ptr<const Circuit> circuit) {
     auto tolerances = Tolerances::of(*circuit);
@@ -119,4 +119,4 @@ Sums sums_at(const TestBench& bench, std::span<const double> x) {
     return sums;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

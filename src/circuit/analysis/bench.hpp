@@ -9,7 +9,7 @@
 #include "circuit/plot.hpp"
 #include "circuit/solve/operating_point.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// What an analysis found.
 struct Findings {
@@ -57,4 +57,4 @@ std::vector<std::complex<double>> admittances(const Sums&, std::size_t entries, 
 /// All sums at an operating point.
 Sums sums_at(const TestBench&, std::span<const double> x);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -6,7 +6,7 @@
 #include "circuit/analyses.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 struct Sweep {
@@ -125,4 +125,4 @@ Result<Findings> analyse_dc(const TestBench& given, const Command& c) {
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -8,7 +8,7 @@
 #include "circuit/analyses.hpp"
 #include "signal/quantity.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 struct Part {
@@ -92,4 +92,4 @@ Result<Findings> analyse_noise(const TestBench& bench, const Command& c) {
     return found;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

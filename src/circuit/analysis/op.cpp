@@ -7,7 +7,7 @@
 #include "circuit/analyses.hpp"
 #include "signal/quantity.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// Devices of a kind with their readings: a header, a row a device.
@@ -71,4 +71,4 @@ Result<Findings> analyse_op(const TestBench& bench, const Command& c) {
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

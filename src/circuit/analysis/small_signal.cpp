@@ -7,7 +7,7 @@
 #include "circuit/analyses.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 struct Line {
@@ -109,4 +109,4 @@ Result<Findings> analyse_sens(const TestBench& bench, const Command& c) {
     return found;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

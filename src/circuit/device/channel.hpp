@@ -2,7 +2,7 @@
 
 #include "circuit/device/inversion.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// A quantity of the channel, and how it changes with x at its source and at its drain.
 template <class T>
@@ -104,4 +104,4 @@ Channel<T> channel(T x_S, T x_D, T zeta) {
             {pick(c.Q_low, c.Q_high), pick(c.dQ_low.high, c.dQ_high.low), pick(c.dQ_low.low, c.dQ_high.high)}};
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

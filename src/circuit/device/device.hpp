@@ -12,7 +12,7 @@
 #include "circuit/netlist/netlist.hpp"
 #include "signal/error.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// Under what a device is looked at.
 struct Instant {
@@ -80,4 +80,4 @@ public:
     virtual const Circuit& circuit() const = 0;
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -6,7 +6,7 @@
 #include "circuit/device/values.hpp"
 #include "signal/elementary.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 struct DiodeCard {
@@ -171,4 +171,4 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
     return std::unique_ptr<Device>(std::move(device));
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -3,7 +3,7 @@
 
 #include "circuit/device/device.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 Result<std::unique_ptr<Device>> make_diode(const Element&, Setup&);
 
@@ -12,4 +12,4 @@ Result<std::unique_ptr<Device>> make_diode(const Element&, Setup&);
 /// Returns whether it was shortened.
 bool limit_junction(double& v, double before, double n_vt, double v_crit);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

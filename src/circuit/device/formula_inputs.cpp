@@ -6,7 +6,7 @@
 #include "circuit/device/constants.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 std::string suggestion(std::string_view typed, const std::vector<std::string>& known) {
@@ -57,4 +57,4 @@ Result<FormulaInputs> FormulaInputs::make(const Formula& formula, const Element&
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

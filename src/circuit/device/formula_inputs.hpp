@@ -3,7 +3,7 @@
 
 #include "circuit/device/device.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 class FormulaInputs {
 public:
@@ -48,4 +48,4 @@ private:
     int local(int unknown);
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -3,7 +3,7 @@
 
 #include "signal/elementary.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 num::Dual inversion(num::Dual x);
 
@@ -57,4 +57,4 @@ inline num::Dual inversion(num::Dual x) {
     return {q, q / (1 + q) * x.d};
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

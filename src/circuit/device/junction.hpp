@@ -2,7 +2,7 @@
 
 #include "signal/elementary.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// What all junctions of one card share at one temperature. Beyond the argument `top` (junction_current_top in A) a current goes on
 /// along its tangent; beyond (1 - t_least) P_B a charge goes on with a capacitance that rises along its own.
@@ -33,4 +33,4 @@ JunctionAnswer<T> junction(T v, T I_sat, T top, T C_0, const JunctionLaw<T>& law
     return {e * (T(1.0) + (x - x_e)) - I_sat, e * law.per_n_phi_t, q + dv * (c + T(0.5) * c_v * dv), c + c_v * dv};
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

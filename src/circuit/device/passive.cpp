@@ -6,7 +6,7 @@
 #include "circuit/device/formula_inputs.hpp"
 #include "circuit/device/values.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// Value times 1 + tc1 dT + tc2 dT^2, dT from the model's or the usual 27 C.
@@ -125,4 +125,4 @@ Result<std::unique_ptr<Device>> make_inductor(const Element& e, Setup& setup) {
     return std::unique_ptr<Device>(std::move(device));
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

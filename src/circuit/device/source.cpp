@@ -4,7 +4,7 @@
 #include "circuit/device/values.hpp"
 #include "signal/elementary.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// An independent source before any time has passed: its DC value, or where its course begins.
@@ -180,4 +180,4 @@ Result<std::unique_ptr<Device>> make_formula_source(const Element& e, Setup& set
     return with(std::make_unique<FormulaCurrent>(*e.formula, std::move(*inputs), value_or(e.values, "m", 1)), std::move(unknowns));
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -3,11 +3,11 @@
 
 #include "circuit/device/device.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 Result<std::unique_ptr<Device>> make_voltage_source(const Element&, Setup&);
 Result<std::unique_ptr<Device>> make_current_source(const Element&, Setup&);
 Result<std::unique_ptr<Device>> make_controlled_source(const Element&, Setup&);  ///< E F G H
 Result<std::unique_ptr<Device>> make_formula_source(const Element&, Setup&);     ///< B, and E and G by formula
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -7,7 +7,7 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/device/values.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// Unknowns: drain, gate, source, bulk.
@@ -129,4 +129,4 @@ Result<std::unique_ptr<Device>> make_transistor(const Element& e, Setup& setup) 
     return std::unique_ptr<Device>(std::move(device));
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -3,8 +3,8 @@
 
 #include "circuit/device/device.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 Result<std::unique_ptr<Device>> make_transistor(const Element&, Setup&);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -4,7 +4,7 @@
 #include "circuit/device/junction.hpp"
 #include "circuit/device/uicm_constants.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// Their order, in an M line and in every array below.
 struct Terminals {
@@ -156,4 +156,4 @@ private:
     }
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 #include "signal/elementary.hpp"
 #include "signal/random.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, zero_celsius = 273.15;
@@ -73,4 +73,4 @@ UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_
     return card;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

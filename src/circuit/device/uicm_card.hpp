@@ -6,7 +6,7 @@
 #include "circuit/device/uicm_constants.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// A process card: `.model nch nmos (level=80 isq=112n vto=0.461 ...)`. The two polarities are mirror images, so the same numbers mean
 /// the same for both: vto > 0 is an enhancement device, also for PMOS.
@@ -90,4 +90,4 @@ UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, st
 /// The card as the process made it on one chip, drawn for (seed, polarity, chip): the same for all its transistors.
 UicmCard with_process(UicmCard, bool pmos, std::uint64_t seed, std::uint64_t chip);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -1,7 +1,7 @@
 #pragma once
 // Plain numbers alone: this header is also read where code is compiled for one instruction set, and nothing else may be there.
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// The numbers that a transistor's equations use, worked out once: see uicm.hpp.
 struct UicmConstants {
@@ -14,4 +14,4 @@ struct UicmConstants {
     double thermal, flicker;                         // noise powers: see uicm.hpp
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -8,7 +8,7 @@
 #include "signal/field.hpp"
 #include "signal/text.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 inline double value_or(const Values& values, std::string_view name, double otherwise) {
     const auto at = values.find(name);
@@ -42,4 +42,4 @@ Result<P> card_from(const Field<P> (&fields)[N], const Model& model, std::initia
     return card;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 Pattern::Pattern(int size, std::vector<std::pair<int, int>> entries) : size_(size), begin_(static_cast<std::size_t>(size) + 1) {
     std::sort(entries.begin(), entries.end(), [](auto a, auto b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
@@ -102,4 +102,4 @@ void Solver<T>::solve_transposed(std::span<T> b) const {
 template class Solver<double>;
 template class Solver<std::complex<double>>;
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

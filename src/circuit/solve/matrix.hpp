@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// Which places of a square matrix may differ from zero, column by column.
 class Pattern {
@@ -51,4 +51,4 @@ public:
 extern template class Solver<double>;
 extern template class Solver<std::complex<double>>;
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 #include "circuit/solve/operating_point.hpp"
 #include "signal/quantity.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// How far a node may go in one step: as far as the sources reach, and no less than 0.3 V.
@@ -88,4 +88,4 @@ std::string Newton::distance(std::span<const double> x) {
                        device ? fmt::format(", most by {}", device->name) : "");
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -6,7 +6,7 @@
 
 #include "circuit/device/values.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// One way after another, from where the last good answer was.
@@ -150,4 +150,4 @@ Result<OperatingPoint> operating_point(const System& system, const Tolerances& t
     return Search(system, t, std::move(start)).run();
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -6,7 +6,7 @@
 
 #include "circuit/solve/system.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// When an answer is good enough, and how long to look for it. Names are SPICE's; ours are tighter, for picoamperes.
 struct Tolerances {
@@ -51,4 +51,4 @@ struct Newton {
 /// From `start` (empty: 0 everywhere), with .nodeset first.
 Result<OperatingPoint> operating_point(const System&, const Tolerances&, std::vector<double> start = {});
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -9,7 +9,7 @@
 #include "circuit/devices.hpp"
 #include "circuit/solve/topology.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 class System::Maker final : public Setup {
     System& system_;
@@ -125,4 +125,4 @@ void System::eval(std::span<const double> x, const Instant& at, std::vector<doub
     }
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

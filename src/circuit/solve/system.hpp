@@ -8,7 +8,7 @@
 #include "circuit/device/device.hpp"
 #include "circuit/solve/matrix.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// What all devices add up to at one x.
 struct Sums {
@@ -55,4 +55,4 @@ public:
     std::vector<double> terminals(const Device&, std::span<const double> x) const;
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -7,7 +7,7 @@
 #include "circuit/devices.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// Nodes that belong together.
@@ -136,4 +136,4 @@ std::vector<Error> suspicious(const Circuit& c) {
     return out;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

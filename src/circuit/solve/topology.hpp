@@ -5,7 +5,7 @@
 
 #include "circuit/netlist/netlist.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// Nodes without a path for current to ground (floating, or behind current sources alone); loops of elements that fix voltages.
 std::optional<Error> unanswerable(const Circuit&);
@@ -13,4 +13,4 @@ std::optional<Error> unanswerable(const Circuit&);
 /// What looks like a slip, but can be solved: nodes at which one element's one end stands.
 std::vector<Error> suspicious(const Circuit&);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit
