@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "circuit/run.hpp"
+#include "signal/text.hpp"
 #include "support/raw_file.hpp"
 
 namespace corpuscle::circuit {
@@ -48,22 +49,31 @@ RunOutcome ours(const std::string& deck) {
     return outcome ? *outcome : RunOutcome{};
 }
 
+/// A name as we give it: ngspice's files wrap what is no voltage in v(), and keep capitals.
+std::string plain(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) { return lower(c); });
+    for (const std::string_view word : {"transfer_function", "impedance", "noise_"})
+        if (name.starts_with("v(") && name.find(word) != std::string::npos) return name.substr(2, name.size() - 3);
+    return name;
+}
+
 /// ngspice leaves 1e-7 of the largest value of a curve, and currents below what its own tolerances mean.
 void hold(const Plot& mine, const Plot& theirs, double share) {
     ASSERT_EQ(mine.points(), theirs.points()) << mine.name;
     std::size_t held = 0;
     for (const auto& c : theirs.curves) {
-        const auto* other = mine.curve(c.name);
+        const auto* other = mine.curve(plain(c.name));
         if (other == nullptr) continue;
         ++held;
         double most = 0;
-        for (const auto& x : c.values) most = std::max(most, std::abs(x));
+        if (c.type != "frequency")  // its imaginary part is left as memory was
+            for (const auto& x : c.values) most = std::max(most, std::abs(x));
         const double floor = (c.type == "current" ? 2e-15 : 1e-9) + 1e-7 * most;
         for (std::size_t k = 0; k < c.values.size(); ++k)
-            EXPECT_LE(std::abs(other->values[k] - c.values[k]), share * std::abs(c.values[k]) + floor)
+            EXPECT_LE(std::abs(other->values[k] - (c.type == "frequency" ? c.values[k].real() : c.values[k])), share * std::abs(c.type == "frequency" ? c.values[k].real() : c.values[k]) + floor)
                 << c.name << " at point " << k << ": ours " << other->values[k] << ", theirs " << c.values[k];
     }
-    EXPECT_GE(held, mine.curves.size() - 1) << "curves that both have";
+    EXPECT_GE(held + 1, mine.curves.size()) << "curves that both have";
 }
 
 class Deck : public testing::TestWithParam<std::string> {};
@@ -87,8 +97,8 @@ TEST_P(Deck, GivesWhatNgspiceGives) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(decks()), [](const auto& info) {
-    std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(decks()), [](const auto& one) {
+    std::string name = one.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });

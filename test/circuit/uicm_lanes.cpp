@@ -5,7 +5,7 @@
 #include "circuit/device/uicm.hpp"
 #include "circuit/uicm_numbers.hpp"
 
-namespace corpuscle::test::CORPUSCLE_ISA {
+namespace corpuscle::circuit::test::CORPUSCLE_ISA {
 
 using T = num::Lanes<double>;
 
@@ -38,4 +38,4 @@ double uicm_rounds(const UicmConstants& constants, const double* const (&v)[4], 
     return all;
 }
 
-}  // namespace corpuscle::test::CORPUSCLE_ISA
+}  // namespace corpuscle::circuit::test::CORPUSCLE_ISA

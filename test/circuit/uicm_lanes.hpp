@@ -5,7 +5,7 @@
 
 #include "circuit/device/uicm_constants.hpp"
 
-namespace corpuscle::test {
+namespace corpuscle::circuit::test {
 
 inline constexpr std::size_t uicm_numbers = 44;  ///< i, q, di, dq of an answer, then the four noises
 
@@ -28,4 +28,4 @@ void uicm_many(const UicmConstants*, const double* const (&v)[4], std::size_t co
 double uicm_rounds(const UicmConstants&, const double* const (&v)[4], std::size_t count, std::size_t rounds);
 }  // namespace avx512
 
-}  // namespace corpuscle::test
+}  // namespace corpuscle::circuit::test

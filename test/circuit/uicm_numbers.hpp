@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace corpuscle::test {
+namespace corpuscle::circuit::test {
 
 template <class T, class Put>
 void each_number(const Uicm<T>& device, const T (&v)[4], const Put& put) {
@@ -30,4 +30,4 @@ T sum_of(const UicmAnswer<T>& answer) {
     return sum;
 }
 
-}  // namespace corpuscle::test
+}  // namespace corpuscle::circuit::test

@@ -63,7 +63,9 @@ Result<Findings> analyse_tf(const TestBench& bench, const Command& c) {
         const double g = back[static_cast<std::size_t>(out->plus)];
         resistance = g == 0 ? 1e20 : std::abs(1 / g);
     }
-    found.numbers = {{"transfer_function", out->of(std::span<const double>(by))}, {"input_impedance", std::abs(in)}, {"output_impedance", std::abs(resistance)}};
+    found.numbers = {{"transfer_function", out->of(std::span<const double>(by))},
+                     {source->name + "#input_impedance", std::abs(in)},
+                     {"output_impedance_at_" + c.words[0], std::abs(resistance)}};
     Plot plot{"Transfer Function", false, false, {}};
     for (const auto& [name, value] : found.numbers) plot.curves.push_back({name, "notype", {value}});
     found.plots.push_back(std::move(plot));
