@@ -159,7 +159,7 @@ private:
         for (const auto& p : flat_.promises) {
             if (p.of == Promise::Of::node) {
                 if (c.node_numbers.contains(p.name)) continue;
-                const std::vector<std::string_view> known(c.nodes.begin(), c.nodes.end());
+                const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
                 return bad_input(fmt::format("{}: unknown node '{}'{}", p.who, p.name, did_you_mean(p.name, known)), p.place);
             }
             const int k = c.element(p.name);
@@ -248,7 +248,7 @@ private:
         for (const auto& start : starts_) {
             const int k = c.node(start.node);
             if (k < 0) {
-                const std::vector<std::string_view> known(c.nodes.begin(), c.nodes.end());
+                const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
                 return bad_input(fmt::format("unknown node '{}'{}", start.node, did_you_mean(start.node, known)), start.place);
             }
             (start.ic ? c.ic : c.nodesets).emplace_back(k, start.value);

@@ -201,7 +201,8 @@ private:
         if (const auto ok = nodes(2, "plus and minus, then v=... or i=..."); !ok) return ok;
         if (s_.words.size() > 3) return too_many(3);
         const auto *v = s_.find("v"), *i = s_.find("i");
-        if (!v == !i) return wrong("either v=... or i=... is wanted", s_.words.size());
+        if (v && i) return bad_input(fmt::format("{}: both v=... and i=...", name_), s_.place(i->name));
+        if (!v && !i) return wrong("either v=... or i=... is wanted", s_.words.size());
         out_.formula_is_voltage = v != nullptr;
         return formula(v ? *v : *i);
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "circuit/netlist/number.hpp"
 #include "signal/field.hpp"
 
 namespace corpuscle::circuit {
@@ -70,8 +71,12 @@ Result<int> Flat::model(Frame& frame, const Text& name, std::string_view who, st
         return bad_input(fmt::format("{}: model '{}' is of type {}; {} is wanted", who, name.view(), s.text(2), joined(types)),
                          name.place());
     if (const auto made = f->models.find(name.view()); made != f->models.end()) return made->second;
-    Model model{f->path + std::string(name.view()), std::string(type), s.line.place(), {}};
+    Model model{f->path + std::string(name.view()), std::string(type), s.line.place(), {}, {}};
     for (const auto& pair : s.named) {
+        if (pair.value.kind == Word::Kind::quoted || (s.text(pair.name) == "version" && !whole_number(s.text(pair.value)))) {
+            model.words.emplace(s.text(pair.name), s.text(pair.value));
+            continue;
+        }
         const auto value = f->number({&s, pair.value});
         if (!value) return value.error();
         model.values.emplace(s.text(pair.name), *value);

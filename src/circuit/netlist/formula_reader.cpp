@@ -81,7 +81,7 @@ private:
 
     Index wrong(std::string sentence, std::size_t at) {
         if (wrong_) return failed;
-        for (auto call = calls_.rbegin(); call != calls_.rend(); ++call) sentence = fmt::format("in {}(): {}", *call, sentence);
+        if (!calls_.empty()) sentence = fmt::format("in {}(): {}", calls_.back(), sentence);
         Place place = place_;
         place.column = std::max(1L, place.column) + static_cast<long>(calls_.empty() ? at : call_at_);
         wrong_ = bad_input(std::move(sentence), std::move(place));
@@ -402,7 +402,7 @@ private:
         if (kind == 'i') return input(FormulaInput::Kind::current, scope_.element ? scope_.element(first) : first);
         return voltage(node(first), two ? node(second) : "");
     }
-    static bool is_probe(std::string_view name) { return !name.empty() && name.find_first_of(" \t({") == std::string_view::npos; }
+    static bool is_probe(std::string_view name) { return !name.empty() && name.find_first_of(" \t({,") == std::string_view::npos; }
 
     /// A node's name in the circuit; "" is ground.
     std::string node(const std::string& name) const {

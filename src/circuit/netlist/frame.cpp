@@ -73,7 +73,8 @@ FormulaScope Frame::scope() const {
 std::vector<std::string> Frame::known() const {
     std::vector<std::string> names;
     for (const Frame* f = this; f; f = f->caller)
-        for (const auto& [name, value] : f->parameters) names.push_back(name);
+        for (const auto* part : {&f->body->parameters, &f->body->defaults})
+            for (const auto& [name, text] : *part) names.push_back(name);
     return names;
 }
 
@@ -94,6 +95,7 @@ Result<double> Frame::number(const Text& text) const {
         if (!read) return read.error();
         value = read->value();
     }
+    if (std::isnan(value)) return bad_input(fmt::format("'{}' is not a number", text.view().substr(0, 60)), text.place());
     if (!std::isfinite(value))
         return bad_input(fmt::format("'{}' is {}, not a finite number", text.view().substr(0, 60), value), text.place());
     return value;

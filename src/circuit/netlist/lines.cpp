@@ -74,12 +74,25 @@ Lines::Lines(std::string_view text, std::shared_ptr<const std::string> file) : f
 
 bool Lines::take(std::string_view& physical) {
     if (rest_.empty()) return false;
+    last_ = rest_;
     const auto end = std::min(rest_.find('\n'), rest_.size());
     physical = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     if (physical.ends_with('\r')) physical.remove_suffix(1);
     ++number_;
     return true;
+}
+
+void Lines::put_back() {
+    rest_ = last_;
+    --number_;
+}
+
+bool Lines::skip_past(std::string_view word) {
+    std::string_view line;
+    while (take(line))
+        if (trimmed(line).size() >= word.size() && same_letters(trimmed(line).substr(0, word.size()), word)) return true;
+    return false;
 }
 
 Result<std::string> Lines::title() {
@@ -100,10 +113,9 @@ Result<bool> Lines::next(Line& out) {
             return bad_input("'+' goes on with the line before it, but there is none",
                              {*file_, static_cast<long>(number_), static_cast<long>(first) + 1});
         if (!goes_on && begun_) {  // the line before is complete; this one begins the next
-            if (auto given = give(out); !given || *given) {
-                if (const auto ok = add(line, first); !ok) return ok.error();
-                return given;
-            }
+            put_back();
+            if (auto given = give(out); !given || *given) return given;
+            continue;
         }
         if (const auto ok = add(line, goes_on ? first + 1 : first); !ok) return ok.error();
     }

@@ -30,10 +30,10 @@ struct Line {
 /// Gives a file's logical lines one by one.
 class Lines {
     std::shared_ptr<const std::string> file_;
-    std::string_view rest_;
-    std::uint32_t number_ = 0;  // of the physical line last taken
-    Line next_;                 // begun, and perhaps continued by what follows
-    char quote_ = 0;            // open at the end of what is in next_
+    std::string_view rest_, last_;  // last_: rest_ before the physical line last taken
+    std::uint32_t number_ = 0;      // of the physical line last taken
+    Line next_;                     // begun, and perhaps continued by what follows
+    char quote_ = 0;                // open at the end of what is in next_
     std::uint32_t quote_at_ = 0;
     bool begun_ = false;
 
@@ -44,9 +44,12 @@ public:
     Result<std::string> title();
     /// The next line; false at the end.
     Result<bool> next(Line&);
+    /// Leaves out all lines, whatever is in them, to the one that begins with the word; false if there is none.
+    bool skip_past(std::string_view word);
 
 private:
     bool take(std::string_view& physical);
+    void put_back();
     Result<void> add(std::string_view physical, std::size_t from);
     Result<bool> give(Line&);
 };

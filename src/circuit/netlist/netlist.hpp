@@ -46,6 +46,7 @@ struct Model {
     std::string name, type;  ///< d, nmos, pmos, r, c, ... in small letters; the name with its subcircuit's path, if it is a local one
     Place place;
     Values values;
+    std::map<std::string, std::string, std::less<>> words;  ///< those that are no numbers: in double quotes, and version=3.3.0
 };
 
 /// A line that asks for something: .op, .dc, .ac, .meas, .print, .save, .expect, ... Its words in small letters but for quoted ones,

@@ -318,13 +318,8 @@ private:
 
     Result<void> skip_control(Lines& lines, const Line& from) {
         out_.remarks.push_back(bad_input(".control ... .endc is ngspice's own script and is not run", from.place()));
-        Line line;
-        while (true) {
-            const auto more = lines.next(line);
-            if (!more) return more.error();
-            if (!*more) return bad_input(".control is not closed by .endc", from.place());
-            if (line.text.starts_with(".endc")) return {};
-        }
+        if (!lines.skip_past(".endc")) return bad_input(".control is not closed by .endc", from.place());
+        return {};
     }
 
     Result<void> include(Line line) {

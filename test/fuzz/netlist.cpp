@@ -1,0 +1,70 @@
+// Any bytes as a netlist and the files it includes (parted by a line "=== name"): a circuit that hangs together, or an error with a
+// sentence and a place.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+
+#include "circuit/netlist/netlist.hpp"
+
+using namespace corpuscle;
+
+namespace {
+
+using Files = std::map<std::string, std::string>;
+
+/// The text before the first "=== name", and each file behind its name.
+std::string main_of(std::string_view text, Files& files) {
+    constexpr std::string_view mark = "\n=== ";
+    const auto first = std::min(text.find(mark), text.size());
+    for (std::size_t at = first; at < text.size() && files.size() < 8;) {
+        const auto end = std::min(text.find('\n', at + mark.size()), text.size());
+        const std::string name(text.substr(at + mark.size(), end - at - mark.size()));
+        at = std::min(text.find(mark, end), text.size());
+        files[name] = text.substr(end, at - end);
+    }
+    return std::string(text.substr(0, first));
+}
+
+void check(const Error& e) {
+    if (e.sentence.empty() || e.place.file.empty()) std::abort();
+}
+
+void check(const Circuit& c) {
+    const auto must = [](bool ok) { return ok ? void() : std::abort(); };
+    for (const auto& e : c.elements) {
+        must(c.element(e.name) >= 0 && std::isfinite(e.value) && e.place.line > 0);
+        must(e.model >= -1 && e.model < static_cast<int>(c.models.size()));
+        for (const int k : e.nodes) must(k >= 0 && k < static_cast<int>(c.nodes.size()));
+        for (const auto& [name, value] : e.values) must(std::isfinite(value));
+        for (const double x : e.waveform.numbers) must(std::isfinite(x));
+        if (!e.control.empty()) must(c.element(e.control) >= 0);
+        if (e.formula)
+            for (const auto& input : e.formula->inputs()) {
+                if (input.kind == FormulaInput::Kind::voltage)
+                    must(c.node(input.name) > 0 && (input.minus.empty() || c.node(input.minus) > 0));
+                if (input.kind == FormulaInput::Kind::current) must(c.element(input.name) >= 0);
+            }
+    }
+    for (std::size_t k = 0; k < c.nodes.size(); ++k) must(c.node(c.nodes[k]) == static_cast<int>(k));
+    for (const auto& command : c.commands) must(command.words.size() == command.columns.size());
+    for (const auto& remark : c.remarks) check(remark);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    Files files;
+    const std::string text = main_of({reinterpret_cast<const char*>(data), size}, files);
+    const auto open = [&](const std::string& path) -> Result<std::string> {
+        const auto at = files.find(path);
+        return at == files.end() ? Result<std::string>(bad_input("no such file")) : Result<std::string>(at->second);
+    };
+    const auto netlist = Netlist::parse(text, "fuzz.cir", open);
+    if (!netlist) return check(netlist.error()), 0;
+    const auto circuit = netlist->elaborate();
+    if (!circuit) return check(circuit.error()), 0;
+    check(*circuit);
+    return 0;
+}
