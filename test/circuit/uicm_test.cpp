@@ -220,7 +220,7 @@ TEST(Uicm, CurrentNeverFallsAsTheDrainRises) {
 
 TEST(Uicm, SlopesDoNotJumpAcrossZeroDrainVoltageNorWhereAFormulaEnds) {
     const auto c = sized(whole(), 1.5e-6, 0.5e-6);
-    const double top = c.top_s / c.per_n_phi_t, corner = (1 - c.t_least) * c.P_B;
+    const double top = c.top_s / c.per_n_phi_t, corner = c.v_top;
     for (const double g : {-0.2, 0.3, 0.5, 1.0, 1.8})
         for (const double b : {0.0, corner, top})  // of the bulk above source and drain
             for (const double step : {1e-9, 1e-8}) {
