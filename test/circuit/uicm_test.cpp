@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "circuit/device/uicm_card.hpp"
+#include "circuit/device/uicm_point.hpp"
 #include "circuit/uicm_lanes.hpp"
 #include "circuit/uicm_numbers.hpp"
 #include "model/lanes/buffer.hpp"
@@ -390,6 +391,27 @@ TEST(Uicm, MismatchFallsWithTheRootOfTheWholeArraysAreaAndDependsOnWhatItIsForAl
     EXPECT_NE(with_process(card, false, 1, 0).V_T0, with_process(card, true, 1, 0).V_T0);
     EXPECT_NE(with_process(card, false, 1, 0).V_T0, with_process(card, false, 1, 1).V_T0);
     EXPECT_EQ(with_process(card, false, 1, 1).V_T0, with_process(card, false, 1, 1).V_T0);
+}
+
+TEST(Uicm, ItsPointSaysTheRegionAndConductancesThatSumUp) {
+    const auto n = sized(whole(), 1.5e-6, 0.5e-6), p = sized(whole(), 1.5e-6, 0.5e-6, 1, 1, true);
+    const struct {
+        double d, g;
+        const char *inversion, *region;
+    } cases[] = {{0.7, -0.5, "off", "off"},        {0.7, 0.3, "weak", "saturation"},
+                 {0.05, 0.3, "weak", "triode"},    {0.7, 0.5, "moderate", "saturation"},
+                 {0.2, 0.6, "moderate", "triode"}, {1.8, 1.8, "strong", "saturation"}};
+    for (const auto& x : cases) {
+        const auto a = uicm_point(n, {x.d, x.g, 0, 0.3}), b = uicm_point(p, {-x.d, -x.g, 0, -0.3});
+        EXPECT_EQ(uicm_point(n, {x.d, x.g, 0, 0}).inversion, x.inversion) << x.d << ' ' << x.g;
+        EXPECT_EQ(uicm_point(n, {x.d, x.g, 0, 0}).region, x.region) << x.d << ' ' << x.g;
+        EXPECT_NEAR(a.g_mg + a.g_md + a.g_mb, a.g_ms, 1e-14 * a.g_ms);
+        EXPECT_EQ(a.I_D, -b.I_D);
+        EXPECT_EQ(a.g_mg, b.g_mg);
+        EXPECT_EQ(a.C_gs, b.C_gs);
+        EXPECT_EQ(a.V_T, b.V_T);
+        EXPECT_LT(a.V_T, 0.461 + 0.01 * 0.6);
+    }
 }
 
 TEST(Uicm, LanesGiveTheBitsOfOne) {
