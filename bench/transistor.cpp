@@ -21,6 +21,7 @@
 namespace {
 
 using namespace corpuscle;
+using namespace corpuscle::circuit;
 
 constexpr std::size_t count = 512, rounds = 64;
 

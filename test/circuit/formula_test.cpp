@@ -7,7 +7,7 @@
 #include "circuit/netlist/number.hpp"
 #include "support/property.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 FormulaScope among_voltages() {
@@ -332,4 +332,4 @@ TEST(Formula, TakesAnyTextWithoutHarm) {
 }
 
 }  // namespace
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

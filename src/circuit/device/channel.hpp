@@ -43,20 +43,24 @@ public:
     T i, Q_high, Q_low;
     By di, dQ_high, dQ_low;
 
-    HalfChannels(T higher, T lower, T zeta) : h(higher), l(lower), zeta(zeta) {
+    [[gnu::always_inline]] HalfChannels(T higher, T lower, T zeta) : h(higher), l(lower), zeta(zeta) {
         const T one(1.0), two(2.0);
         // the lower charge l', and delta = h - l'
-        const T root = num::sqrt((one + zeta) * (one + zeta) + two * zeta * h);
-        const T s = zeta * (h + two) / (zeta * h + one + zeta + root), hs = one - one / root - s;  // hs = h ds/dh
-        const T r = l / h, per_D = one / (one - s * r), t = (one - s) * per_D, rest = (one - r) * per_D;
+        // (Quotients share divisions: 1 / (x y) gives both 1/x and 1/y.)
+        const T root = num::sqrt((one + zeta) * (one + zeta) + two * zeta * h), sum = zeta * h + one + zeta + root;
+        const T per_root_sum = one / (root * sum);
+        const T s = zeta * (h + two) * (per_root_sum * root), hs = one - per_root_sum * sum - s;  // hs = h ds/dh
+        const T h1 = one + h, l1 = one + l, per_ends = one / (h * (h1 * l1));
+        const T per_h = per_ends * (h1 * l1), r = l * per_h, high_x = h * (h * per_ends * l1), low_x = l * (h * per_ends * h1);
+        const T part = one - s, D = one - s * r, F = D + zeta * part * (h - l), per_DF = one / (D * F);
+        const T per_D = per_DF * F, per_E = per_DF * D * D;  // E = 1 + zeta delta = F / D
+        const T t = part * per_D, rest = (one - r) * per_D;
         const T low = (h * s + l * (one - two * s)) * per_D, low_l = t * t;
         const T delta = t * (h - l), delta_h = t * (one - r) + r * low_l - rest * rest * hs;
         // the current
-        const T per_E = one / (one + zeta * delta);
         i = (h + low + two) * delta * per_E;
         const T drift = (two * (low + one) - zeta * i) * per_E;  // di/d(delta)
         const T i_h = two * delta * per_E + drift * delta_h, i_l = -drift * low_l;
-        const T high_x = h / (one + h), low_x = l / (one + l);
         di = {i_h * high_x, i_l * low_x};
         // the charges
         const T half = T(0.5) * zeta, X = half * i, X_h = half * i_h, X_l = half * i_l;
@@ -76,7 +80,7 @@ private:
     /// An end's share of the charge between two ends, and its slopes by either: a, at the end itself, and b, at the other.
     struct Share {
         T value, own, other;
-        Share(T a, T b, T per_T, T per_T2) {
+        [[gnu::always_inline]] Share(T a, T b, T per_T, T per_T2) {
             constexpr double c = 2.0 / 15;
             const T aa = a * a, ab = a * b, bb = b * b;
             const T P = T(4.0 / 3) * a + T(2.0 / 3) * b + T(1.5) * aa + T(5.0 / 3) * ab + T(5.0 / 6) * bb +
@@ -92,7 +96,7 @@ private:
 };
 
 template <class T>
-Channel<T> channel(T x_S, T x_D, T zeta) {
+[[gnu::always_inline]] inline Channel<T> channel(T x_S, T x_D, T zeta) {
     const T q_S = inversion(x_S), q_D = inversion(x_D);
     const auto forward = q_S >= q_D;
     const HalfChannels<T> c(num::select(forward, q_S, q_D), num::select(forward, q_D, q_S), zeta);

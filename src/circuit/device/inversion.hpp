@@ -1,7 +1,7 @@
 #pragma once
 // The charge at one end of a channel from the voltage there: q of q + ln q = x, in constant time and without a branch.
 
-#include "signal/elementary.hpp"
+#include "circuit/device/short_log.hpp"
 
 namespace corpuscle::circuit {
 
@@ -11,33 +11,33 @@ namespace detail {
 
 /// e^x to 8e-5 of itself.
 template <class T>
-T rough_exp(T x) {
+[[gnu::always_inline]] inline T rough_exp(T x) {
     const T y = x * T(1.4426950408889634), k = num::nearest(y), f = y - k;
     return num::times_power_of_two(T(0.99992807) + f * (T(0.69326099) + f * (T(0.24261112) + f * T(0.05517166))), k);
 }
 
 /// ln x to 5e-4, for a normal x > 0.
 template <class T>
-T rough_log(T x) {
+[[gnu::always_inline]] inline T rough_log(T x) {
     const T m = num::mantissa(x);
     return num::exponent(x) * T(0.6931471805599453) + (T(-1.49277583) + m * (T(2.11263167) + m * (T(-0.72910377) + m * T(0.10968954))));
 }
 
 /// q to about 3e-4 of itself: a series in e^x below -2.5, one in ln x above 6, a polynomial between.
 template <class T>
-T inversion_seed(T x) {
-    const T E = rough_exp(num::max(num::min(x, T(-2.5)), T(-num::exp_reach<T>)));
+[[gnu::always_inline]] inline T inversion_seed(T x) {
+    const auto far = x > T(6.0);
+    const T y = num::max(x, T(6.0)), L = rough_log(y);
+    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_reach<T>))));  // 1/x where x is far
     const T low = E * (T(1.0) - E * (T(1.0) - E * (T(1.5) - E * T(8.0 / 3))));
+    const T high = y - L + L * E * (T(1.0) + E * (T(0.5) * L - T(1.0)));
 
-    const T far = num::max(x, T(6.0)), L = rough_log(far), g = T(1.0) / far;
-    const T high = far - L + L * g * (T(1.0) + g * (T(0.5) * L - T(1.0)));
+    const T s = (num::min(num::max(x, T(-2.5)), T(6.0)) - T(1.75)) * T(1 / 4.25), ss = s * s;
+    const T even = T(1.408131135) + ss * (T(0.9115124333) + ss * (T(0.03677439334) + ss * T(-0.07109053874)));
+    const T odd = T(2.489977625) + ss * (T(-0.4564352694) + ss * (T(0.2518980967) + ss * T(-0.07615062164)));
+    const T middle = even + s * odd;
 
-    const T s = (num::min(num::max(x, T(-2.5)), T(6.0)) - T(1.75)) * T(1 / 4.25);
-    T middle = T(-0.07615062164);
-    for (const double c : {-0.07109053874, 0.2518980967, 0.03677439334, -0.4564352694, 0.9115124333, 2.489977625, 1.408131135})
-        middle = middle * s + T(c);
-
-    return num::select(x < T(-2.5), low, num::select(x > T(6.0), high, middle));
+    return num::select(x < T(-2.5), low, num::select(far, high, middle));
 }
 
 }  // namespace detail
@@ -45,8 +45,8 @@ T inversion_seed(T x) {
 /// q of q + ln q = x: the seed, and one step of Fritsch, Shafer and Crowley (algorithm 443, Comm. ACM 16, 1973), of fourth order.
 /// Within 1e-13 of itself for |x| <= 700 (most of it from x's own last digit); below that e^-700. What is no number stays none.
 template <class T>
-T inversion(T x) {
-    const T q = detail::inversion_seed(x), r = num::max(T(-num::exp_reach<T>), x) - q - num::log(q);
+[[gnu::always_inline]] inline T inversion(T x) {
+    const T q = detail::inversion_seed(x), r = num::max(T(-num::exp_reach<T>), x) - q - short_log(q);
     const T p = T(1.0) + q, a = T(2.0) * p * (p + r * T(2.0 / 3));
     return q + q * r * (a - r) / (p * (a - T(2.0) * r));
 }

@@ -60,8 +60,8 @@ public:
           I_sat_d(value(&UicmConstants::I_sat_d)), top_s(value(&UicmConstants::top_s)), top_d(value(&UicmConstants::top_d)),
           C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)), thermal(value(&UicmConstants::thermal)),
           flicker(value(&UicmConstants::flicker)),
-          law{value(&UicmConstants::per_n_phi_t), value(&UicmConstants::P_B), value(&UicmConstants::per_P_B), value(&UicmConstants::M_J),
-              value(&UicmConstants::t_least)} {}
+          law{value(&UicmConstants::per_n_phi_t), value(&UicmConstants::per_P_B),      value(&UicmConstants::v_top),
+              value(&UicmConstants::rest),        value(&UicmConstants::P_B_per_rest), value(&UicmConstants::per_P_B_M_J)} {}
 
     /// One transistor, or the same in all lanes.
     explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::* at) { return T(c.*at); }) {}
@@ -110,7 +110,7 @@ private:
     struct Slopes {
         T d, g, s, b;
     };
-    Slopes by_voltages(T by_S, T by_D) const {
+    [[gnu::always_inline]] Slopes by_voltages(T by_S, T by_D) const {
         const T all = (by_S + by_D) * per_phi_t;
         const T d = all * sigma_n - by_D * per_phi_t, g = all * per_n, s = all * sigma_n - by_S * per_phi_t;
         return {d, g, s, -(d + g + s)};
@@ -124,11 +124,10 @@ private:
         const T g_d = g.d + early_d, g_s = g.s - early_d;
         out.i[D] = polarity * (I - b_d.i), out.i[G] = zero, out.i[S] = -polarity * (I + b_s.i);
         out.i[B] = polarity * (b_s.i + b_d.i);
-        const T rows[4][4] = {{g_d + b_d.g, g.g, g_s, g.b - b_d.g},
-                              {zero, zero, zero, zero},
-                              {-g_d, -g.g, b_s.g - g_s, -g.b - b_s.g},
-                              {-b_d.g, zero, -b_s.g, b_s.g + b_d.g}};
-        copy(rows, out.di);
+        put(out.di[D], g_d + b_d.g, g.g, g_s, g.b - b_d.g);
+        put(out.di[G], zero, zero, zero, zero);
+        put(out.di[S], -g_d, -g.g, b_s.g - g_s, -g.b - b_s.g);
+        put(out.di[B], -b_d.g, zero, -b_s.g, b_s.g + b_d.g);
     }
 
     [[gnu::always_inline]] void charges(const Voltages& at, const Channel<T>& c, const JunctionAnswer<T>& b_s, const JunctionAnswer<T>& b_d,
@@ -141,19 +140,14 @@ private:
         const Slopes d_by = by_voltages(-(Q_0 * c.Q_D.by_S), -(Q_0 * c.Q_D.by_D)),
                      s_by = by_voltages(-(Q_0 * c.Q_S.by_S), -(Q_0 * c.Q_S.by_D));
         const T part = per_n - T(1.0), C_b = C_gb + C_dep;
-        const T rows[4][4] = {{d_by.d + C_gd + b_d.c, d_by.g - C_gd, d_by.s, d_by.b - b_d.c},
-                              {-(per_n * (d_by.d + s_by.d)) - C_gd, C_gd + C_gs + C_b - per_n * (d_by.g + s_by.g),
-                               -(per_n * (d_by.s + s_by.s)) - C_gs, -(per_n * (d_by.b + s_by.b)) - C_b},
-                              {s_by.d, s_by.g - C_gs, s_by.s + C_gs + b_s.c, s_by.b - b_s.c},
-                              {part * (d_by.d + s_by.d) - b_d.c, part * (d_by.g + s_by.g) - C_b, part * (d_by.s + s_by.s) - b_s.c,
-                               part * (d_by.b + s_by.b) + C_b + b_s.c + b_d.c}};
-        copy(rows, out.dq);
+        const Slopes both{d_by.d + s_by.d, d_by.g + s_by.g, d_by.s + s_by.s, d_by.b + s_by.b};
+        put(out.dq[D], d_by.d + C_gd + b_d.c, d_by.g - C_gd, d_by.s, d_by.b - b_d.c);
+        put(out.dq[G], -(per_n * both.d) - C_gd, C_gd + C_gs + C_b - per_n * both.g, -(per_n * both.s) - C_gs, -(per_n * both.b) - C_b);
+        put(out.dq[S], s_by.d, s_by.g - C_gs, s_by.s + C_gs + b_s.c, s_by.b - b_s.c);
+        put(out.dq[B], part * both.d - b_d.c, part * both.g - C_b, part * both.s - b_s.c, part * both.b + C_b + b_s.c + b_d.c);
     }
 
-    [[gnu::always_inline]] static void copy(const T (&from)[4][4], T (&to)[4][4]) {
-        for (int a = 0; a < 4; ++a)
-            for (int b = 0; b < 4; ++b) to[a][b] = from[a][b];
-    }
+    [[gnu::always_inline]] static void put(T (&row)[4], T d, T g, T s, T b) { row[D] = d, row[G] = g, row[S] = s, row[B] = b; }
 };
 
 }  // namespace corpuscle::circuit

@@ -52,7 +52,8 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, doubl
     c.C_gs = card.C_GSO * width, c.C_gd = card.C_GDO * width, c.C_gb = card.C_GBO * length * at.m;
     c.I_sat_s = I_sat(source), c.I_sat_d = I_sat(drain), c.top_s = top_of(c.I_sat_s), c.top_d = top_of(c.I_sat_d);
     c.C_js = C_0(source), c.C_jd = C_0(drain);
-    c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.P_B = card.P_B, c.per_P_B = 1 / card.P_B, c.M_J = card.M_J, c.t_least = 1 - card.F_C;
+    c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.per_P_B = 1 / card.P_B, c.v_top = card.F_C * card.P_B;
+    c.rest = 1 - card.M_J, c.P_B_per_rest = card.P_B / c.rest, c.per_P_B_M_J = card.M_J / card.P_B;
     c.thermal = 8 * boltzmann * T * I_S / phi_t;
     const double e_n = elementary_charge / (card.n * card.C_ox * phi_t);
     c.flicker = card.C_ox > 0 ? 2 * e_n * e_n * card.N_ot * I_S / at.area() : 0;

@@ -10,8 +10,8 @@ struct UicmConstants {
     double I_S, lambda, knee;                     // A, 1/V, V
     double Q_0, C_dep, C_gs, C_gd, C_gb;          // n phi_t C_ox W L; (n - 1)/n C_ox W L; overlaps
     double I_sat_s, I_sat_d, top_s, top_d, C_js, C_jd;
-    double per_n_phi_t, P_B, per_P_B, M_J, t_least;  // of the junctions
-    double thermal, flicker;                         // noise powers: see uicm.hpp
+    double per_n_phi_t, per_P_B, v_top, rest, P_B_per_rest, per_P_B_M_J;  // of the junctions: JunctionLaw
+    double thermal, flicker;                                              // noise powers: see uicm.hpp
 };
 
 }  // namespace corpuscle::circuit
