@@ -5,7 +5,7 @@
 
 #include "support/property.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 using Files = std::map<std::string, std::string>;
@@ -507,4 +507,4 @@ RC_GTEST_PROP(Netlist, TakesAnyTextWithoutHarm, (const std::vector<std::string>&
 }
 
 }  // namespace
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -9,6 +9,7 @@
 #include "circuit/netlist/netlist.hpp"
 
 using namespace corpuscle;
+using namespace corpuscle::circuit;
 
 namespace {
 

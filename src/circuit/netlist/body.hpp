@@ -13,7 +13,7 @@
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/netlist/statement.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 inline constexpr std::size_t most_elements = 2000000;  // and statements
 inline constexpr std::size_t most_text = std::size_t{256} << 20;
@@ -68,4 +68,4 @@ std::vector<std::string_view> names_in(const Map& map) {
     return names;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -9,7 +9,7 @@
 #include "signal/field.hpp"
 #include "signal/text.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr int deepest = 200;  // subcircuits within each other
@@ -308,4 +308,4 @@ Result<Circuit> Netlist::elaborate(const Values& parameters) const {
     return Elaboration(*parsed_).run(parameters);
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

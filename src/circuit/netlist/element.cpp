@@ -8,7 +8,7 @@
 #include "circuit/netlist/number.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// What each letter may have by name, beside what is read apart.
@@ -306,4 +306,4 @@ private:
 
 Result<void> read_element(Flat& flat, Frame& frame, const Statement& s) { return ElementReader(flat, frame, s).read(); }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

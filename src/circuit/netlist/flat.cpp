@@ -6,7 +6,7 @@
 #include "circuit/netlist/number.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr std::size_t most_letters = std::size_t{512} << 20;  // of all names
@@ -105,4 +105,4 @@ Result<void> Flat::visit(const Frame& frame, const Statement& s) {
     return {};
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

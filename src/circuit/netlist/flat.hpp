@@ -3,7 +3,7 @@
 
 #include "circuit/netlist/frame.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// Something named that must be there once the circuit is complete.
 struct Promise {
@@ -41,4 +41,4 @@ Result<void> read_element(Flat&, Frame&, const Statement&);
 /// V, I: what stands behind the nodes.
 Result<Waveform> read_waveform(const Frame&, const Statement&);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

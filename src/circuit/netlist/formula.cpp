@@ -4,7 +4,7 @@
 
 #include "circuit/netlist/formula_steps.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// Room for a number a step: on the stack for all but the longest formulas.
@@ -69,4 +69,4 @@ double Formula::value(std::span<const double> inputs, std::span<double> slopes) 
     return value;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

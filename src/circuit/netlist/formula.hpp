@@ -11,7 +11,7 @@
 
 #include "signal/error.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// What a formula is worked out from where it is not constant: v(a), v(a,b), i(vx), time, temper (C), hertz.
 struct FormulaInput {
@@ -66,4 +66,4 @@ private:
     std::vector<FormulaInput> inputs_;
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

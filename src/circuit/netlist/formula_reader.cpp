@@ -9,7 +9,7 @@
 #include "signal/field.hpp"
 #include "signal/text.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr int deepest = 200;  // of parentheses, functions and ? : within each other
@@ -420,4 +420,4 @@ Result<Formula> Formula::parse(std::string_view text, const Place& at, const For
     return FormulaReader(text, at, scope).read();
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

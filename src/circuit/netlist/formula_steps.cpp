@@ -5,7 +5,7 @@
 
 #include "signal/elementary.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 using enum Operation;
@@ -293,4 +293,4 @@ Slopes slopes_of(Operation o, double a, double b, double c, double value) {
     }
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 enum class Operation : std::int16_t {
     number,
@@ -86,4 +86,4 @@ Slopes slopes_of(Operation, double a, double b, double c, double value);
 /// How many operands it has.
 int operands(Operation);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

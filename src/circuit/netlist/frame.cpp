@@ -6,7 +6,7 @@
 
 #include "circuit/netlist/number.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 /// Calls named(name) for each name in a formula's text; letters behind digits are a scale.
@@ -149,4 +149,4 @@ Result<void> Frame::define(const std::string& first, ByName<Text>& pending) {
     return {};
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

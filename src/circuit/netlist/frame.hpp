@@ -3,7 +3,7 @@
 
 #include "circuit/netlist/body.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 struct Frame {
     const Body* body = nullptr;
@@ -32,4 +32,4 @@ private:
     Result<void> define(const std::string& name, ByName<Text>& pending);
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 
 #include "signal/text.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 bool blank(char c) { return c == ' ' || c == '\t'; }
@@ -154,4 +154,4 @@ Result<bool> Lines::give(Line& out) {
     return !out.text.empty();
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -9,7 +9,7 @@
 
 #include "signal/error.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// A logical line: in small letters, but for what stands in double quotes and for lines that name files.
 struct Line {
@@ -54,4 +54,4 @@ private:
     Result<bool> give(Line&);
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

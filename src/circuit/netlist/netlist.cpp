@@ -9,7 +9,7 @@
 
 #include "circuit/netlist/parsed.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 Result<std::string> text_of(const std::string& path) {
@@ -59,4 +59,4 @@ Result<Netlist> Netlist::read(const std::string& path) {
     return parse(std::move(*text), path, text_of);
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

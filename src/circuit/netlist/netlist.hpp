@@ -13,7 +13,7 @@
 #include "circuit/netlist/formula.hpp"
 #include "signal/error.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// name=value, worked out; names in small letters.
 using Values = std::map<std::string, double, std::less<>>;
@@ -92,4 +92,4 @@ public:
     Result<Circuit> elaborate(const Values& parameters = {}) const;
 };
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -9,7 +9,7 @@
 #include "signal/field.hpp"
 #include "signal/text.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 constexpr std::size_t deepest_include = 50, deepest_subcircuit = 200;
@@ -412,4 +412,4 @@ Result<void> read_netlist(const std::string& text, const std::string& file, cons
     return NetlistReader(out, open).read(text, file, "");
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

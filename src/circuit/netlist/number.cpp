@@ -7,7 +7,7 @@
 
 #include "signal/text.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
@@ -85,4 +85,4 @@ std::optional<SpiceNumber> whole_number(std::string_view text) {
     return number;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

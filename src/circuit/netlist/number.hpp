@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 struct SpiceNumber {
     double value = 0;          ///< the double nearest to what is written; 1e999 is infinite
@@ -18,4 +18,4 @@ std::optional<SpiceNumber> leading_number(std::string_view text);
 /// The number, perhaps with a sign, that the whole text is.
 std::optional<SpiceNumber> whole_number(std::string_view text);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -3,8 +3,8 @@
 
 #include "circuit/netlist/body.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 struct Netlist::Parsed : ParsedNetlist {};
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

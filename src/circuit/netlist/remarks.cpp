@@ -5,7 +5,7 @@
 #include "circuit/netlist/body.hpp"
 #include "circuit/netlist/number.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 std::string remark_on(char element, const SpiceNumber& number, std::string_view as_read) {
@@ -35,4 +35,4 @@ void remark_on_units(const Statement& s, std::vector<Error>& remarks) {
         if (s.text(pair.name) == "r" || s.text(pair.name) == "c") look_at(pair.value);
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

@@ -7,7 +7,7 @@
 #include "circuit/netlist/number.hpp"
 #include "signal/field.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 using Shape = Waveform::Shape;
@@ -154,4 +154,4 @@ private:
 
 Result<Waveform> read_waveform(const Frame& frame, const Statement& s) { return SourceReader(frame, s).read(); }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

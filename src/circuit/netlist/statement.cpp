@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 namespace {
 
 bool blank(char c) { return c == ' ' || c == '\t'; }
@@ -236,4 +236,4 @@ Result<Statement> command_statement(Line line) {
     return s;
 }
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit

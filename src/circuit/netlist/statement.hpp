@@ -8,7 +8,7 @@
 
 #include "circuit/netlist/lines.hpp"
 
-namespace corpuscle {
+namespace corpuscle::circuit {
 
 /// A part of a line's text.
 struct Word {
@@ -43,4 +43,4 @@ Result<Statement> assignments(Line);
 /// All other dot lines: blanks and commas outside parentheses, quotes and braces part words; "a = 3" is one word.
 Result<Statement> command_statement(Line);
 
-}  // namespace corpuscle
+}  // namespace corpuscle::circuit
