@@ -306,7 +306,7 @@ Drawn draw(int depth, std::span<const double> inputs) {
     const Drawn b = draw(depth - 1, inputs);
     if (kind == 5) return {fmt::format("({} + {})", a.text, b.text), a.value + b.value};
     if (kind == 6) return {fmt::format("({}-{})", a.text, b.text), a.value - b.value};
-    if (kind == 7) return {fmt::format("{}*{}", fmt::format("({})", a.text), fmt::format("({})", b.text)), a.value * b.value};
+    if (kind == 7) return {fmt::format("({}*{})", a.text, b.text), a.value * b.value};
     if (kind == 8) return {fmt::format("max({},{})", a.text, b.text), a.value < b.value ? b.value : a.value};
     if (kind == 9) return {fmt::format("({}<{})", a.text, b.text), a.value < b.value ? 1.0 : 0.0};
     if (kind == 10) return {fmt::format("({}/{})", a.text, b.text), a.value / b.value};
