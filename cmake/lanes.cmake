@@ -18,6 +18,10 @@ function(add_lanes target)
     target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions
       $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-Wno-uninitialized;-Wno-maybe-uninitialized>)
     target_link_libraries(${object} PRIVATE corpuscle_ways)
+    # The sanitizers look at one set, the first: the text is the same in all, and with them it takes minutes to compile.
+    if(CORPUSCLE_SANITIZE AND NOT set STREQUAL baseline)
+      target_compile_options(${object} PRIVATE -fno-sanitize=all)
+    endif()
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
     set_property(TARGET ${target} APPEND PROPERTY LANE_OBJECTS ${object})
   endforeach()

@@ -204,9 +204,11 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
     auto& verb = *app.add_subcommand("run", "the analyses written in a netlist -> .raw, CSV, printed measures");
     std::string known;
     for (const auto& a : circuit::analyses) known += fmt::format("\n  {:72} {}", a.usage, a.sentence);
-    verb.footer("A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include, .lib, .options ... and what\n"
-                "is asked of it:" +
-                known + run_examples);
+    verb.footer(
+        "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include, .lib, .options ... and "
+        "what\n"
+        "is asked of it:" +
+        known + run_examples);
     verb.add_option("NETLIST", w.netlist, "a SPICE netlist")->required();
     verb.add_option("--out,-o", w.out, "write what was found: x.raw, as ngspice's (binary), or x.csv")->type_name("FILE")->group("Output");
     verb.add_flag("--ascii", w.ascii, "the .raw file in letters")->group("Output");

@@ -21,7 +21,8 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json column(const Plot& plot, const Curve& curve) {
     Json out = Json::array();
-    for (const auto& x : curve.values) out.push_back(plot.is_complex && curve.type != "frequency" ? Json({number(x.real()), number(x.imag())}) : number(x.real()));
+    for (const auto& x : curve.values)
+        out.push_back(plot.is_complex && curve.type != "frequency" ? Json({number(x.real()), number(x.imag())}) : number(x.real()));
     return out;
 }
 
@@ -35,7 +36,8 @@ Json document_of(const Circuit& c, const RunOutcome& outcome) {
         }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = number(value);
     for (const auto& e : outcome.expectations)
-        expectations.push_back({{"what", e.what}, {"found", number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
+        expectations.push_back(
+            {{"what", e.what}, {"found", number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
     for (const auto& r : outcome.remarks) remarks.push_back(r.text());
     return {{"title", c.title}, {"plots", plots}, {"numbers", numbers}, {"expectations", expectations}, {"warnings", remarks}};
 }
@@ -75,7 +77,8 @@ void print_numbers(const RunOutcome& outcome) {
     for (const auto& [name, value] : outcome.numbers)
         std::isnan(value) ? fmt::print("{:20} = failed\n", name) : fmt::print("{:20} = {:.6e}\n", name, value);
     for (const auto& e : outcome.expectations)
-        fmt::print("{:20} = {:.6e}, expected {:g} within {:g}: {}\n", e.what, e.found, e.expected, e.tolerance, e.held ? "holds" : "does not hold");
+        fmt::print("{:20} = {:.6e}, expected {:g} within {:g}: {}\n", e.what, e.found, e.expected, e.tolerance,
+                   e.held ? "holds" : "does not hold");
 }
 
 void print(const Done& done) {
@@ -137,9 +140,10 @@ Result<void> run_netlist(const RunWords& words, const Common& common) {
     for (const auto& done : all)
         for (const auto& e : done.outcome.expectations)
             if (!e.held)
-                return bad_input(fmt::format("{}{} is {:g}, not {:g} within {:g}", done.variant.label.empty() ? "" : done.variant.label + ": ", e.what, e.found,
-                                             e.expected, e.tolerance),
-                                 e.place);
+                return bad_input(
+                    fmt::format("{}{} is {:g}, not {:g} within {:g}", done.variant.label.empty() ? "" : done.variant.label + ": ", e.what,
+                                e.found, e.expected, e.tolerance),
+                    e.place);
     return {};
 }
 

@@ -42,11 +42,15 @@ inline bool has_branch(const Element& e) {
     switch (e.letter) {
         case 'v':
         case 'l':
-        case 'h': return true;
-        case 'e': return !e.formula || e.formula_is_voltage;
+        case 'h':
+            return true;
+        case 'e':
+            return !e.formula || e.formula_is_voltage;
         case 'b':
-        case 'g': return e.formula && e.formula_is_voltage;
-        default: return false;
+        case 'g':
+            return e.formula && e.formula_is_voltage;
+        default:
+            return false;
     }
 }
 

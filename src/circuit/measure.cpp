@@ -139,7 +139,8 @@ class Measure {
 
     static double integral(const Course& c, double power) {
         double sum = 0;
-        for (std::size_t k = 1; k < c.x.size(); ++k) sum += 0.5 * (std::pow(c.y[k - 1], power) + std::pow(c.y[k], power)) * (c.x[k] - c.x[k - 1]);
+        for (std::size_t k = 1; k < c.x.size(); ++k)
+            sum += 0.5 * (std::pow(c.y[k - 1], power) + std::pow(c.y[k], power)) * (c.x[k] - c.x[k - 1]);
         return sum;
     }
 
@@ -194,7 +195,8 @@ public:
             if (!to) return to.error();
             return *to - *from;
         }
-        return words_.wrong(fmt::format("'{}' is not known; there are find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, param=", what));
+        return words_.wrong(fmt::format(
+            "'{}' is not known; there are find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, param=", what));
     }
 
 private:
@@ -245,7 +247,8 @@ Result<void> measure(const Circuit& circuit, RunOutcome& out) {
             out.numbers.emplace_back(name, *value);
             continue;
         }
-        const auto analysed = std::find_if(out.analyses.begin(), out.analyses.end(), [&](const Analysed& a) { return a.command->name == c.words[0]; });
+        const auto analysed =
+            std::find_if(out.analyses.begin(), out.analyses.end(), [&](const Analysed& a) { return a.command->name == c.words[0]; });
         if (analysed == out.analyses.end() || analysed->findings.plots.empty() || !analysed->findings.plots[0].swept)
             return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.place);
         Words words{c, 2};

@@ -26,8 +26,10 @@ Result<Expectation> expectation_of(const Command& c) {
     const bool share = words[2].ends_with('%');
     const auto value = whole_number(words[1]), tolerance = whole_number(share ? words[2].substr(0, words[2].size() - 1) : words[2]);
     if (!value) return bad_input(fmt::format(".expect: '{}' is no number", words[1]), c.place);
-    if (!tolerance || !(tolerance->value >= 0)) return bad_input(fmt::format(".expect: '{}' is no tolerance, such as 1% or 2m", words[2]), c.place);
-    return Expectation{words[0], value->value, share ? std::abs(value->value) * tolerance->value / 100 : tolerance->value, 0, false, c.place};
+    if (!tolerance || !(tolerance->value >= 0))
+        return bad_input(fmt::format(".expect: '{}' is no tolerance, such as 1% or 2m", words[2]), c.place);
+    return Expectation{words[0], value->value, share ? std::abs(value->value) * tolerance->value / 100 : tolerance->value,
+                       0,        false,        c.place};
 }
 
 /// A number that a name means once all is done: of a measure or an analysis, or at the last point of the first plot that has it.

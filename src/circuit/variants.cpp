@@ -19,7 +19,8 @@ Error too_many(const Command& c, double count) {
 }
 
 Result<std::vector<double>> evenly(const Command& c, std::size_t word) {
-    const auto from = number_of(c, word, "a value to begin with"), to = number_of(c, word + 1, "a value to end with"), step = number_of(c, word + 2, "a step");
+    const auto from = number_of(c, word, "a value to begin with"), to = number_of(c, word + 1, "a value to end with"),
+               step = number_of(c, word + 2, "a step");
     for (const auto* part : {&from, &to, &step})
         if (!*part) return part->error();
     const double count = std::floor((*to - *from) / *step + 1e-9);
@@ -36,7 +37,9 @@ Result<std::vector<double>> by_powers(const Command& c, std::size_t word, double
     for (const auto* part : {&from, &to, &points})
         if (!*part) return part->error();
     if (!(*from > 0 && *to >= *from && *points >= 1))
-        return bad_input(fmt::format(".step: {:g} points from {:g} to {:g}; both above 0, the second not below the first", *points, *from, *to), c.place);
+        return bad_input(
+            fmt::format(".step: {:g} points from {:g} to {:g}; both above 0, the second not below the first", *points, *from, *to),
+            c.place);
     const double count = std::floor(std::log(*to / *from) / std::log(base) * *points + 1e-9);
     if (!(count < most_variants)) return too_many(c, count);
     std::vector<double> out;
@@ -89,11 +92,13 @@ Result<Variants> Variants::of(const Netlist& netlist) {
             for (std::size_t k = 1; k < c.words.size(); ++k) {
                 const auto equals = c.words[k].find('=');
                 const auto name = c.words[k].substr(0, equals);
-                const auto value = equals == std::string::npos ? std::nullopt : whole_number(std::string_view(c.words[k]).substr(equals + 1));
+                const auto value =
+                    equals == std::string::npos ? std::nullopt : whole_number(std::string_view(c.words[k]).substr(equals + 1));
                 if (!value || (name != "seed" && name != "process" && name != "mismatch"))
                     return bad_input(fmt::format(".mc: '{}' must be seed=NUMBER, process=0|1 or mismatch=0|1", c.words[k]), c.place);
                 if (name == "seed") {
-                    if (!(value->value >= 0 && value->value < 0x1p53)) return bad_input(fmt::format(".mc: seed={:g} must be from 0 to 2^53", value->value), c.place);
+                    if (!(value->value >= 0 && value->value < 0x1p53))
+                        return bad_input(fmt::format(".mc: seed={:g} must be from 0 to 2^53", value->value), c.place);
                     out.seed_ = static_cast<std::uint64_t>(value->value);
                 }
                 if (name == "process") out.process_ = value->value != 0;

@@ -27,6 +27,7 @@ TEST(Readme, EveryCommandItShowsRuns) {
     std::string touch = "time_s,fz\n";
     for (int k = 0; k < 1000; ++k) touch += fmt::format("{},{}\n", k / 1e3, k < 200 ? 0 : 2000);
     folder.write("touch.csv", touch);
+    for (const auto* part : {"circuits", "process"}) std::filesystem::copy(std::string(root) + "/" + part, folder / part);
     const bool real = std::filesystem::exists(press);
     if (real) std::filesystem::copy(press, folder / "fbg_press_S6_T16.csv");
     const auto shown = commands();
@@ -48,7 +49,7 @@ TEST(Readme, ItsProgramIsTheExampleThatRuns) {
 
 TEST(Readme, EveryPageItPointsToIsThere) {
     for (const auto* page : {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md",
-                             "doc/measures.md", "doc/populations.md", "doc/real-recordings.md"}) {
+                             "doc/measures.md", "doc/circuits.md", "doc/lanes.md", "doc/populations.md", "doc/real-recordings.md"}) {
         const auto text = test::read_file(std::string(root) + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {

@@ -65,15 +65,19 @@ void hold(const Plot& mine, const Plot& theirs, double share) {
         const auto* other = mine.curve(plain(c.name));
         if (other == nullptr) continue;
         ++held;
+        if (other->name == "inoise_total") continue;  // theirs is 12 % off where the gain falls: see the closed form below
         double most = 0;
         if (c.type != "frequency")  // its imaginary part is left as memory was
             for (const auto& x : c.values) most = std::max(most, std::abs(x));
         const double floor = (c.type == "current" ? 2e-15 : 1e-9) + 1e-7 * most;
         for (std::size_t k = 0; k < c.values.size(); ++k)
-            EXPECT_LE(std::abs(other->values[k] - (c.type == "frequency" ? c.values[k].real() : c.values[k])), share * std::abs(c.type == "frequency" ? c.values[k].real() : c.values[k]) + floor)
+            EXPECT_LE(std::abs(other->values[k] - (c.type == "frequency" ? c.values[k].real() : c.values[k])),
+                      share * std::abs(c.type == "frequency" ? c.values[k].real() : c.values[k]) + floor)
                 << c.name << " at point " << k << ": ours " << other->values[k] << ", theirs " << c.values[k];
     }
-    EXPECT_GE(held + 1, mine.curves.size()) << "curves that both have";
+    const auto inner =
+        std::count_if(mine.curves.begin(), mine.curves.end(), [](const Curve& c) { return c.name.find('#') != std::string::npos; });
+    EXPECT_GE(held + 1 + static_cast<std::size_t>(inner), mine.curves.size()) << "curves that both have";
 }
 
 class Deck : public testing::TestWithParam<std::string> {};
@@ -102,6 +106,15 @@ INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(decks()), [](const aut
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });
+
+TEST(Noise, IntegratesAsTheClosedFormsSay) {
+    const auto outcome = ours(CORPUSCLE_ROOT "/test/circuit/decks/noise_rc.cir");
+    const double white = 4 * 1.380649e-23 * 300.15 * 100e3, corner = 1 / (2 * M_PI * 100e3 * 10e-9);
+    ASSERT_EQ(outcome.numbers.size(), 2U);
+    EXPECT_NEAR(outcome.numbers[0].second, std::sqrt(white * corner * (std::atan(1e6 / corner) - std::atan(1 / corner))),
+                2e-3 * outcome.numbers[0].second);
+    EXPECT_NEAR(outcome.numbers[1].second, std::sqrt(white * (1e6 - 1)), 1e-9);
+}
 
 /// "name = value" lines.
 double number_of(const std::string& log, const std::string& name) {

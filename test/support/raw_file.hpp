@@ -56,7 +56,8 @@ inline std::vector<Plot> read_raw(const std::string& text) {
                 } else {
                     std::istringstream words(line());
                     std::string word;
-                    while (words >> word) {}
+                    while (words >> word) {
+                    }
                     const auto comma = word.find(',');
                     re = std::stod(word), im = comma == std::string::npos ? 0 : std::stod(word.substr(comma + 1));
                 }

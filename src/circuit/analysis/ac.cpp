@@ -29,7 +29,9 @@ Result<Findings> analyse_ac(const TestBench& bench, const Command& c) {
         const auto values = admittances(sums, system.pattern().entries(), 6.283185307179586 * f);
         if (!solver.factor(values)) {
             const int at = solver.where().column;
-            return bad_input(fmt::format(".ac at {:g} Hz: the matrix is singular{}", f, at < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(at)]), c.place);
+            return bad_input(fmt::format(".ac at {:g} Hz: the matrix is singular{}", f,
+                                         at < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(at)]),
+                             c.place);
         }
         auto x = drive;
         solver.solve(x);

@@ -35,13 +35,16 @@ Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
     if (!points) return points.error();
     if (!from) return from.error();
     if (!to) return to.error();
-    if (!(*points >= 1 && *points <= 1e7)) return bad_input(fmt::format(".{}: {:g} points; at least 1 and at most 10000000", c.name, *points), c.place);
+    if (!(*points >= 1 && *points <= 1e7))
+        return bad_input(fmt::format(".{}: {:g} points; at least 1 and at most 10000000", c.name, *points), c.place);
     if (!(*to >= *from && (*from > 0 || (kind == "lin" && *from >= 0))))
-        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz; the first must be above 0 and not above the second", c.name, *from, *to), c.place);
+        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz; the first must be above 0 and not above the second", c.name, *from, *to),
+                         c.place);
     const auto count = static_cast<long>(*points);
     std::vector<double> out;
     if (kind == "lin") {
-        for (long k = 0; k < count; ++k) out.push_back(count == 1 ? *from : *from + (*to - *from) * static_cast<double>(k) / static_cast<double>(count - 1));
+        for (long k = 0; k < count; ++k)
+            out.push_back(count == 1 ? *from : *from + (*to - *from) * static_cast<double>(k) / static_cast<double>(count - 1));
         return out;
     }
     // As ngspice: so many steps a decade (octave), evenly, and the last no further than the end.
@@ -52,7 +55,8 @@ Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
 }
 
 Result<Wanted> wanted_of(const System& system, const Command& c, std::size_t word) {
-    if (word >= c.words.size()) return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.place);
+    if (word >= c.words.size())
+        return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.place);
     auto place = c.place;
     if (word < c.columns.size()) place.column = c.columns[word];
     const auto& text = c.words[word];

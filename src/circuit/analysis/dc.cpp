@@ -44,8 +44,12 @@ Result<Sweep> sweep_of(const TestBench& bench, const Command& c, std::size_t wor
     return s;
 }
 
-std::string type_of(const std::string& what) { return what == "temp" ? "temp-sweep" : what[0] == 'i' ? "current" : what[0] == 'v' ? "voltage" : "notype"; }
-std::string name_of(const std::string& what) { return what == "temp" ? "temp-sweep" : what[0] == 'i' ? "i-sweep" : what[0] == 'v' ? "v-sweep" : "res-sweep"; }
+std::string type_of(const std::string& what) {
+    return what == "temp" ? "temp-sweep" : what[0] == 'i' ? "current" : what[0] == 'v' ? "voltage" : "notype";
+}
+std::string name_of(const std::string& what) {
+    return what == "temp" ? "temp-sweep" : what[0] == 'i' ? "i-sweep" : what[0] == 'v' ? "v-sweep" : "res-sweep";
+}
 
 /// The system that a sweep works on: its own, for it changes values.
 class Swept {
@@ -106,7 +110,8 @@ Result<Findings> analyse_dc(const TestBench& given, const Command& c) {
             if (auto ok = swept.set(outer->what, outers[k]); !ok) return ok.error();
         std::vector<double> x;
         for (std::size_t j = 0; j < values.size(); ++j) {
-            if (given.stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outers.size() * values.size()))) return interruption();
+            if (given.stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outers.size() * values.size())))
+                return interruption();
             if (auto ok = swept.set(inner->what, values[j]); !ok) return ok.error();
             auto& bench = swept.bench();
             const auto found = operating_point(bench.system, bench.tolerances, x);

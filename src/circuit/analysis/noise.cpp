@@ -13,7 +13,8 @@ namespace {
 
 struct Part {
     std::string name;
-    double total = 0, before = 0;  // of the output's square, V^2; the density at the frequency before
+    double total = 0, total_in = 0;    // of the squares at the output and as if at the source
+    double before = 0, before_in = 0;  // densities at the frequency before
 };
 
 /// Area under a density between two frequencies, as a power law between them.
@@ -53,9 +54,12 @@ Result<Findings> analyse_noise(const TestBench& bench, const Command& c) {
             parts.push_back({fmt::format("{} {}", d->name, n.what)});
         }
 
-    Plot plot{"Noise Spectral Density Curves", false, true, {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
+    Plot plot{"Noise Spectral Density Curves",
+              false,
+              true,
+              {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
     Solver<std::complex<double>> solver(system.pattern());
-    double total = 0, total_in = 0, before = 0, before_in = 0, f_before = 0;
+    double f_before = 0;
     for (const double f : *frequencies) {
         if (bench.stopped(static_cast<double>(plot.points()) / static_cast<double>(frequencies->size()))) return interruption();
         if (!solver.factor(admittances(sums, system.pattern().entries(), 6.283185307179586 * f)))
@@ -64,31 +68,41 @@ Result<Findings> analyse_noise(const TestBench& bench, const Command& c) {
         if (out->plus >= 0) lambda[static_cast<std::size_t>(out->plus)] += 1;
         if (out->minus >= 0) lambda[static_cast<std::size_t>(out->minus)] -= 1;
         solver.solve_transposed(lambda);
-        const auto at = [&](const Device& d, std::size_t k) { return d.unknowns[k] < 0 ? std::complex<double>() : lambda[static_cast<std::size_t>(d.unknowns[k])]; };
+        const auto at = [&](const Device& d, std::size_t k) {
+            return d.unknowns[k] < 0 ? std::complex<double>() : lambda[static_cast<std::size_t>(d.unknowns[k])];
+        };
+        const auto gain = source->unknowns.size() == 3 ? at(*source, 2) : at(*source, 1) - at(*source, 0);
         double density = 0;
         for (const auto& s : sources) {
-            const double mine = std::norm(at(*s.device, s.noise.from) - at(*s.device, s.noise.to)) * (s.noise.white + (f > 0 ? s.noise.flicker / f : 0));
+            const double mine =
+                std::norm(at(*s.device, s.noise.from) - at(*s.device, s.noise.to)) * (s.noise.white + (f > 0 ? s.noise.flicker / f : 0));
             density += mine;
-            auto& part = parts[s.part];
-            if (f_before > 0) part.total += area(f_before, part.before, f, mine);
-            part.before = mine;
+            auto& part = parts[s.part];  // each by itself is nearly a power of f
+            const double in = mine / std::norm(gain);
+            if (f_before > 0) part.total += area(f_before, part.before, f, mine), part.total_in += area(f_before, part.before_in, f, in);
+            part.before = mine, part.before_in = in;
         }
-        const auto gain = source->unknowns.size() == 3 ? at(*source, 2) : at(*source, 1) - at(*source, 0);
-        const double in = density / std::norm(gain);
-        if (f_before > 0) total += area(f_before, before, f, density), total_in += area(f_before, before_in, f, in);
-        before = density, before_in = in, f_before = f;
+        f_before = f;
         plot.curves[0].values.emplace_back(f);
         plot.curves[1].values.emplace_back(std::sqrt(density));
-        plot.curves[2].values.emplace_back(std::sqrt(in));
+        plot.curves[2].values.emplace_back(std::sqrt(density / std::norm(gain)));
     }
+    double total = 0, total_in = 0;
+    for (const auto& part : parts) total += part.total, total_in += part.total_in;
     Findings found;
     found.plots.push_back(std::move(plot));
-    Plot sum{"Integrated Noise", false, false, {{"onoise_total", "notype", {std::sqrt(total)}}, {"inoise_total", "notype", {std::sqrt(total_in)}}}};
+    Plot sum{"Integrated Noise",
+             false,
+             false,
+             {{"onoise_total", "notype", {std::sqrt(total)}}, {"inoise_total", "notype", {std::sqrt(total_in)}}}};
     found.plots.push_back(std::move(sum));
     found.numbers = {{"onoise_total", std::sqrt(total)}, {"inoise_total", std::sqrt(total_in)}};
-    std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.total > b.total; });
+    std::sort(parts.begin(), parts.end(),
+              [](const Part& a, const Part& b) { return a.total != b.total ? a.total > b.total : a.name < b.name; });
     found.table = fmt::format("{:32} {:>14} {:>8}\n", "noise at the output", "rms", "share");
-    for (const auto& p : parts) found.table += fmt::format("{:32} {:>14} {:>7.2f}%\n", p.name, format_quantity(std::sqrt(p.total), "V"), total > 0 ? 100 * p.total / total : 0);
+    for (const auto& p : parts)
+        found.table += fmt::format("{:32} {:>14} {:>7.2f}%\n", p.name, format_quantity(std::sqrt(p.total), "V"),
+                                   total > 0 ? 100 * p.total / total : 0);
     return found;
 }
 

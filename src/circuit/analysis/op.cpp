@@ -49,10 +49,11 @@ std::optional<Error> other_state(const TestBench& bench, const OperatingPoint& f
     if (!again) return {};
     for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n)
         if (std::abs(again->x[n] - found.x[n]) > 1e-3)
-            return Error{Code::not_converged,
-                         fmt::format("more than one state is stable: {} is {} from 0 V on, {} from {} on; .nodeset chooses", bench.system.names()[n],
-                                     format_quantity(found.x[n], "V"), format_quantity(again->x[n], "V"), format_quantity(high, "V")),
-                         Place{bench.circuit->file}};
+            return Error{
+                Code::not_converged,
+                fmt::format("more than one state is stable: {} is {} from 0 V on, {} from {} on; .nodeset chooses", bench.system.names()[n],
+                            format_quantity(found.x[n], "V"), format_quantity(again->x[n], "V"), format_quantity(high, "V")),
+                Place{bench.circuit->file}};
     return {};
 }
 
@@ -66,7 +67,8 @@ Result<Findings> analyse_op(const TestBench& bench, const Command& c) {
     Plot plot = plot_of(bench.system, "Operating Point", "", "");
     for (std::size_t n = 0; n < found->x.size(); ++n) plot.curves[n].values.emplace_back(found->x[n]);
     out.plots.push_back(std::move(plot));
-    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}", found->how, found->iterations, bench.tolerances.gmin, table_of(bench.system, found->x));
+    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}", found->how, found->iterations, bench.tolerances.gmin,
+                            table_of(bench.system, found->x));
     if (auto other = other_state(bench, *found)) out.remarks.push_back(std::move(*other));
     return out;
 }

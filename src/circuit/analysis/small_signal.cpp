@@ -48,8 +48,12 @@ Result<Findings> analyse_tf(const TestBench& bench, const Command& c) {
         add(by, source->unknowns[0], -1), add(by, source->unknowns[1], 1);
     line->solver.solve(by);
     Findings found;
-    const auto across = [&](const std::vector<double>& x) { return Wanted{source->unknowns[0], source->unknowns[1]}.of(std::span<const double>(x)); };
-    const double in = voltage ? (by[static_cast<std::size_t>(source->unknowns[2])] == 0 ? 1e20 : -1 / by[static_cast<std::size_t>(source->unknowns[2])]) : -across(by);
+    const auto across = [&](const std::vector<double>& x) {
+        return Wanted{source->unknowns[0], source->unknowns[1]}.of(std::span<const double>(x));
+    };
+    const double in =
+        voltage ? (by[static_cast<std::size_t>(source->unknowns[2])] == 0 ? 1e20 : -1 / by[static_cast<std::size_t>(source->unknowns[2])])
+                : -across(by);
     std::vector<double> back(line->x.size());
     const bool of_voltage = bench.system.is_voltage(out->plus);
     double resistance = 1e20;

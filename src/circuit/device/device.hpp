@@ -73,10 +73,10 @@ public:
 class Setup {
 public:
     virtual ~Setup() = default;
-    virtual int node(int number) const = 0;                            ///< the unknown of a node
-    virtual int branch(int element) const = 0;                         ///< of the current through an element; -1: it has none
-    virtual int own(std::string_view name) = 0;                        ///< a new one: "x1.d1#anode"
-    virtual double temperature(const Element&) const = 0;              ///< K
+    virtual int node(int number) const = 0;                ///< the unknown of a node
+    virtual int branch(int element) const = 0;             ///< of the current through an element; -1: it has none
+    virtual int own(std::string_view name) = 0;            ///< a new one: "x1.d1#anode"
+    virtual double temperature(const Element&) const = 0;  ///< K
     virtual const Circuit& circuit() const = 0;
 };
 

@@ -10,7 +10,8 @@ namespace corpuscle::circuit {
 namespace {
 
 struct DiodeCard {
-    double is = 1e-14, n = 1, rs = 0, cjo = 0, vj = 1, m = 0.5, fc = 0.5, tt = 0, bv = 0, ibv = 1e-3, eg = 1.11, xti = 3, kf = 0, af = 1, tnom = 27;
+    double is = 1e-14, n = 1, rs = 0, cjo = 0, vj = 1, m = 0.5, fc = 0.5, tt = 0, bv = 0, ibv = 1e-3, eg = 1.11, xti = 3, kf = 0, af = 1,
+           tnom = 27;
 };
 
 constexpr Field<DiodeCard> fields[] = {
@@ -55,7 +56,7 @@ void warm(DiodeCard& c, double kelvin) {
 /// Unknowns: anode, cathode and, where there is rs, the junction's inner side.
 class Diode final : public Device {
     DiodeCard c_;
-    double area_, count_, n_vt_, v_crit_, v_breakdown_;  // area: of all; count: of diodes, each with a gmin
+    double area_, n_vt_, v_crit_, v_breakdown_;
 
     struct Flow {
         double i, g;
@@ -85,7 +86,7 @@ class Diode final : public Device {
     std::size_t inner() const { return c_.rs > 0 ? 2 : 0; }
 
 public:
-    Diode(DiodeCard card, double area, double count, double kelvin) : c_(card), area_(area * count), count_(count) {
+    Diode(DiodeCard card, double area, double kelvin) : c_(card), area_(area) {
         warm(c_, kelvin);
         n_vt_ = c_.n * thermal_voltage(kelvin);
         v_crit_ = n_vt_ * std::log(n_vt_ / (1.4142135623730951 * c_.is * area_));
@@ -116,7 +117,7 @@ public:
         auto [i, g] = flow(u);
         auto [q, c] = depletion(u);
         q += c_.tt * i, c += c_.tt * g;
-        i += count_ * at.gmin * u, g += count_ * at.gmin;
+        i += at.gmin * u, g += at.gmin;
         out.f[a] += i, out.f[1] -= i, out.q[a] += q, out.q[1] -= q;
         out.slope(a, a) += g, out.slope(a, 1) -= g, out.slope(1, a) -= g, out.slope(1, 1) += g;
         out.capacitance(a, a) += c, out.capacitance(a, 1) -= c, out.capacitance(1, a) -= c, out.capacitance(1, 1) += c;
@@ -164,8 +165,10 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
     if (const auto other = model.values.find("cj0"); other != model.values.end()) c.cjo = other->second;
     for (const std::string_view name : {"jsw", "ikf", "trs", "rsw"})
         if (value_or(model.values, name, 0) != 0)
-            return bad_input(fmt::format("{}: {} is not part of this diode (level 1 without sidewalls and high injection)", model.name, name), model.place);
-    auto device = std::make_unique<Diode>(c, value_or(e.values, "area", 1), value_or(e.values, "m", 1), setup.temperature(e));
+            return bad_input(
+                fmt::format("{}: {} is not part of this diode (level 1 without sidewalls and high injection)", model.name, name),
+                model.place);
+    auto device = std::make_unique<Diode>(c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
     device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     if (c.rs > 0) device->unknowns.push_back(setup.own(e.name + "#junction"));
     return std::unique_ptr<Device>(std::move(device));

@@ -31,7 +31,8 @@ Result<FormulaInputs> FormulaInputs::make(const Formula& formula, const Element&
         Input found;
         const auto node = [&](const std::string& name) -> Result<int> {
             const int number = circuit.node(name);
-            if (number < 0) return bad_input(fmt::format("{}: no node is called '{}'{}", e.name, name, suggestion(name, circuit.nodes)), e.place);
+            if (number < 0)
+                return bad_input(fmt::format("{}: no node is called '{}'{}", e.name, name, suggestion(name, circuit.nodes)), e.place);
             return setup.node(number);
         };
         switch (in.kind) {
@@ -45,12 +46,17 @@ Result<FormulaInputs> FormulaInputs::make(const Formula& formula, const Element&
             case FormulaInput::Kind::current: {
                 const int element = circuit.element(in.name);
                 if (element < 0 || setup.branch(element) < 0)
-                    return bad_input(fmt::format("{}: i({}): there is no voltage source or inductor of this name", e.name, in.name), e.place);
+                    return bad_input(fmt::format("{}: i({}): there is no voltage source or inductor of this name", e.name, in.name),
+                                     e.place);
                 found.plus = out.local(setup.branch(element));
                 break;
             }
-            case FormulaInput::Kind::time: found.is_time = true; break;
-            case FormulaInput::Kind::temperature: found.constant = setup.temperature(e) - zero_celsius; break;
+            case FormulaInput::Kind::time:
+                found.is_time = true;
+                break;
+            case FormulaInput::Kind::temperature:
+                found.constant = setup.temperature(e) - zero_celsius;
+                break;
         }
         out.inputs_.push_back(found);
     }

@@ -36,7 +36,7 @@ private:
     struct Input {
         int plus = -1, minus = -1;  // of the device's unknowns; -1: 0
         bool is_time = false;
-        double constant = 0;        // temperature
+        double constant = 0;  // temperature
         double of(std::span<const double> v, const Instant& at) const {
             if (is_time) return at.time;
             return (plus >= 0 ? v[static_cast<std::size_t>(plus)] : 0) - (minus >= 0 ? v[static_cast<std::size_t>(minus)] : 0) + constant;

@@ -12,10 +12,14 @@ double at_rest(const Waveform& w) {
     if (w.has_dc || w.numbers.empty()) return w.dc;
     switch (w.shape) {
         case Waveform::Shape::pulse:
-        case Waveform::Shape::exponential: return w.numbers[0];
-        case Waveform::Shape::sine: return w.numbers[0];
-        case Waveform::Shape::points: return w.numbers.size() > 1 ? w.numbers[1] : 0;
-        default: return w.dc;
+        case Waveform::Shape::exponential:
+            return w.numbers[0];
+        case Waveform::Shape::sine:
+            return w.numbers[0];
+        case Waveform::Shape::points:
+            return w.numbers.size() > 1 ? w.numbers[1] : 0;
+        default:
+            return w.dc;
     }
 }
 

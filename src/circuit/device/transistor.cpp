@@ -117,8 +117,8 @@ Result<UicmInstance> size_of(const Element& e) {
 Result<std::unique_ptr<Device>> make_transistor(const Element& e, Setup& setup) {
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(model.values, "level", 1) != UicmCard::level)
-        return bad_input(fmt::format("{}: a model of level {:g}; transistors here are of level={:g}, UICM (process/tsmc180.lib has cards)", model.name,
-                                     value_or(model.values, "level", 1), UicmCard::level),
+        return bad_input(fmt::format("{}: a model of level {:g}; transistors here are of level={:g}, UICM (process/tsmc180.lib has cards)",
+                                     model.name, value_or(model.values, "level", 1), UicmCard::level),
                          model.place);
     const auto card = card_from<UicmCard>(UicmCard::fields, model, {"level"});
     if (!card) return card.error();

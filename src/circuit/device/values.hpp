@@ -16,7 +16,8 @@ inline double value_or(const Values& values, std::string_view name, double other
 }
 
 /// Refuses a name that is not among those known.
-inline std::optional<Error> unknown_value(std::string_view of, const Values& values, std::span<const std::string_view> known, const Place& place) {
+inline std::optional<Error> unknown_value(std::string_view of, const Values& values, std::span<const std::string_view> known,
+                                          const Place& place) {
     for (const auto& [name, value] : values)
         if (std::find(known.begin(), known.end(), name) == known.end())
             return bad_input(fmt::format("{}: no parameter is called '{}'{}", of, name, did_you_mean(name, known)), place);

@@ -15,7 +15,8 @@ Pattern::Pattern(int size, std::vector<std::pair<int, int>> entries) : size_(siz
 }
 
 std::size_t Pattern::place(int row, int column) const {
-    const auto from = rows_.begin() + begin_[static_cast<std::size_t>(column)], to = rows_.begin() + begin_[static_cast<std::size_t>(column) + 1];
+    const auto from = rows_.begin() + begin_[static_cast<std::size_t>(column)],
+               to = rows_.begin() + begin_[static_cast<std::size_t>(column) + 1];
     return static_cast<std::size_t>(std::lower_bound(from, to, row) - rows_.begin());
 }
 

@@ -19,7 +19,9 @@ double reach(const System& system) {
 
 }  // namespace
 
-Newton::Newton(const System& s, const Tolerances& t) : system(s), tolerances(t), solver(s.pattern()), memory(s.fresh_memory()) { instant.gmin = t.gmin; }
+Newton::Newton(const System& s, const Tolerances& t) : system(s), tolerances(t), solver(s.pattern()), memory(s.fresh_memory()) {
+    instant.gmin = t.gmin;
+}
 
 bool Newton::run(std::vector<double>& x, const Springs& springs, int most) {
     const auto count = static_cast<std::size_t>(system.size()), nodes = static_cast<std::size_t>(system.nodes());
@@ -36,8 +38,10 @@ bool Newton::run(std::vector<double>& x, const Springs& springs, int most) {
             sums.G[system.pattern().place(static_cast<int>(n), static_cast<int>(n))] += springs.g[n];
             sums.size[n] = std::max(sums.size[n], springs.g[n] * std::abs(x[n]));
         }
-        if (close && !sums.limited && std::equal(sums.f.begin(), sums.f.end(), sums.size.begin(), [&, n = 0](double f, double size) mutable {
-                return std::abs(f) <= tolerances.reltol * size + (static_cast<std::size_t>(n++) < nodes ? tolerances.abstol : tolerances.vntol);
+        if (close && !sums.limited &&
+            std::equal(sums.f.begin(), sums.f.end(), sums.size.begin(), [&, n = 0](double f, double size) mutable {
+                return std::abs(f) <=
+                       tolerances.reltol * size + (static_cast<std::size_t>(n++) < nodes ? tolerances.abstol : tolerances.vntol);
             }))
             return true;
         if (!solver.factor(std::span<const double>(sums.G).first(system.pattern().entries()))) {

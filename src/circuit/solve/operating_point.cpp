@@ -90,7 +90,8 @@ class Search {
         const auto& wanted = system_.circuit().nodesets;
         if (wanted.empty()) return;
         Springs springs = all(0, std::vector<double>(x.size()));
-        for (const auto& [node, v] : wanted) springs.g[static_cast<std::size_t>(node) - 1] = 1e3, springs.to[static_cast<std::size_t>(node) - 1] = v;
+        for (const auto& [node, v] : wanted)
+            springs.g[static_cast<std::size_t>(node) - 1] = 1e3, springs.to[static_cast<std::size_t>(node) - 1] = v;
         auto held = x;
         if (newton_.run(held, springs)) x = held;
     }
@@ -107,7 +108,10 @@ public:
             std::string_view name;
             bool (Search::*go)(std::vector<double>&);
         };
-        for (const Way& way : {Way{"newton", &Search::plain}, {"gmin", &Search::by_gmin}, {"source", &Search::by_sources}, {"pseudo-transient", &Search::by_time}}) {
+        for (const Way& way : {Way{"newton", &Search::plain},
+                               {"gmin", &Search::by_gmin},
+                               {"source", &Search::by_sources},
+                               {"pseudo-transient", &Search::by_time}}) {
             auto x = start_;
             if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
             if (last_.empty()) last_ = std::move(x);
@@ -120,13 +124,17 @@ private:
     Error failure() {
         const auto& c = system_.circuit();
         if (system_.linear() && newton_.singular >= 0)
-            return {Code::bad_input, fmt::format("the equations have no single answer: the matrix is singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]),
+            return {Code::bad_input,
+                    fmt::format("the equations have no single answer: the matrix is singular at {}",
+                                system_.names()[static_cast<std::size_t>(newton_.singular)]),
                     Place{c.file}};
-        return {Code::not_converged,
-                fmt::format("no operating point: neither Newton's steps nor gmin, source and pseudo-transient continuation arrived ({} steps); {}{}",
-                            newton_.iterations, newton_.distance(last_),
-                            newton_.singular >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]) : ""),
-                Place{c.file}};
+        return {
+            Code::not_converged,
+            fmt::format(
+                "no operating point: neither Newton's steps nor gmin, source and pseudo-transient continuation arrived ({} steps); {}{}",
+                newton_.iterations, newton_.distance(last_),
+                newton_.singular >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]) : ""),
+            Place{c.file}};
     }
 };
 
@@ -140,9 +148,11 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
     t.gmin = value_or(c.options, "gmin", t.gmin);
     t.itl1 = static_cast<int>(value_or(c.options, "itl1", t.itl1));
     for (const auto& [name, value] : {std::pair<std::string_view, double>{"reltol", t.reltol}, {"vntol", t.vntol}, {"abstol", t.abstol}})
-        if (!(value > 0 && value < 1)) return bad_input(fmt::format(".options {} = {:g} must be above 0 and below 1", name, value), Place{c.file});
+        if (!(value > 0 && value < 1))
+            return bad_input(fmt::format(".options {} = {:g} must be above 0 and below 1", name, value), Place{c.file});
     if (!(t.gmin >= 0 && t.gmin < 1)) return bad_input(fmt::format(".options gmin = {:g} must be in [0, 1)", t.gmin), Place{c.file});
-    if (t.itl1 < 1 || t.itl1 > 1'000'000) return bad_input(fmt::format(".options itl1 = {} must be in [1, 1000000]", t.itl1), Place{c.file});
+    if (t.itl1 < 1 || t.itl1 > 1'000'000)
+        return bad_input(fmt::format(".options itl1 = {} must be in [1, 1000000]", t.itl1), Place{c.file});
     return t;
 }
 

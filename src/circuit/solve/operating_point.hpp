@@ -11,7 +11,7 @@ namespace corpuscle::circuit {
 /// When an answer is good enough, and how long to look for it. Names are SPICE's; ours are tighter, for picoamperes.
 struct Tolerances {
     double reltol = 1e-6;
-    double vntol = 1e-9;   ///< V
+    double vntol = 1e-9;    ///< V
     double abstol = 1e-16;  ///< A
     double gmin = 1e-15;    ///< S
     int itl1 = 100;         ///< Newton's steps at the most in one attempt

@@ -98,7 +98,8 @@ void System::eval(std::span<const double> x, const Instant& at, std::vector<doub
         const Device& d = *devices_[k];
         const auto n = d.unknowns.size();
         if (sums.v_.size() < n) sums.v_.resize(n), sums.looked_.resize(n), sums.own_.resize(2 * n + 2 * n * n);
-        const auto v = std::span(sums.v_).first(n), looked = std::span(sums.looked_).first(n), own = std::span(sums.own_).first(2 * n + 2 * n * n);
+        const auto v = std::span(sums.v_).first(n), looked = std::span(sums.looked_).first(n),
+                   own = std::span(sums.own_).first(2 * n + 2 * n * n);
         for (std::size_t j = 0; j < n; ++j) v[j] = d.unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[j])];
         std::copy(v.begin(), v.end(), looked.begin());
         const bool limited = d.memory() > 0 && d.limit(looked, std::span(memory).subspan(memory_at_[k], d.memory()));

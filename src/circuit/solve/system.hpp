@@ -40,13 +40,13 @@ public:
 
     const Circuit& circuit() const { return *circuit_; }
     int size() const { return static_cast<int>(names_.size()); }
-    int nodes() const { return nodes_; }                                ///< the first unknowns are nodes' voltages
+    int nodes() const { return nodes_; }  ///< the first unknowns are nodes' voltages
     bool is_voltage(int unknown) const { return names_[static_cast<std::size_t>(unknown)][0] == 'v'; }
-    const std::vector<std::string>& names() const { return names_; }    ///< "v(out)", "i(v1)"
-    int unknown(std::string_view name) const;                           ///< -1: none of this name
+    const std::vector<std::string>& names() const { return names_; }  ///< "v(out)", "i(v1)"
+    int unknown(std::string_view name) const;                         ///< -1: none of this name
     const Pattern& pattern() const { return *pattern_; }
     const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
-    Device* device(std::string_view name) const;                        ///< null: none of this name
+    Device* device(std::string_view name) const;  ///< null: none of this name
     bool linear() const;
     std::vector<double> fresh_memory() const { return std::vector<double>(memory_); }
 

@@ -82,8 +82,8 @@ std::optional<Error> floating(const Circuit& c) {
     const auto why = sources ? "is cut off from ground but for current sources, so nothing sets its voltage"
                              : "stands at capacitors, gates or nothing else, so nothing sets its voltage";
     const auto which = names.size() == 1 ? "it" : "their part of the circuit";
-    return bad_input(fmt::format("{} no path to ground for a direct current: {} {} (at it: {}); a large resistor to ground would", what, which, why,
-                                 at_node(c, first)),
+    return bad_input(fmt::format("{} no path to ground for a direct current: {} {} (at it: {}); a large resistor to ground would", what,
+                                 which, why, at_node(c, first)),
                      here != nullptr ? here->place : Place{c.file});
 }
 
@@ -103,8 +103,8 @@ std::optional<Error> loop(const Circuit& c) {
         std::vector<std::string> names;
         for (const auto* other : joined)
             if (groups.of(other->nodes[0]) == groups.of(e.nodes[0]) && names.size() < 5) names.push_back(other->name);
-        return bad_input(fmt::format("{}: it closes a loop of elements that each fix a voltage ({}), so the current in it is not set", e.name,
-                                     fmt::join(names, ", ")),
+        return bad_input(fmt::format("{}: it closes a loop of elements that each fix a voltage ({}), so the current in it is not set",
+                                     e.name, fmt::join(names, ", ")),
                          e.place);
     }
     return {};
@@ -132,7 +132,8 @@ std::vector<Error> suspicious(const Circuit& c) {
     std::vector<Error> out;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (ends[n] == 1 && c.nodes[n].find('.') == std::string::npos)
-            out.push_back(bad_input(fmt::format("node '{}' stands at {} alone{}", c.nodes[n], at[n]->name, did_you_mean(c.nodes[n], shared)), at[n]->place));
+            out.push_back(bad_input(
+                fmt::format("node '{}' stands at {} alone{}", c.nodes[n], at[n]->name, did_you_mean(c.nodes[n], shared)), at[n]->place));
     return out;
 }
 

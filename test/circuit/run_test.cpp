@@ -1,0 +1,93 @@
+// corpuscle run, as people use it; and every netlist of circuits/, which says itself what it expects.
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/raw_file.hpp"
+
+namespace corpuscle::circuit::test {
+using namespace corpuscle::test;
+namespace {
+
+constexpr const char* divider = "divider\nv1 in 0 3\nr1 in out 1k\nr2 out 0 {r}\n.param r=2k\n.op\n";
+
+TEST(Run, PrintsWhatItFindsAndMeasuresAsNamesAndValues) {
+    const Folder folder;
+    folder.write("x.cir", "t\nv1 in 0 0\nr1 in out 1k\nr2 out 0 3k\n.dc v1 0 4 1\n.meas dc at2 find v(out) at=2\n.print dc v(out) i(v1)\n");
+    const auto ran = run(folder, "run x.cir");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("at2                  = 1.500000e+00"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("v(out)"), std::string::npos);
+    EXPECT_NE(ran.out.find("3.0000000e+00"), std::string::npos) << ran.out;
+}
+
+TEST(Run, WritesRawFilesThatReadBackAlikeInBothForms) {
+    const Folder folder;
+    folder.write("x.cir", "t\nv1 in 0 ac 1\nr1 in out 1k\nc1 out 0 1u\n.ac dec 5 10 10k\n.op\n");
+    EXPECT_EQ(run(folder, "run x.cir -o a.raw").status, 0);
+    EXPECT_EQ(run(folder, "run x.cir -o b.raw --ascii").status, 0);
+    EXPECT_EQ(run(folder, "run x.cir -o c.csv").status, 0);
+    const auto a = read_raw(read_file(folder / "a.raw")), b = read_raw(read_file(folder / "b.raw"));
+    ASSERT_EQ(a.size(), 2U);
+    ASSERT_EQ(b.size(), 2U);
+    for (std::size_t p = 0; p < 2; ++p)
+        for (std::size_t c = 0; c < a[p].curves.size(); ++c)
+            for (std::size_t k = 0; k < a[p].points(); ++k)
+                EXPECT_LE(std::abs(a[p].curves[c].values[k] - b[p].curves[c].values[k]), 1e-15 * std::abs(a[p].curves[c].values[k]));
+    EXPECT_TRUE(read_file(folder / "c-1.csv").starts_with("frequency,v(in).re,v(in).im,v(out).re"));
+    EXPECT_TRUE(read_file(folder / "c-2.csv").starts_with("v(in),v(out),i(v1)"));
+}
+
+TEST(Run, OneDocumentOnStandardOutputAndTheSameEachTime) {
+    const Folder folder;
+    folder.write("x.cir", divider);
+    const auto ran = run(folder, "run x.cir --json");
+    const auto document = nlohmann::json::parse(ran.out);
+    EXPECT_DOUBLE_EQ(document["plots"][0]["curves"]["v(out)"][0].get<double>(), 2.0);
+    EXPECT_EQ(ran.out, run(folder, "run x.cir --json").out);
+}
+
+TEST(Run, StepsThroughAParameter) {
+    const Folder folder;
+    folder.write("x.cir", std::string(divider) + ".step param r list 1k 2k\n");
+    const auto document = nlohmann::json::parse(run(folder, "run x.cir --json").out);
+    ASSERT_EQ(document.size(), 2U);
+    EXPECT_EQ(document[0]["step"], "r=1000");
+    EXPECT_DOUBLE_EQ(document[0]["plots"][0]["curves"]["v(out)"][0].get<double>(), 1.5);
+}
+
+TEST(Run, StatusTellsWhatWentWrong) {
+    const Folder folder;
+    folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
+    folder.write("wrong.cir", std::string(divider) + ".expect v(out) 1 1%\n");
+    const auto bad = run(folder, "run bad.cir -o x.raw"), wrong = run(folder, "run wrong.cir"), none = run(folder, "run none.cir");
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_NE(bad.err.find("bad.cir:4"), std::string::npos) << bad.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.raw"));
+    EXPECT_EQ(wrong.status, 1);
+    EXPECT_NE(wrong.err.find("wrong.cir:7"), std::string::npos) << wrong.err;
+    EXPECT_NE(wrong.out.find("does not hold"), std::string::npos);
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("none.cir"), std::string::npos);
+    EXPECT_EQ(run(folder, "run").status, 2);
+}
+
+TEST(Circuits, HoldWhatTheyExpect) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(CORPUSCLE_ROOT "/circuits")) {
+        const Folder folder;
+        const auto ran = run(folder, fmt::format("run '{}' --json", entry.path().string()));
+        EXPECT_EQ(ran.status, 0) << entry.path() << "\n" << ran.err;
+        if (ran.status != 0) continue;
+        EXPECT_FALSE(nlohmann::json::parse(ran.out)["expectations"].empty()) << entry.path();
+        ++count;
+    }
+    EXPECT_GE(count, 2);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit::test
