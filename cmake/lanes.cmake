@@ -1,5 +1,13 @@
 # A file compiled once for each instruction set that lanes are chosen from at run time (CORPUSCLE_ISA names the set inside). What it
 # makes must not leave it: no exceptions, no contraction, and a test looks at its symbols.
+#
+# The sanitizers look at one set, the first: the text is the same in all, and with them it takes minutes to compile.
+if(NOT TARGET corpuscle_not_sanitized)
+  add_library(corpuscle_not_sanitized INTERFACE)
+  if(CORPUSCLE_SANITIZE)
+    target_compile_options(corpuscle_not_sanitized INTERFACE -fno-sanitize=all)
+  endif()
+endif()
 function(add_lanes target)
   set(sets baseline)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -18,9 +26,8 @@ function(add_lanes target)
     target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions
       $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-Wno-uninitialized;-Wno-maybe-uninitialized>)
     target_link_libraries(${object} PRIVATE corpuscle_ways)
-    # The sanitizers look at one set, the first: the text is the same in all, and with them it takes minutes to compile.
-    if(CORPUSCLE_SANITIZE AND NOT set STREQUAL baseline)
-      target_compile_options(${object} PRIVATE -fno-sanitize=all)
+    if(NOT set STREQUAL baseline)
+      target_link_libraries(${object} PRIVATE corpuscle_not_sanitized)
     endif()
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
     set_property(TARGET ${target} APPEND PROPERTY LANE_OBJECTS ${object})
