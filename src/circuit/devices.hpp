@@ -12,7 +12,7 @@ struct DeviceKind {
     char letter;
     std::string_view sentence;
     Result<std::unique_ptr<Device>> (*make)(const Element&, Setup&);
-    /// At 0 Hz: whether current can pass between its ends (dc path), and whether it fixes the voltage between the first two.
+    /// At 0 Hz: whether its current depends on the voltage at its ends, or may; and whether it fixes the voltage between the first two.
     bool conducts, fixes_voltage;
 };
 
@@ -23,8 +23,8 @@ inline constexpr DeviceKind devices[] = {
     {'v', "voltage source", make_voltage_source, true, true},
     {'i', "current source", make_current_source, false, false},
     {'e', "voltage by a voltage or a formula", make_controlled_source, true, true},
-    {'f', "current by a current", make_controlled_source, false, false},
-    {'g', "current by a voltage or a formula", make_controlled_source, false, false},
+    {'f', "current by a current", make_controlled_source, true, false},
+    {'g', "current by a voltage or a formula", make_controlled_source, true, false},
     {'h', "voltage by a current", make_controlled_source, true, true},
     {'b', "voltage or current by a formula", make_formula_source, true, false},
     {'d', "junction diode", make_diode, true, false},

@@ -10,11 +10,13 @@
 #include "circuit/run.hpp"
 #include "signal/text.hpp"
 #include "support/raw_file.hpp"
+#include "support/support.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
 namespace fs = std::filesystem;
+namespace test = corpuscle::test;
 
 std::vector<std::string> decks() {
     std::vector<std::string> out;
@@ -106,6 +108,41 @@ INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(decks()), [](const aut
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });
+
+/// A deck of transistors by formulas, with our own transistors in their place: its line "* native: .model ..." says which.
+std::string native(const std::string& deck) {
+    std::istringstream lines(test::read_file(deck));
+    std::string out, line;
+    for (bool inside = false; std::getline(lines, line);) {
+        if (line.starts_with(".subckt")) inside = true;
+        const bool left_out = inside;
+        if (line.starts_with(".ends")) inside = false;
+        if (left_out) continue;
+        if (line.starts_with("* native: ")) line = line.substr(10);
+        if (line.starts_with("xm")) line = line.substr(1);
+        out += line + '\n';
+    }
+    return out;
+}
+
+TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
+    int decks_seen = 0;
+    for (const auto& name : decks()) {
+        if (!name.starts_with("uicm_")) continue;
+        ++decks_seen;
+        SCOPED_TRACE(name);
+        const std::string deck = CORPUSCLE_ROOT "/test/circuit/decks/" + name + ".cir";
+        const test::Folder folder;
+        folder.write("native.cir", native(deck));
+        (void)ngspice(deck, folder / "theirs.raw");
+        const auto theirs = read_raw_file(folder / "theirs.raw");
+        ASSERT_EQ(theirs.size(), 1U);
+        const auto mine = ours(folder / "native.cir").plots();
+        ASSERT_EQ(mine.size(), 1U);
+        hold(mine[0], theirs[0], 1e-5);
+    }
+    EXPECT_EQ(decks_seen, 4);
+}
 
 TEST(Noise, IntegratesAsTheClosedFormsSay) {
     const auto outcome = ours(CORPUSCLE_ROOT "/test/circuit/decks/noise_rc.cir");

@@ -30,7 +30,9 @@ Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circu
     return run(all.back());
 }
 
-double found(const RunOutcome& outcome, const std::string& name) { return outcome.analyses[0].findings.plots[0].curve(name)->values[0].real(); }
+double found(const RunOutcome& outcome, const std::string& name) {
+    return outcome.analyses[0].findings.plots[0].curve(name)->values[0].real();
+}
 
 std::string refusal(const std::string& text) {
     const auto outcome = run_text(text);
@@ -71,7 +73,8 @@ TEST(OperatingPoint, ADiodeCarriesWhatItsEquationSays) {
 }
 
 TEST(OperatingPoint, PicoamperesAreNotLost) {
-    const auto outcome = run_text("t\ni1 0 a 3p\nm1 a a 0 0 n w=1.5u l=0.5u stack=8\n.model n nmos(level=80 isq=112n vto=0.46 n=1.27)\n.op\n");
+    const auto outcome =
+        run_text("t\ni1 0 a 3p\nm1 a a 0 0 n w=1.5u l=0.5u stack=8\n.model n nmos(level=80 isq=112n vto=0.46 n=1.27)\n.op\n");
     ASSERT_TRUE(outcome);
     const auto ten = run_text("t\ni1 0 a 30p\nm1 a a 0 0 n w=1.5u l=0.5u stack=8\n.model n nmos(level=80 isq=112n vto=0.46 n=1.27)\n.op\n");
     ASSERT_TRUE(ten);
@@ -81,7 +84,8 @@ TEST(OperatingPoint, PicoamperesAreNotLost) {
 
 TEST(OperatingPoint, ALatchHasMoreThanOneAndSaysSo) {
     const std::string latch =
-        "t\n.lib 'tsmc180.lib' tt\nvdd v 0 0.7\nmp1 a b v v pch w=6u l=0.5u\nmn1 a b 0 0 nch w=1.5u l=0.5u\nmp2 b a v v pch w=6u l=0.5u\nmn2 b a 0 0 "
+        "t\n.lib 'tsmc180.lib' tt\nvdd v 0 0.7\nmp1 a b v v pch w=6u l=0.5u\nmn1 a b 0 0 nch w=1.5u l=0.5u\nmp2 b a v v pch w=6u "
+        "l=0.5u\nmn2 b a 0 0 "
         "nch w=1.5u l=0.5u\n";
     for (const double side : {0.0, 0.7}) {
         const auto outcome = run_text(latch + fmt::format(".nodeset v(a)={} v(b)={}\n.op\n", side, 0.7 - side));
@@ -103,7 +107,8 @@ std::string drawn(unsigned seed) {
         for (unsigned k = 0; k < length; ++k) {
             const auto next = fmt::format("n{}", k);
             text += fmt::format("r{} {} {} {:.3g}\n", k, node, next, log_between(1, 1e9));
-            text += up_to(2) ? fmt::format("d{} {} 0 dx {:.2g}\n", k, next, log_between(0.1, 10)) : fmt::format("rs{} {} 0 {:.3g}\n", k, next, log_between(10, 1e9));
+            text += up_to(2) ? fmt::format("d{} {} 0 dx {:.2g}\n", k, next, log_between(0.1, 10))
+                             : fmt::format("rs{} {} 0 {:.3g}\n", k, next, log_between(10, 1e9));
             node = next;
         }
         text += fmt::format(".model dx d(is={:.3g} n={:.3g})\n", log_between(1e-18, 1e-12), log_between(1, 2));
@@ -114,7 +119,8 @@ std::string drawn(unsigned seed) {
             const char* model = k % 2 ? "pch" : "nch";
             const char* rail = k % 2 ? "v" : "0";
             text += fmt::format("ma{0} g{0} g{0} {1} {1} {2} w=1.5u l=0.5u m={3} stack={4}\n", k, rail, model, 1 + up_to(8), 1 + up_to(8));
-            text += fmt::format("mb{0} g{5} g{0} {1} {1} {2} w=1.5u l=0.5u m={3} stack={4}\n", k, rail, model, 1 + up_to(8), 1 + up_to(8), k + 1);
+            text += fmt::format("mb{0} g{5} g{0} {1} {1} {2} w=1.5u l=0.5u m={3} stack={4}\n", k, rail, model, 1 + up_to(8), 1 + up_to(8),
+                                k + 1);
         }
         text += fmt::format("ml g{0} g{0} {1} {1} {2} w=1.5u l=0.5u\n", length, length % 2 ? "v" : "0", length % 2 ? "pch" : "nch");
     }
@@ -123,7 +129,8 @@ std::string drawn(unsigned seed) {
         const unsigned count = kind == 3 ? length + length % 2 : length;  // an even ring latches
         for (unsigned k = 0; k < count; ++k) {
             const auto out = kind == 3 && k + 1 == count ? std::string("n0") : fmt::format("n{}", k + 1);
-            text += fmt::format("mp{0} {1} n{0} v v pch w=6u l=0.5u stack={2}\nmn{0} {1} n{0} 0 0 nch w=1.5u l=0.5u m={3}\n", k, out, 1 + up_to(8), 1 + up_to(4));
+            text += fmt::format("mp{0} {1} n{0} v v pch w=6u l=0.5u stack={2}\nmn{0} {1} n{0} 0 0 nch w=1.5u l=0.5u m={3}\n", k, out,
+                                1 + up_to(8), 1 + up_to(4));
         }
     }
     return text + ".op\n";
@@ -155,8 +162,9 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
 
 TEST(Variants, DrawKIsTheSameWhateverElseIsDrawn) {
     const auto netlist = [](int count) {
-        return Netlist::parse(fmt::format("t\ni1 0 a 1n\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.mc {} seed=4\n.op\n", count), "t.cir",
-                              [](const std::string&) -> Result<std::string> { return bad_input("none"); });
+        return Netlist::parse(
+            fmt::format("t\ni1 0 a 1n\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.mc {} seed=4\n.op\n", count),
+            "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); });
     };
     const auto few = netlist(3), many = netlist(7);
     ASSERT_TRUE(few && many);

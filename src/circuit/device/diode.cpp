@@ -156,7 +156,7 @@ bool limit_junction(double& v, double before, double n_vt, double v_crit) {
 }
 
 Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
-    static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "level"};
+    static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "off", "level"};
     if (auto wrong = unknown_value(e.name, e.values, known, e.place)) return *wrong;
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     const auto card = card_from<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});

@@ -23,6 +23,14 @@ Newton::Newton(const System& s, const Tolerances& t) : system(s), tolerances(t),
     instant.gmin = t.gmin;
 }
 
+bool Newton::balanced() const {
+    for (std::size_t n = 0; n < sums.f.size(); ++n) {
+        const double floor = n < static_cast<std::size_t>(system.nodes()) ? tolerances.abstol : tolerances.vntol;
+        if (!(std::abs(sums.f[n]) <= tolerances.reltol * sums.size[n] + sums.grain[n] + floor)) return false;
+    }
+    return true;
+}
+
 bool Newton::run(std::vector<double>& x, const Springs& springs, int most) {
     const auto count = static_cast<std::size_t>(system.size()), nodes = static_cast<std::size_t>(system.nodes());
     const bool linear = system.linear();
@@ -38,12 +46,7 @@ bool Newton::run(std::vector<double>& x, const Springs& springs, int most) {
             sums.G[system.pattern().place(static_cast<int>(n), static_cast<int>(n))] += springs.g[n];
             sums.size[n] = std::max(sums.size[n], springs.g[n] * std::abs(x[n]));
         }
-        if (close && !sums.limited &&
-            std::equal(sums.f.begin(), sums.f.end(), sums.size.begin(), [&, n = 0](double f, double size) mutable {
-                return std::abs(f) <=
-                       tolerances.reltol * size + (static_cast<std::size_t>(n++) < nodes ? tolerances.abstol : tolerances.vntol);
-            }))
-            return true;
+        if (close && !sums.limited && balanced()) return true;
         if (!solver.factor(std::span<const double>(sums.G).first(system.pattern().entries()))) {
             singular = solver.where().column;
             return false;
@@ -71,7 +74,8 @@ std::string Newton::distance(std::span<const double> x) {
     std::size_t worst = 0;
     double most = -1;
     for (std::size_t n = 0; n < sums.f.size(); ++n) {
-        const double off = std::isfinite(sums.f[n]) ? std::abs(sums.f[n]) / (tolerances.reltol * sums.size[n] + tolerances.abstol) : 1e300;
+        const double off =
+            std::isfinite(sums.f[n]) ? std::abs(sums.f[n]) / (tolerances.reltol * sums.size[n] + sums.grain[n] + tolerances.abstol) : 1e300;
         if (off > most) most = off, worst = n;
     }
     const Device* device = nullptr;

@@ -43,6 +43,7 @@ struct Newton {
     int singular = -1;  ///< the unknown at which the matrix was last found singular; -1: it was not
 
     Newton(const System&, const Tolerances&);
+    bool balanced() const;  ///< whether the last sums are as good as zero
     bool run(std::vector<double>& x, const Springs& = {}, int most = 0);
     /// Of the system at x: how far it is from an answer, in words.
     std::string distance(std::span<const double> x);

@@ -91,7 +91,7 @@ std::vector<double> System::terminals(const Device& d, std::span<const double> x
 
 void System::eval(std::span<const double> x, const Instant& at, std::vector<double>& memory, Sums& sums) const {
     const auto count = static_cast<std::size_t>(size());
-    sums.f.assign(count, 0), sums.q.assign(count, 0), sums.size.assign(count, 0);
+    sums.f.assign(count, 0), sums.q.assign(count, 0), sums.size.assign(count, 0), sums.grain.assign(count, 0);
     sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: of ground
     sums.limited = false;
     for (std::size_t k = 0; k < devices_.size(); ++k) {
@@ -109,12 +109,13 @@ void System::eval(std::span<const double> x, const Instant& at, std::vector<doub
         d.eval(looked, at, stamp);
         const auto& places = places_[k];
         for (std::size_t row = 0; row < n; ++row) {
-            double f = stamp.f[row], q = stamp.q[row];
+            double f = stamp.f[row], q = stamp.q[row], grain = 0;
             for (std::size_t column = 0; column < n; ++column) {
                 if (limited) {
                     f += stamp.slope(row, column) * (v[column] - looked[column]);
                     q += stamp.capacitance(row, column) * (v[column] - looked[column]);
                 }
+                grain = std::max(grain, std::abs(stamp.slope(row, column) * v[column]));
                 sums.G[places[row * n + column]] += stamp.slope(row, column);
                 sums.C[places[row * n + column]] += stamp.capacitance(row, column);
             }
@@ -122,6 +123,7 @@ void System::eval(std::span<const double> x, const Instant& at, std::vector<doub
             const auto u = static_cast<std::size_t>(d.unknowns[row]);
             sums.f[u] += f, sums.q[u] += q;
             sums.size[u] = std::max(sums.size[u], std::abs(f));
+            sums.grain[u] = std::max(sums.grain[u], 1e-15 * grain);
         }
     }
 }

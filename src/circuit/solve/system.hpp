@@ -12,10 +12,11 @@ namespace corpuscle::circuit {
 
 /// What all devices add up to at one x.
 struct Sums {
-    std::vector<double> f, q;  ///< of each unknown's equation
-    std::vector<double> G, C;  ///< slopes of f and q, in the pattern's places
-    std::vector<double> size;  ///< the largest single contribution to each equation: what it is small against
-    bool limited = false;      ///< some device was looked at elsewhere than at x: f is what its straight line gives at x
+    std::vector<double> f, q;   ///< of each unknown's equation
+    std::vector<double> G, C;   ///< slopes of f and q, in the pattern's places
+    std::vector<double> size;   ///< the largest single contribution to each equation: what it is small against
+    std::vector<double> grain;  ///< what rounding of x and of devices' sums may leave of it
+    bool limited = false;       ///< some device was looked at elsewhere than at x: f is what its straight line gives at x
 
 private:
     friend class System;

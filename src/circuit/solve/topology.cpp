@@ -30,8 +30,9 @@ public:
     }
 };
 
+/// Whether it can set a voltage that nothing else sets: a controlled current can, where it depends on it.
 bool conducts(const Element& e) {
-    if (e.letter == 'b' || e.letter == 'g') return has_branch(e);
+    if (e.letter == 'b') return has_branch(e) || !e.formula->constant();
     const auto* kind = device_of(e.letter);
     return kind != nullptr && kind->conducts;
 }
@@ -76,7 +77,7 @@ std::optional<Error> floating(const Circuit& c) {
         const bool touches = std::any_of(e.nodes.begin(), e.nodes.end(), [&](int n) { return groups.of(n) == groups.of(first); });
         if (!touches) continue;
         if (here == nullptr) here = &e;
-        sources |= (e.letter == 'i' || e.letter == 'f' || e.letter == 'g' || (e.letter == 'b' && !has_branch(e)));
+        sources |= e.letter == 'i' || (e.letter == 'b' && !has_branch(e));
     }
     const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", fmt::join(names, "', '"));
     const auto why = sources ? "is cut off from ground but for current sources, so nothing sets its voltage"
