@@ -21,6 +21,7 @@ constexpr const char* first_steps = R"(First steps:
   corpuscle respond press --report press.html            ... and a page to look at
   corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
   corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
+  corpuscle run circuits/inverter.cir                    a netlist's analyses, transistor by transistor
   corpuscle study --report studies.html                  what others printed, made again
   corpuscle list                                         every afferent, stimulus and parameter
 

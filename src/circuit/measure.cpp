@@ -188,10 +188,10 @@ public:
             return nothing;
         }
         if (what == "trig") {
-            const auto from = edge("targ");
+            const auto from = edge();
             if (!from) return from.error();
             if (words_.next() != "targ") return words_.wrong("targ was expected after trig");
-            const auto to = edge("");
+            const auto to = edge();
             if (!to) return to.error();
             return *to - *from;
         }
@@ -201,7 +201,7 @@ public:
 
 private:
     /// After trig or targ: at=X, or CURVE val=LEVEL rise=N.
-    Result<double> edge(std::string_view) {
+    Result<double> edge() {
         const auto at = words_.option("at");
         if (!at) return at.error();
         if (*at) return **at;
