@@ -1,5 +1,5 @@
 # The commands of the README. Each does its own set-up; see setup/packages for what is installed.
-.PHONY: demo build test bench fuzz format lint install pictures setup-run setup-test setup-bench release asan fuzzers clean
+.PHONY: demo build test bench fuzz format lint install pictures setup-run setup-test setup-bench release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -26,12 +26,10 @@ asan: setup-test
 	cmake --preset asan
 	cmake --build --preset asan
 
-fuzzers: setup-test
-	cmake --preset fuzz
-	cmake --build --preset fuzz --target fuzzers
-
-fuzz: fuzzers
-	test/fuzz/run build/fuzz $(FUZZ_SECONDS)
+fuzz: setup-test
+	cmake --preset asan
+	cmake --build --preset asan --target fuzzers
+	test/fuzz/run build/asan $(FUZZ_SECONDS)
 
 bench: setup-bench release
 	bench/run build/release
@@ -39,8 +37,9 @@ bench: setup-bench release
 format: setup-test
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-19 -i
 
-lint: release
-	git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P 2 -n 4 clang-tidy-19 -p build/release --quiet --extra-arg=-Wno-unknown-warning-option
+lint: setup-test
+	cmake -B build/lint -G Ninja -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PCH=OFF
+	git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P 2 -n 4 clang-tidy-19 -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option
 
 install: build
 	cmake --install build/release --prefix $(PREFIX)

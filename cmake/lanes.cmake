@@ -22,10 +22,14 @@ function(add_lanes target)
     add_library(${object} OBJECT ${ARGN})
     target_include_directories(${object} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
     target_compile_definitions(${object} PRIVATE CORPUSCLE_ISA=${set})
-    # -O2 at the least, so that small functions are not left as symbols; g++ 12 warns falsely in its own headers of AVX-512.
-    target_compile_options(${object} PRIVATE ${flags_${set}} $<$<NOT:$<CONFIG:Release>>:-O2> -fno-exceptions
+    # -O2 at the least, so that small functions are not left as symbols (sanitized, the first set leaves them, and nobody is misled);
+    # g++ 12 warns falsely in its own headers of AVX-512.
+    target_compile_options(${object} PRIVATE ${flags_${set}} -fno-exceptions
       $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-Wno-uninitialized;-Wno-maybe-uninitialized>)
     target_link_libraries(${object} PRIVATE corpuscle_ways)
+    if(NOT set STREQUAL baseline OR NOT CORPUSCLE_SANITIZE)
+      target_compile_options(${object} PRIVATE $<$<NOT:$<CONFIG:Release>>:-O2>)
+    endif()
     if(NOT set STREQUAL baseline)
       target_link_libraries(${object} PRIVATE corpuscle_not_sanitized)
     endif()

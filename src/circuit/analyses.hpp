@@ -5,16 +5,16 @@
 
 namespace corpuscle::circuit {
 
-Result<Findings> analyse_op(const TestBench&, const Command&);
-Result<Findings> analyse_dc(const TestBench&, const Command&);
-Result<Findings> analyse_ac(const TestBench&, const Command&);
-Result<Findings> analyse_noise(const TestBench&, const Command&);
-Result<Findings> analyse_tf(const TestBench&, const Command&);
-Result<Findings> analyse_sens(const TestBench&, const Command&);
+Result<Findings> analyse_op(TestBench&, const Command&);
+Result<Findings> analyse_dc(TestBench&, const Command&);
+Result<Findings> analyse_ac(TestBench&, const Command&);
+Result<Findings> analyse_noise(TestBench&, const Command&);
+Result<Findings> analyse_tf(TestBench&, const Command&);
+Result<Findings> analyse_sens(TestBench&, const Command&);
 
 struct Analysis {
     std::string_view word, usage, sentence;
-    Result<Findings> (*run)(const TestBench&, const Command&);
+    Result<Findings> (*run)(TestBench&, const Command&);
 };
 
 inline constexpr Analysis analyses[] = {

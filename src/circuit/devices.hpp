@@ -14,6 +14,8 @@ struct DeviceKind {
     Result<std::unique_ptr<Device>> (*make)(const Element&, Setup&);
     /// At 0 Hz: whether its current depends on the voltage at its ends, or may; and whether it fixes the voltage between the first two.
     bool conducts, fixes_voltage;
+    /// How devices of this kind are looked at together; null: one by one.
+    Result<std::unique_ptr<Bank>> (*bank)() = nullptr;
 };
 
 inline constexpr DeviceKind devices[] = {
@@ -28,7 +30,7 @@ inline constexpr DeviceKind devices[] = {
     {'h', "voltage by a current", make_controlled_source, true, true},
     {'b', "voltage or current by a formula", make_formula_source, true, false},
     {'d', "junction diode", make_diode, true, false},
-    {'m', "MOS transistor, UICM", make_transistor, true, false},
+    {'m', "MOS transistor, UICM", make_transistor, true, false, make_transistor_bank},
 };
 
 inline const DeviceKind* device_of(char letter) {

@@ -234,12 +234,21 @@ Result<double> parameter(const Command& c, const std::string& text, const RunOut
     return formula->value();
 }
 
+/// Of an operating point: find CURVE.
+Result<double> at_rest(const Plot& plot, Words& words) {
+    if (words.next() != "find") return words.wrong("of an operating point: find v(node), v(a,b) or i(source)");
+    const auto curve = words.next();
+    const auto values = values_of(plot, curve);
+    if (!values || values->empty()) return words.wrong(fmt::format("there is no {}", curve));
+    return values->front().real();
+}
+
 }  // namespace
 
 Result<void> measure(const Circuit& circuit, RunOutcome& out) {
     for (const auto& c : circuit.commands) {
         if (c.name != "meas" && c.name != "measure") continue;
-        if (c.words.size() < 3) return bad_input(".meas: it is .meas dc|ac NAME WHAT ...", c.place);
+        if (c.words.size() < 3) return bad_input(".meas: it is .meas op|dc|ac NAME WHAT ...", c.place);
         const auto& name = c.words[1];
         if (c.words[2].starts_with("param=")) {
             const auto value = parameter(c, c.words[2].substr(6), out);
@@ -249,10 +258,11 @@ Result<void> measure(const Circuit& circuit, RunOutcome& out) {
         }
         const auto analysed =
             std::find_if(out.analyses.begin(), out.analyses.end(), [&](const Analysed& a) { return a.command->name == c.words[0]; });
-        if (analysed == out.analyses.end() || analysed->findings.plots.empty() || !analysed->findings.plots[0].swept)
+        if (analysed == out.analyses.end() || analysed->findings.plots.empty())
             return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.place);
         Words words{c, 2};
-        const auto value = Measure(analysed->findings.plots[0], words).value();
+        const auto& plot = analysed->findings.plots[0];
+        const auto value = plot.swept ? Measure(plot, words).value() : at_rest(plot, words);
         if (!value) return value.error();
         if (!words.done()) return words.wrong(fmt::format("'{}' is not known here", words.look()));
         if (std::isnan(*value)) out.remarks.push_back(bad_input(fmt::format(".meas {}: nothing was found", name), c.place));

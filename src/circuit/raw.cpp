@@ -45,21 +45,29 @@ std::string raw_text(std::string_view title, std::span<const Plot> plots, bool b
     return out;
 }
 
-std::string csv_text(const Plot& plot) {
+namespace {
+bool two_columns(const Plot& plot, const Curve& c) { return plot.is_complex && c.type != "frequency"; }
+}  // namespace
+
+std::string csv_header(const Plot& plot) {
+    std::string out;
+    for (const auto& c : plot.curves) {
+        const auto name = c.name.find(',') == std::string::npos ? c.name : '"' + c.name + '"';
+        out += &c == &plot.curves[0] ? "" : ",";
+        out += two_columns(plot, c) ? fmt::format("{}.re,{}.im", name, name) : name;
+    }
+    return out + '\n';
+}
+
+std::string csv_rows(const Plot& plot, std::string_view before) {
     std::string out;
     const auto to = std::back_inserter(out);
-    const auto two = [&](const Curve& c) { return plot.is_complex && c.type != "frequency"; };
-    for (const auto& c : plot.curves) {
-        if (&c != &plot.curves[0]) out += ',';
-        const auto name = c.name.find(',') == std::string::npos ? c.name : '"' + c.name + '"';
-        two(c) ? fmt::format_to(to, "{}.re,{}.im", name, name) : fmt::format_to(to, "{}", name);
-    }
-    out += '\n';
     for (std::size_t point = 0; point < plot.points(); ++point) {
+        out += before;
         for (const auto& c : plot.curves) {
             if (&c != &plot.curves[0]) out += ',';
             const auto x = c.values[point];
-            two(c) ? fmt::format_to(to, "{},{}", x.real(), x.imag()) : fmt::format_to(to, "{}", x.real());
+            two_columns(plot, c) ? fmt::format_to(to, "{},{}", x.real(), x.imag()) : fmt::format_to(to, "{}", x.real());
         }
         out += '\n';
     }

@@ -59,21 +59,66 @@ Result<void> expect(const Circuit& circuit, RunOutcome& out) {
     return {};
 }
 
+/// What .save names; "out" is v(out), and "all" is everything.
+Result<std::vector<std::string>> saved_of(const System& system, const Circuit& circuit) {
+    std::vector<std::string> out;
+    bool all = false;
+    for (const auto& c : circuit.commands) {
+        if (c.name != "save") continue;
+        for (std::size_t k = 0; k < c.words.size(); ++k) {
+            const auto& word = c.words[k];
+            if (word == "all") {
+                all = true;
+                continue;
+            }
+            auto named = c;
+            named.words[k] = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
+            if (const auto known = wanted_of(system, named, k); !known) return known.error();
+            out.push_back(named.words[k]);
+        }
+    }
+    return all ? std::vector<std::string>{} : out;
+}
+
+/// The plot with the curves named, where it has one of them; a plot of another kind (noise, transfer function) as it is.
+Plot narrowed(const Plot& plot, const std::vector<std::string>& names) {
+    Plot out{plot.name, plot.is_complex, plot.swept, {}};
+    if (plot.swept && !plot.curves.empty()) out.curves.push_back(plot.curves[0]);
+    bool any = false;
+    for (const auto& name : names)
+        if (auto values = values_of(plot, name)) {
+            any = true;
+            out.curves.push_back({name, name[0] == 'v' ? "voltage" : "current", std::move(*values)});
+        }
+    return any ? out : plot;
+}
+
 }  // namespace
 
 Result<RunOutcome> run(std::shared_ptr<const Circuit> circuit, const RunStop& stop) {
-    auto bench = TestBench::make(circuit);
+    auto bench = TestBench::make(std::move(circuit));
     if (!bench) return bench.error();
+    return run(**bench, stop);
+}
+
+Result<RunOutcome> run(TestBench& bench, const RunStop& stop) {
+    const Circuit* const circuit = bench.circuit.get();
     RunOutcome out;
-    out.remarks = circuit->remarks;
-    for (auto& s : suspicious(*circuit)) out.remarks.push_back(std::move(s));
+    if (!bench.brief) {
+        out.remarks = circuit->remarks;
+        for (auto& s : suspicious(*circuit)) out.remarks.push_back(std::move(s));
+    }
+    auto saved = saved_of(bench.system, *circuit);
+    if (!saved) return saved.error();
+    out.saved = std::move(*saved);
     bool any = false;
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);
         if (analysis == nullptr) continue;
         any = true;
-        if (stop) bench->stop = [&](double share) { return stop(c.name, share); };
-        auto found = analysis->run(*bench, c);
+        if (stop) bench.stop = [&](double share) { return stop(c.name, share); };
+        auto found = analysis->run(bench, c);
+        bench.stop = {};
         if (!found) {
             auto error = found.error();
             if (error.place.line == 0) error.place = c.place;
@@ -95,7 +140,8 @@ Result<RunOutcome> run(std::shared_ptr<const Circuit> circuit, const RunStop& st
 
 std::vector<Plot> RunOutcome::plots() const {
     std::vector<Plot> out;
-    for (const auto& a : analyses) out.insert(out.end(), a.findings.plots.begin(), a.findings.plots.end());
+    for (const auto& a : analyses)
+        for (const auto& plot : a.findings.plots) out.push_back(narrowed(plot, saved));
     return out;
 }
 

@@ -25,11 +25,14 @@ struct RunOutcome {
     std::vector<Expectation> expectations;
     std::vector<Error> remarks;
 
-    std::vector<Plot> plots() const;  ///< of all analyses, those of .save only if there is one
+    std::vector<std::string> saved;  ///< by .save: v(a), v(a,b), i(v1) ...; empty: everything
+
+    std::vector<Plot> plots() const;  ///< of all analyses, with what is swept and what is saved
 };
 
 /// `stop` is asked now and then, told what is at work and how far it is.
 using RunStop = std::function<bool(std::string_view word, double share)>;
+Result<RunOutcome> run(TestBench&, const RunStop& stop = {});
 Result<RunOutcome> run(std::shared_ptr<const Circuit>, const RunStop& stop = {});
 
 /// .print lines of an analysis, as columns for people; "" if there are none.

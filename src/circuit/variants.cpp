@@ -6,7 +6,6 @@
 
 #include "circuit/analysis/bench.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/device/values.hpp"
 #include "circuit/netlist/number.hpp"
 
 namespace corpuscle::circuit {
@@ -115,49 +114,39 @@ std::size_t Variants::count() const {
     return count;
 }
 
-Result<Variant> Variants::at(std::size_t number) const {
-    if (count() == 1 && draws_ == 0 && axes_.empty()) return Variant{"", plain_};
-    const std::size_t draw = draws_ == 0 ? 0 : number % draws_;
-    number /= std::max<std::size_t>(draws_, 1);
+Result<void> Variants::step(std::size_t number) {
+    if (last_ && last_->number == number) return {};
+    if (axes_.empty()) {
+        last_ = {number, "", plain_};
+        return {};
+    }
     Values parameters;
     std::optional<double> temperature;
     std::string label;
+    auto rest = number;
     for (auto axis = axes_.rbegin(); axis != axes_.rend(); ++axis) {
-        const double value = axis->values[number % axis->values.size()];
-        number /= axis->values.size();
+        const double value = axis->values[rest % axis->values.size()];
+        rest /= axis->values.size();
         axis->name == "temp" ? void(temperature = value) : void(parameters[axis->name] = value);
         label = fmt::format("{}={:g}{}{}", axis->name, value, label.empty() ? "" : " ", label);
     }
     auto circuit = netlist_.elaborate(parameters);
     if (!circuit) return circuit.error();
     if (temperature) circuit->temperature = *temperature;
-    if (draws_ > 0) {
-        *circuit = drawn(std::move(*circuit), draw);
-        label += fmt::format("{}mc={}", label.empty() ? "" : " ", draw + 1);
-    }
-    return Variant{std::move(label), std::make_shared<const Circuit>(std::move(*circuit))};
+    last_ = {number, std::move(label), std::make_shared<const Circuit>(std::move(*circuit))};
+    return {};
 }
 
-Circuit Variants::drawn(Circuit circuit, std::uint64_t chip) const {
-    const auto is_transistor = [](const Model& m) { return value_or(m.values, "level", 1) == UicmCard::level; };
-    std::uint32_t device = 0;
-    for (auto& e : circuit.elements) {
-        if (e.letter != 'm' || !mismatch_ || e.model < 0) continue;
-        const auto& model = circuit.models[static_cast<std::size_t>(e.model)];
-        const auto card = is_transistor(model) ? card_from<UicmCard>(UicmCard::fields, model, {"level"}) : bad_input("");
-        UicmInstance size;
-        for (const auto& f : UicmInstance::fields) size.*f.at = value_or(e.values, f.name, size.*f.at);
-        if (card) size = with_mismatch(size, *card, seed_, device, chip);
-        e.values["delvto"] = size.delvto, e.values["mulu0"] = size.mulu0;
-        ++device;
-    }
-    for (auto& m : circuit.models) {
-        const auto card = process_ && is_transistor(m) ? card_from<UicmCard>(UicmCard::fields, m, {"level"}) : bad_input("");
-        if (!card) continue;
-        const auto made = with_process(*card, m.type == "pmos", seed_, chip);
-        m.values["vto"] = made.V_T0, m.values["isq"] = made.I_SQ;
-    }
-    return circuit;
+Result<Variant> Variants::at(std::size_t number) {
+    const std::size_t draws = std::max<std::size_t>(draws_, 1), chip = number % draws;
+    if (auto ok = step(number / draws); !ok) return ok.error();
+    Variant out{last_->label, last_->circuit, {}};
+    if (draws_ == 0) return out;
+    Draw draw{seed_, chip, mismatch_, {}};
+    if (process_) std::copy_n(process_deviates(seed_, chip).of, 4, draw.process);
+    out.draw = draw;
+    out.label += fmt::format("{}mc={}", out.label.empty() ? "" : " ", chip + 1);
+    return out;
 }
 
 }  // namespace corpuscle::circuit

@@ -2,14 +2,16 @@
 // What .step and .mc make of one netlist: the same circuit with other values, one after another.
 
 #include <memory>
+#include <optional>
 
-#include "circuit/netlist/netlist.hpp"
+#include "circuit/device/device.hpp"
 
 namespace corpuscle::circuit {
 
 struct Variant {
-    std::string label;  ///< "r=1000", "temp=85", "mc=17"; several with blanks between; "" if there is only one
-    std::shared_ptr<const Circuit> circuit;
+    std::string label;                       ///< "r=1000", "temp=85", "mc=17"; several with blanks between; "" if there is only one
+    std::shared_ptr<const Circuit> circuit;  ///< the same as the last one's, if only the draw differs
+    std::optional<Draw> draw;
 };
 
 /// .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS; NAME may be temp (without
@@ -26,13 +28,21 @@ class Variants {
     std::uint64_t seed_ = 0;
     bool process_ = true, mismatch_ = true;
     std::shared_ptr<const Circuit> plain_;
+    struct Stepped {
+        std::size_t number;
+        std::string label;
+        std::shared_ptr<const Circuit> circuit;
+    };
+    std::optional<Stepped> last_;
 
-    Circuit drawn(Circuit, std::uint64_t chip) const;
+    Result<void> step(std::size_t number);
 
 public:
     static Result<Variants> of(const Netlist&);
     std::size_t count() const;
-    Result<Variant> at(std::size_t number) const;
+    bool draws() const { return draws_ > 0; }
+    /// Quick where numbers follow each other: draws run fastest.
+    Result<Variant> at(std::size_t number);
 };
 
 }  // namespace corpuscle::circuit

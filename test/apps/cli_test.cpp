@@ -63,7 +63,7 @@ TEST(Program, ThreadsAndInstructionSetsChangeNoByte) {
         EXPECT_GT(right.size(), 2000U);
         for (const std::string set : {"scalar", "baseline", "avx2", "avx512"})
             for (const std::string threads : {"1", "2", "7"}) {
-                const auto ran = std::system(("cd '" + folder.path() + "' && CORPUSCLE_ISA=" + set + " '" CORPUSCLE_PROGRAM "' " + words +
+                const auto ran = std::system(("cd '" + folder.path() + "' && CORPUSCLE_ISA=" + set + " '" + test::program() + "' " + words +
                                               " --out again --quiet -j " + threads + " 2>/dev/null")
                                                  .c_str());
                 if (WEXITSTATUS(ran) == 2) continue;  // a set that this machine lacks
@@ -317,7 +317,7 @@ TEST(Program, AStimulusGoesBeforeADirectoryOfItsName) {
 
 TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
     const Folder folder;
-    const auto full = std::system(("'" CORPUSCLE_PROGRAM "' list >/dev/full 2>'" + (folder / "err") + "'").c_str());
+    const auto full = std::system(("'" + test::program() + "' list >/dev/full 2>'" + (folder / "err") + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(full), 1);
     EXPECT_EQ(run(folder, "respond " + std::string(5000, 'x')).status, 1);
 }
@@ -353,7 +353,8 @@ TEST(Program, ProgressWithTimeLeftIsDrawnToATerminalAndNowhereElse) {
     const Folder folder;
     const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // some seconds
     const auto drawn = folder / "drawn";
-    ASSERT_EQ(std::system(("script -qec \"'" CORPUSCLE_PROGRAM "' " + job + "\" /dev/null > '" + drawn + "' 2>&1 < /dev/null").c_str()), 0);
+    ASSERT_EQ(std::system(("script -qec \"'" + test::program() + "' " + job + "\" /dev/null > '" + drawn + "' 2>&1 < /dev/null").c_str()),
+              0);
     const auto seen = test::read_file(drawn);
     EXPECT_NE(seen.find(" s left"), std::string::npos) << seen.substr(0, 400);
     EXPECT_NE(seen.find(" %  "), std::string::npos);
@@ -378,7 +379,7 @@ TEST(Program, WhatWasClippedOrDidNotFitOrWasNotReachedIsTold) {
 TEST(Program, ReadsFromAPipe) {
     const Folder folder;
     folder.write("x.csv", "1\n2\n3\n");
-    EXPECT_EQ(std::system(("cat '" + (folder / "x.csv") + "' | '" CORPUSCLE_PROGRAM "' respond - --rate 100Hz --quiet").c_str()), 0);
+    EXPECT_EQ(std::system(("cat '" + (folder / "x.csv") + "' | '" + test::program() + "' respond - --rate 100Hz --quiet").c_str()), 0);
 }
 
 TEST(Program, HelpTeachesAndVersionTells) {
@@ -398,7 +399,7 @@ TEST(Program, CtrlCAndItsKinEndItCleanly) {
         const pid_t child = ::fork();
         if (child == 0) {
             if (!std::freopen("/dev/null", "w", stderr)) std::_Exit(98);
-            ::execl(CORPUSCLE_PROGRAM, "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
+            ::execl(test::program().c_str(), "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
                     answer.c_str(), nullptr);
             std::_Exit(99);
         }

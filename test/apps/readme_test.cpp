@@ -7,11 +7,11 @@
 namespace corpuscle {
 namespace {
 
-const char* const root = CORPUSCLE_ROOT;
+const std::string root = test::root();
 
 /// The lines of the README's shell blocks that call the program, without what stands behind a '#'.
 std::vector<std::string> commands() {
-    std::istringstream text(test::read_file(std::string(root) + "/README.md"));
+    std::istringstream text(test::read_file(root + "/README.md"));
     std::vector<std::string> out;
     bool shell = false;
     for (std::string line; std::getline(text, line);) {
@@ -27,7 +27,7 @@ TEST(Readme, EveryCommandItShowsRuns) {
     std::string touch = "time_s,fz\n";
     for (int k = 0; k < 1000; ++k) touch += fmt::format("{},{}\n", k / 1e3, k < 200 ? 0 : 2000);
     folder.write("touch.csv", touch);
-    for (const auto* part : {"circuits", "process"}) std::filesystem::copy(std::string(root) + "/" + part, folder / part);
+    for (const auto* part : {"circuits", "process"}) std::filesystem::copy(root + "/" + part, folder / part);
     const bool real = std::filesystem::exists(press);
     if (real) std::filesystem::copy(press, folder / "fbg_press_S6_T16.csv");
     const auto shown = commands();
@@ -42,15 +42,14 @@ TEST(Readme, EveryCommandItShowsRuns) {
 }
 
 TEST(Readme, ItsProgramIsTheExampleThatRuns) {
-    const auto example = test::read_file(std::string(root) + "/examples/respond.cpp"),
-               readme = test::read_file(std::string(root) + "/README.md");
+    const auto example = test::read_file(root + "/examples/respond.cpp"), readme = test::read_file(root + "/README.md");
     EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
 }
 
 TEST(Readme, EveryPageItPointsToIsThere) {
     for (const auto* page : {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md",
                              "doc/measures.md", "doc/circuits.md", "doc/lanes.md", "doc/populations.md", "doc/real-recordings.md"}) {
-        const auto text = test::read_file(std::string(root) + "/" + page);
+        const auto text = test::read_file(root + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
             const auto target = text.substr(at + 2, text.find(')', at) - at - 2);

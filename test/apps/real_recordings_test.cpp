@@ -10,7 +10,7 @@ namespace {
 
 using test::Folder;
 
-const std::string root = CORPUSCLE_ROOT;
+const std::string root = test::root();
 
 using test::run;
 

@@ -20,7 +20,7 @@ namespace test = corpuscle::test;
 
 std::vector<std::string> decks() {
     std::vector<std::string> out;
-    for (const auto& entry : fs::directory_iterator(CORPUSCLE_ROOT "/test/circuit/decks"))
+    for (const auto& entry : fs::directory_iterator(test::root() + "/test/circuit/decks"))
         if (entry.path().extension() == ".cir") out.push_back(entry.path().stem());
     std::sort(out.begin(), out.end());
     return out;
@@ -85,7 +85,7 @@ void hold(const Plot& mine, const Plot& theirs, double share) {
 class Deck : public testing::TestWithParam<std::string> {};
 
 TEST_P(Deck, GivesWhatNgspiceGives) {
-    const std::string deck = CORPUSCLE_ROOT "/test/circuit/decks/" + GetParam() + ".cir";
+    const std::string deck = test::root() + "/test/circuit/decks/" + GetParam() + ".cir";
     const auto raw = fs::temp_directory_path() / ("corpuscle-" + GetParam() + "-" + std::to_string(getpid()) + ".raw");
     const auto log = ngspice(deck, raw);
     const auto theirs = read_raw_file(raw);
@@ -131,7 +131,7 @@ TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
         if (!name.starts_with("uicm_")) continue;
         ++decks_seen;
         SCOPED_TRACE(name);
-        const std::string deck = CORPUSCLE_ROOT "/test/circuit/decks/" + name + ".cir";
+        const std::string deck = test::root() + "/test/circuit/decks/" + name + ".cir";
         const test::Folder folder;
         folder.write("native.cir", native(deck));
         (void)ngspice(deck, folder / "theirs.raw");
@@ -145,7 +145,7 @@ TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
 }
 
 TEST(Noise, IntegratesAsTheClosedFormsSay) {
-    const auto outcome = ours(CORPUSCLE_ROOT "/test/circuit/decks/noise_rc.cir");
+    const auto outcome = ours(test::root() + "/test/circuit/decks/noise_rc.cir");
     const double white = 4 * 1.380649e-23 * 300.15 * 100e3, corner = 1 / (2 * M_PI * 100e3 * 10e-9);
     ASSERT_EQ(outcome.numbers.size(), 2U);
     EXPECT_NEAR(outcome.numbers[0].second, std::sqrt(white * corner * (std::atan(1e6 / corner) - std::atan(1 / corner))),
@@ -165,7 +165,7 @@ double number_of(const std::string& log, const std::string& name) {
 
 TEST(Measures, AreThoseOfNgspice) {
     for (const std::string name : {"measures_dc", "measures_ac"}) {
-        const std::string deck = CORPUSCLE_ROOT "/test/circuit/decks/" + name + ".cir";
+        const std::string deck = test::root() + "/test/circuit/decks/" + name + ".cir";
         const auto log = ngspice(deck, "");
         const auto outcome = ours(deck);
         EXPECT_GE(outcome.numbers.size(), 3U);

@@ -60,6 +60,52 @@ TEST(Run, StepsThroughAParameter) {
     EXPECT_DOUBLE_EQ(document[0]["plots"][0]["curves"]["v(out)"][0].get<double>(), 1.5);
 }
 
+TEST(Run, TablesOfManyStepsHaveTheStepInEachRow) {
+    const Folder folder;
+    folder.write("x.cir", std::string(divider) + ".dc v1 0 1 1\n.step param r list 1k 3k\n");
+    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
+    EXPECT_EQ(read_file(folder / "x-2.csv"),
+              "step,v-sweep,v(in),v(out),i(v1)\nr=1000,0,0,0,0\nr=1000,1,1,0.5,-0.0005\nr=3000,0,0,0,0\nr=3000,1,1,0.75,-0.00025\n");
+    EXPECT_TRUE(read_file(folder / "x-1.csv").starts_with("step,v(in),v(out),i(v1)\nr=1000,3,1.5,-0.0015\n"));
+}
+
+TEST(Run, SavesWhatIsAskedFor) {
+    const Folder folder;
+    folder.write("x.cir", std::string(divider) + ".save v(in,out) out\n.dc v1 0 1 1\n");
+    folder.write("y.cir", std::string(divider) + ".save v(oot)\n");
+    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
+    EXPECT_TRUE(read_file(folder / "x-2.csv").starts_with("v-sweep,\"v(in,out)\",v(out)\n")) << read_file(folder / "x-2.csv");
+    const auto wrong = run(folder, "run y.cir");
+    EXPECT_EQ(wrong.status, 1);
+    EXPECT_NE(wrong.err.find("y.cir:7:7: .save: there is no v(oot); did you mean 'v(out)'?"), std::string::npos) << wrong.err;
+}
+
+constexpr const char* chips =
+    "chips\nv1 v 0 0.7\nr1 v a 1meg\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.op\n.meas op va find v(a)\n.mc 40 "
+    "seed=2\n";
+
+TEST(Run, ChipsEndInAMeanAndADeviation) {
+    const Folder folder;
+    folder.write("x.cir", chips);
+    const auto ran = run(folder, "run x.cir");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("mc=40:"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("va                   mean "), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("of 40\n"), std::string::npos) << ran.out;
+}
+
+TEST(Run, AStepThatDoesNotConvergeIsToldAndTheRestGoesOn) {
+    const Folder folder;
+    folder.write("x.cir", "t\n.param a=1\ni1 0 x 1\nb1 x 0 i={a}*(v(x)*v(x)+0.5)\n.op\n.step param a list 1 4 1\n");
+    const auto ran = run(folder, "run x.cir --json");
+    EXPECT_EQ(ran.status, 3) << ran.out << ran.err;
+    const auto document = nlohmann::json::parse(ran.out);
+    ASSERT_EQ(document.size(), 3U);
+    EXPECT_NE(document[1]["error"].get<std::string>().find("no operating point"), std::string::npos);
+    EXPECT_NEAR(document[2]["plots"][0]["curves"]["v(x)"][0].get<double>(), std::sqrt(0.5), 1e-6);
+    EXPECT_NE(ran.err.find("1 of 3 did not converge"), std::string::npos) << ran.err;
+}
+
 TEST(Run, StatusTellsWhatWentWrong) {
     const Folder folder;
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
@@ -78,7 +124,7 @@ TEST(Run, StatusTellsWhatWentWrong) {
 
 TEST(Circuits, HoldWhatTheyExpect) {
     int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(CORPUSCLE_ROOT "/circuits")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::root() + "/circuits")) {
         const Folder folder;
         const auto ran = run(folder, fmt::format("run '{}' --json", entry.path().string()));
         EXPECT_EQ(ran.status, 0) << entry.path() << "\n" << ran.err;

@@ -3,17 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
+#include "circuit/device/uicm_card.hpp"
+#include "circuit/device/values.hpp"
 #include "circuit/run.hpp"
 #include "circuit/variants.hpp"
+#include "signal/instruction_set.hpp"
+#include "support/places.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circuit>* kept = nullptr) {
-    const auto netlist = Netlist::parse(text, CORPUSCLE_ROOT "/process/test.cir", [](const std::string& path) -> Result<std::string> {
+Netlist netlist_of(const std::string& text) {
+    auto netlist = Netlist::parse(text, test::root() + "/process/test.cir", [](const std::string& path) -> Result<std::string> {
         std::FILE* file = std::fopen(path.c_str(), "rb");
         if (file == nullptr) return bad_input("no file " + path);
         std::string out(100000, '\0');
@@ -21,8 +27,20 @@ Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circu
         std::fclose(file);
         return out;
     });
-    if (!netlist) return netlist.error();
-    auto circuit = netlist->elaborate();
+    EXPECT_TRUE(netlist) << netlist.error().text();
+    return std::move(*netlist);
+}
+
+std::unique_ptr<TestBench> bench_of(const std::string& text) {
+    auto circuit = netlist_of(text).elaborate();
+    EXPECT_TRUE(circuit) << circuit.error().text();
+    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    EXPECT_TRUE(bench) << bench.error().text();
+    return std::move(*bench);
+}
+
+Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circuit>* kept = nullptr) {
+    auto circuit = netlist_of(text).elaborate();
     if (!circuit) return circuit.error();
     static std::vector<std::shared_ptr<const Circuit>> all;  // an outcome points at its circuit's commands
     all.push_back(std::make_shared<const Circuit>(std::move(*circuit)));
@@ -162,24 +180,72 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
 
 TEST(Variants, DrawKIsTheSameWhateverElseIsDrawn) {
     const auto netlist = [](int count) {
-        return Netlist::parse(
-            fmt::format("t\ni1 0 a 1n\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.mc {} seed=4\n.op\n", count),
-            "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); });
+        return netlist_of(
+            fmt::format("t\ni1 0 a 1n\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.mc {} seed=4\n.op\n", count));
     };
-    const auto few = netlist(3), many = netlist(7);
-    ASSERT_TRUE(few && many);
-    const auto a = Variants::of(*few), b = Variants::of(*many);
+    auto a = Variants::of(netlist(3)), b = Variants::of(netlist(7));
     ASSERT_TRUE(a && b);
     EXPECT_EQ(a->count(), 3U);
-    std::vector<double> seen;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto one = a->at(k), other = b->at(k);
         ASSERT_TRUE(one && other);
-        EXPECT_EQ(one->circuit->elements[1].values.at("delvto"), other->circuit->elements[1].values.at("delvto"));
-        EXPECT_EQ(one->circuit->models[0].values.at("vto"), other->circuit->models[0].values.at("vto"));
-        seen.push_back(one->circuit->elements[1].values.at("delvto"));
+        EXPECT_EQ(one->draw->chip, k);
+        EXPECT_EQ(one->draw->seed, other->draw->seed);
+        for (int d = 0; d < 4; ++d) EXPECT_EQ(one->draw->process[d], other->draw->process[d]);
     }
-    EXPECT_NE(seen[0], seen[1]);
+}
+
+/// A mirror and an inverter between mismatched transistors; `more` on the lines of its four.
+std::string four_transistors(const std::array<std::string, 4>& more) {
+    return fmt::format(
+        "t\nv1 v 0 0.7\ni1 v a 20n\nm1 a a 0 0 n w=2u l=1u{}\nm2 b a 0 0 n w=2u l=1u{}\nm3 b b v v p w=6u l=1u{}\nm4 c b v v p w=6u "
+        "l=1u{}\n"
+        "r1 c 0 10meg\n.model n nmos(level=80 avt=3e-9 ais=1e-8 svt0=10m zetal=0.02u)\n"
+        ".model p pmos(level=80 isq=28n avt=4e-9 ais=1e-8 svt0=10m)\n.op\n",
+        more[0], more[1], more[2], more[3]);
+}
+
+TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
+    auto drawn = bench_of(four_transistors({}));
+    const auto& circuit = *drawn->circuit;
+    for (std::uint64_t chip = 0; chip < 50; ++chip) {
+        Draw draw{9, chip, true, {}};
+        std::copy_n(process_deviates(9, chip).of, 4, draw.process);
+        drawn->draw(draw);
+        std::array<std::string, 4> more;
+        std::uint32_t device = 0;
+        for (const auto& e : circuit.elements) {
+            if (e.letter != 'm') continue;
+            const auto& model = circuit.models[static_cast<std::size_t>(e.model)];
+            const auto card = *card_from<UicmCard>(UicmCard::fields, model, {"level"});
+            UicmInstance size;
+            size.W = e.values.at("w"), size.L = e.values.at("l");
+            const auto own = mismatch(card, size, 9, device, chip), all = process(card, model.type == "pmos", draw.process);
+            more[device++] = fmt::format(" delvto={:.17g} mulu0={:.17g}", own.V_T + all.V_T, own.factor);
+        }
+        const auto written = bench_of(four_transistors(more));
+        const auto a = drawn->rest(), b = written->rest();
+        ASSERT_TRUE(a && b);
+        for (std::size_t n = 0; n < a->x.size(); ++n) EXPECT_NEAR(a->x[n], b->x[n], 1e-5 * std::abs(b->x[n])) << n;
+    }
+}
+
+TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
+    const char* const before = std::getenv("CORPUSCLE_ISA");
+    const std::string kept = before ? before : "";
+    std::vector<std::vector<double>> first;
+    for (const auto set : instruction_sets()) {
+        ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
+        auto bench = bench_of(four_transistors({}));
+        for (std::uint64_t chip = 0; chip < 20; ++chip) {
+            bench->draw({9, chip, true, {}});
+            const auto rest = bench->rest();
+            ASSERT_TRUE(rest);
+            if (first.size() <= chip) first.push_back(rest->x);
+            EXPECT_EQ(rest->x, first[chip]) << name_of(set) << ", chip " << chip;
+        }
+    }
+    before ? ::setenv("CORPUSCLE_ISA", kept.c_str(), 1) : ::unsetenv("CORPUSCLE_ISA");
 }
 
 TEST(Variants, ABillionStepsAreRefusedAtOnce) {

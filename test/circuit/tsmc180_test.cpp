@@ -12,6 +12,7 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/device/uicm_point.hpp"
 #include "circuit/netlist/netlist.hpp"
+#include "support/places.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -24,7 +25,7 @@ UicmCard model(const std::string& section, const std::string& name) {
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
     const auto netlist = Netlist::parse("a card\n.lib 'tsmc180.lib' " + section + "\nm1 d g s b " + name + " w=1u l=1u\n.end\n",
-                                        CORPUSCLE_ROOT "/process/x.cir", open);
+                                        test::root() + "/process/x.cir", open);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), UicmCard{};
     const auto circuit = netlist->elaborate();
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), UicmCard{};

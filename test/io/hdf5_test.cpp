@@ -156,7 +156,7 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
     H5Tclose(complex);
 }
 
-std::string seed(const char* name) { return test::read_file(std::string(CORPUSCLE_ROOT "/test/fuzz/seeds/hdf5/") + name).substr(1); }
+std::string seed(const char* name) { return test::read_file(test::root() + "/test/fuzz/seeds/hdf5/" + name).substr(1); }
 
 TEST(Hdf5, AnyDamageIsAnErrorOrIsRead) {
     const Folder folder;

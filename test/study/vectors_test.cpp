@@ -7,8 +7,8 @@
 namespace corpuscle {
 namespace {
 
-const std::string kept = CORPUSCLE_ROOT "/test/study/vectors/",
-                  python = "/usr/bin/python3 " CORPUSCLE_ROOT "/test/model/fixed_reference.py";
+const std::string kept = test::root() + "/test/study/vectors/",
+                  python = "/usr/bin/python3 " + test::root() + "/test/model/fixed_reference.py";
 
 /// Writes the vectors of some afferents under some stimuli at 2 kHz.
 std::vector<std::string> write(const test::Folder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,

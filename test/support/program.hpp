@@ -15,7 +15,7 @@ struct Ran {
 inline Ran run(const Folder& folder, const std::string& words) {
     const auto out = folder / ".out", err = folder / ".err";
     const int status =
-        std::system(("cd '" + folder.path() + "' && '" CORPUSCLE_PROGRAM "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+        std::system(("cd '" + folder.path() + "' && '" + test::program() + "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
     Ran ran{WEXITSTATUS(status), read_file(out), read_file(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);

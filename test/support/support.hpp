@@ -10,6 +10,7 @@
 
 #include "model/catalog.hpp"
 #include "signal/stimuli.hpp"
+#include "support/places.hpp"
 
 namespace corpuscle::test {
 
@@ -116,7 +117,7 @@ public:
 /// Recordings made by others lie beside the project, not in it: CORPUSCLE_DATA, else ../shared/data.
 inline std::string shared(const std::string& name) {
     const char* set = std::getenv("CORPUSCLE_DATA");
-    return (std::filesystem::path(set ? set : CORPUSCLE_ROOT "/../shared/data") / name).lexically_normal().string();
+    return (std::filesystem::path(set ? set : root() + "/../shared/data") / name).lexically_normal().string();
 }
 
 }  // namespace corpuscle::test

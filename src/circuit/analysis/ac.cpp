@@ -6,10 +6,10 @@
 
 namespace corpuscle::circuit {
 
-Result<Findings> analyse_ac(const TestBench& bench, const Command& c) {
+Result<Findings> analyse_ac(TestBench& bench, const Command& c) {
     const auto frequencies = frequencies_of(c, 0);
     if (!frequencies) return frequencies.error();
-    const auto rest = operating_point(bench.system, bench.tolerances);
+    const auto rest = bench.rest();
     if (!rest) return rest.error();
     const auto& system = bench.system;
     const auto sums = sums_at(bench, rest->x);

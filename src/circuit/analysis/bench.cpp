@@ -8,12 +8,30 @@
 
 namespace corpuscle::circuit {
 
-Result<TestBench> TestBench::make(std::shared_ptr<const Circuit> circuit) {
+TestBench::TestBench(std::shared_ptr<const Circuit> c, System s, const Tolerances& t)
+    : circuit(std::move(c)), system(std::move(s)), tolerances(t), newton(system, t) {}
+
+Result<std::unique_ptr<TestBench>> TestBench::make(std::shared_ptr<const Circuit> circuit) {
     auto tolerances = Tolerances::of(*circuit);
     if (!tolerances) return tolerances.error();
     auto system = System::make(circuit);
     if (!system) return system.error();
-    return TestBench{std::move(circuit), std::move(*system), *tolerances, {}};
+    return std::unique_ptr<TestBench>(new TestBench(std::move(circuit), std::move(*system), *tolerances));
+}
+
+Result<OperatingPoint> TestBench::rest() {
+    if (rest_) return *rest_;
+    auto found = operating_point(newton, designed_);
+    if (found) rest_ = *found;
+    return found;
+}
+
+void TestBench::draw(const Draw& chip) {
+    if (!drawn_)
+        if (const auto found = rest(); found) designed_ = found->x;
+    drawn_ = chip;
+    system.draw(&chip);
+    rest_.reset();
 }
 
 Error interruption() { return {Code::interrupted, "interrupted"}; }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,15 +20,30 @@ struct Findings {
     std::vector<Error> remarks;
 };
 
-/// A circuit ready for its analyses. Asked now and then by long work whether to stop.
-struct TestBench {
+/// A circuit ready for its analyses; one chip of it after another, if it is drawn.
+class TestBench {
+    std::optional<OperatingPoint> rest_;
+    std::vector<double> designed_;  // where the circuit rests as designed: each chip's search begins there
+    std::optional<Draw> drawn_;
+
+    TestBench(std::shared_ptr<const Circuit>, System, const Tolerances&);
+
+public:
     std::shared_ptr<const Circuit> circuit;
     System system;
     Tolerances tolerances;
-    std::function<bool(double share)> stop;  ///< told how far the work is; true: stop
+    Newton newton;
+    std::function<bool(double share)> stop{};  ///< asked now and then, told how far the work is; true: stop
+    bool brief = false;                        ///< one of many: tables for people and warnings are not wanted
 
-    static Result<TestBench> make(std::shared_ptr<const Circuit>);
+    static Result<std::unique_ptr<TestBench>> make(std::shared_ptr<const Circuit>);
+    TestBench(const TestBench&) = delete;
+
     bool stopped(double share) const { return stop && stop(share); }
+    /// Where the circuit rests; searched for once.
+    Result<OperatingPoint> rest();
+    void draw(const Draw&);
+    const std::optional<Draw>& drawn() const { return drawn_; }
 };
 
 Error interruption();

@@ -1,6 +1,7 @@
 // .dc: operating points along one or two sweeps, each found from the one before, so that hysteresis shows.
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "circuit/analyses.hpp"
@@ -51,38 +52,50 @@ std::string name_of(const std::string& what) {
     return what == "temp" ? "temp-sweep" : what[0] == 'i' ? "i-sweep" : what[0] == 'v' ? "v-sweep" : "res-sweep";
 }
 
-/// The system that a sweep works on: its own, for it changes values.
+/// The bench that a sweep works on: the given one, whose sources it leaves as they were; at another temperature one of its own.
 class Swept {
-    std::shared_ptr<const Circuit> circuit_;
-    std::optional<TestBench> bench_;
-    std::vector<std::pair<std::string, double>> set_;
+    TestBench& given_;
+    std::unique_ptr<TestBench> other_;
+    struct Source {
+        std::string name;
+        double before, now;
+    };
+    std::vector<Source> sources_;
 
 public:
-    explicit Swept(std::shared_ptr<const Circuit> circuit) : circuit_(std::move(circuit)) {}
-    TestBench& bench() { return *bench_; }
+    explicit Swept(TestBench& given) : given_(given) {}
+    Swept(const Swept&) = delete;
+    ~Swept() {
+        for (const auto& s : sources_) given_.system.device(s.name)->set(s.before);
+    }
+    TestBench& bench() { return other_ ? *other_ : given_; }
 
-    Result<void> set(const std::string& what, double value) {
-        if (what == "temp" || !bench_) {
-            auto copy = std::make_shared<Circuit>(*circuit_);
-            if (what == "temp") copy->temperature = value;
-            circuit_ = copy;
-            auto made = TestBench::make(circuit_);
-            if (!made) return made.error();
-            bench_.emplace(std::move(*made));
-            for (const auto& [name, v] : set_) bench_->system.device(name)->set(v);
-        }
-        if (what == "temp") return {};
-        std::erase_if(set_, [&](const auto& s) { return s.first == what; });
-        set_.emplace_back(what, value);
-        if (!bench_->system.device(what)->set(value))
-            return bad_input(fmt::format(".dc: {} cannot be {:g}", what, value), Place{circuit_->file});
+    Result<void> set(const std::string& what, double value) { return what == "temp" ? temperature(value) : source(what, value); }
+
+private:
+    Result<void> temperature(double value) {
+        auto copy = std::make_shared<Circuit>(*given_.circuit);
+        copy->temperature = value;
+        auto made = TestBench::make(std::move(copy));
+        if (!made) return made.error();
+        other_ = std::move(*made);
+        if (given_.drawn()) other_->draw(*given_.drawn());
+        for (const auto& s : sources_) other_->system.device(s.name)->set(s.now);
+        return {};
+    }
+    Result<void> source(const std::string& name, double value) {
+        auto at = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.name == name; });
+        if (at == sources_.end()) at = sources_.insert(at, {name, given_.system.device(name)->setting().value_or(0), value});
+        at->now = value;
+        if (!bench().system.device(name)->set(value))
+            return bad_input(fmt::format(".dc: {} cannot be {:g}", name, value), Place{given_.circuit->file});
         return {};
     }
 };
 
 }  // namespace
 
-Result<Findings> analyse_dc(const TestBench& given, const Command& c) {
+Result<Findings> analyse_dc(TestBench& given, const Command& c) {
     auto words = c;
     const bool both = !words.words.empty() && words.words.back() == "updown";
     if (both) words.words.pop_back();
@@ -104,7 +117,7 @@ Result<Findings> analyse_dc(const TestBench& given, const Command& c) {
         return bad_input(fmt::format(".dc: {} times {} points; at most 10000000", values.size(), outers.size()), c.place);
 
     Plot plot = plot_of(given.system, "DC transfer characteristic", name_of(inner->what), type_of(inner->what));
-    Swept swept(given.circuit);
+    Swept swept(given);
     for (std::size_t k = 0; k < outers.size(); ++k) {
         if (outer)
             if (auto ok = swept.set(outer->what, outers[k]); !ok) return ok.error();
@@ -114,7 +127,7 @@ Result<Findings> analyse_dc(const TestBench& given, const Command& c) {
                 return interruption();
             if (auto ok = swept.set(inner->what, values[j]); !ok) return ok.error();
             auto& bench = swept.bench();
-            const auto found = operating_point(bench.system, bench.tolerances, x);
+            const auto found = operating_point(bench.newton, x);
             if (!found) {
                 auto error = found.error();
                 error.sentence = fmt::format(".dc at {} = {:g}{}: {}", inner->what, values[j],

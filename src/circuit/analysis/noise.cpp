@@ -27,7 +27,7 @@ double area(double f0, double s0, double f1, double s1) {
 
 }  // namespace
 
-Result<Findings> analyse_noise(const TestBench& bench, const Command& c) {
+Result<Findings> analyse_noise(TestBench& bench, const Command& c) {
     const auto& system = bench.system;
     const auto out = wanted_of(system, c, 0);
     if (!out) return out.error();
@@ -37,7 +37,7 @@ Result<Findings> analyse_noise(const TestBench& bench, const Command& c) {
         return bad_input(fmt::format(".noise: '{}' is no independent source", c.words[1]), c.place);
     const auto frequencies = frequencies_of(c, 2);
     if (!frequencies) return frequencies.error();
-    const auto rest = operating_point(system, bench.tolerances);
+    const auto rest = bench.rest();
     if (!rest) return rest.error();
     const auto sums = sums_at(bench, rest->x);
 

@@ -39,13 +39,13 @@ std::string table_of(const System& system, std::span<const double> x) {
 }
 
 /// A second look from elsewhere: all nodes high. Its answer, if it is another one.
-std::optional<Error> other_state(const TestBench& bench, const OperatingPoint& found) {
+std::optional<Error> other_state(TestBench& bench, const OperatingPoint& found) {
     if (bench.system.linear() || !bench.circuit->nodesets.empty()) return {};
     double high = 0;
     for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n) high = std::max(high, std::abs(found.x[n]));
     std::vector<double> start(found.x.size());
     for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n) start[n] = high;
-    const auto again = operating_point(bench.system, bench.tolerances, std::move(start));
+    const auto again = operating_point(bench.newton, std::move(start));
     if (!again) return {};
     for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n)
         if (std::abs(again->x[n] - found.x[n]) > 1e-3)
@@ -59,14 +59,15 @@ std::optional<Error> other_state(const TestBench& bench, const OperatingPoint& f
 
 }  // namespace
 
-Result<Findings> analyse_op(const TestBench& bench, const Command& c) {
+Result<Findings> analyse_op(TestBench& bench, const Command& c) {
     if (!c.words.empty()) return bad_input(fmt::format(".op takes no words, such as '{}'", c.words[0]), c.place);
-    const auto found = operating_point(bench.system, bench.tolerances);
+    const auto found = bench.rest();
     if (!found) return found.error();
     Findings out;
     Plot plot = plot_of(bench.system, "Operating Point", "", "");
     for (std::size_t n = 0; n < found->x.size(); ++n) plot.curves[n].values.emplace_back(found->x[n]);
     out.plots.push_back(std::move(plot));
+    if (bench.brief) return out;
     out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}", found->how, found->iterations, bench.tolerances.gmin,
                             table_of(bench.system, found->x));
     if (auto other = other_state(bench, *found)) out.remarks.push_back(std::move(*other));

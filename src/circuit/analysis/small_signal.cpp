@@ -16,8 +16,8 @@ struct Line {
     Solver<double> solver;
 };
 
-Result<Line> line_of(const TestBench& bench, const Command& c) {
-    const auto rest = operating_point(bench.system, bench.tolerances);
+Result<Line> line_of(TestBench& bench, const Command& c) {
+    const auto rest = bench.rest();
     if (!rest) return rest.error();
     Line line{rest->x, sums_at(bench, rest->x), Solver<double>(bench.system.pattern())};
     if (!line.solver.factor(std::span<const double>(line.sums.G).first(bench.system.pattern().entries())))
@@ -31,7 +31,7 @@ void add(std::vector<double>& to, int unknown, double value) {
 
 }  // namespace
 
-Result<Findings> analyse_tf(const TestBench& bench, const Command& c) {
+Result<Findings> analyse_tf(TestBench& bench, const Command& c) {
     const auto out = wanted_of(bench.system, c, 0);
     if (!out) return out.error();
     if (c.words.size() != 2) return bad_input(fmt::format(".tf: {} words; it is .tf OUTPUT SOURCE", c.words.size()), c.place);
@@ -77,7 +77,7 @@ Result<Findings> analyse_tf(const TestBench& bench, const Command& c) {
 }
 
 /// d out / d p = -lambda . df/dp, with G^T lambda = the output's direction; df/dp of one device, by a small change of its value.
-Result<Findings> analyse_sens(const TestBench& bench, const Command& c) {
+Result<Findings> analyse_sens(TestBench& bench, const Command& c) {
     const auto out = wanted_of(bench.system, c, 0);
     if (!out) return out.error();
     auto line = line_of(bench, c);

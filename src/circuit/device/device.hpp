@@ -2,6 +2,7 @@
 // A device says its currents, charges and slopes, once; operating points, sweeps, spectra and noise are uses of them.
 
 #include <complex>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,8 +18,9 @@ namespace corpuscle::circuit {
 /// Under what a device is looked at.
 struct Instant {
     double time = 0;
-    double sources = 1;  ///< what part of their value sources give: less than 1 on the way to an operating point
-    double gmin = 0;     ///< S, beside every junction
+    double sources = 1;   ///< what part of their value sources give: less than 1 on the way to an operating point
+    double gmin = 0;      ///< S, beside every junction
+    bool charges = true;  ///< false: nobody asks for charges and capacitances
 };
 
 /// What a device adds: for each of its unknowns (terminals, then its own) the current out of the node into the device and the charge that
@@ -42,6 +44,13 @@ struct Reading {
     double value;
 };
 
+/// What makes one chip differ from the next, drawn for (seed, chip).
+struct Draw {
+    std::uint64_t seed = 0, chip = 0;
+    bool mismatch = true;    ///< whether each device draws its own
+    double process[4] = {};  ///< what all share, as normal deviates: V_T0 of NMOS and PMOS, then I_SQ of both
+};
+
 class Device {
 public:
     std::string name;
@@ -63,10 +72,29 @@ public:
     virtual std::optional<double> setting() const { return {}; }
     virtual void drive(std::span<std::complex<double>>) const {}
 
+    /// Its own part of a draw, as the device of this number among those that draw; null: as designed. False: it never differs.
+    virtual bool draw(const Draw*, std::uint32_t) { return false; }
+
     /// At the operating point; v as in eval.
     virtual std::vector<NoiseSource> noise(std::span<const double>) const { return {}; }
     virtual std::vector<Reading> readings(std::span<const double>) const { return {}; }
-    virtual std::string_view state(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...
+    virtual std::string state(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...
+};
+
+/// Where devices of one kind are looked at together: rows of `room` numbers, one a device, on 64 bytes; else as in Stamp.
+struct BankStamp {
+    std::size_t room;
+    const double* v;
+    double *f, *df;
+    double *q, *dq;  ///< null: not asked
+};
+
+/// Devices of one kind, side by side on lanes; `room` is a multiple of 8, and the last device fills what is over.
+class Bank {
+public:
+    virtual ~Bank() = default;
+    virtual void take(std::span<const Device* const>) = 0;  ///< their numbers, at first and whenever they have changed
+    virtual void eval(const Instant&, const BankStamp&) const = 0;
 };
 
 /// Where a device gets its unknowns when it is made.

@@ -3,96 +3,103 @@
 #include <cmath>
 
 #include "circuit/device/constants.hpp"
-#include "circuit/device/uicm.hpp"
 #include "circuit/device/uicm_card.hpp"
+#include "circuit/device/uicm_point.hpp"
 #include "circuit/device/values.hpp"
+#include "circuit/lanes/transistors_on.hpp"
+#include "signal/instruction_set.hpp"
 
 namespace corpuscle::circuit {
+
+const lanes::TransistorLanes lanes::one_by_one = lanes::transistor_lanes<double>;
+
 namespace {
+
+struct Voltages {
+    double v[4];
+    explicit Voltages(std::span<const double> at) : v{at[0], at[1], at[2], at[3]} {}
+};
 
 /// Unknowns: drain, gate, source, bulk.
 class Transistor final : public Device {
-    UicmConstants constants_;
+    UicmCard card_;
+    UicmInstance size_;
+    bool pmos_;
+    UicmConstants designed_, constants_;
     Uicm<double> uicm_;
 
-    struct Voltages {
-        double v[4];
-        explicit Voltages(std::span<const double> at) : v{at[0], at[1], at[2], at[3]} {}
-    };
-    UicmAnswer<double> answer(std::span<const double> v) const {
-        UicmAnswer<double> out;
-        uicm_.eval(Voltages(v).v, out);
-        return out;
-    }
-
 public:
-    explicit Transistor(const UicmConstants& c) : constants_(c), uicm_(c) {}
+    Transistor(const UicmCard& card, const UicmInstance& size, double temperature, bool pmos)
+        : card_(card), size_(size), pmos_(pmos), designed_(uicm_constants(card, size, temperature, pmos)), constants_(designed_),
+          uicm_(constants_) {}
+    const UicmConstants& constants() const { return constants_; }
     bool linear() const override { return false; }
 
     void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
-        const auto a = answer(v);
-        for (std::size_t row = 0; row < 4; ++row) {
-            out.f[row] += a.i[row], out.q[row] += a.q[row];
-            for (std::size_t column = 0; column < 4; ++column) {
-                out.slope(row, column) += a.di[row][column];
-                out.capacitance(row, column) += a.dq[row][column];
-            }
-        }
-        for (const std::size_t end : {Terminals::D, Terminals::S}) {
-            const double i = at.gmin * (v[Terminals::B] - v[end]);
-            out.f[Terminals::B] += i, out.f[end] -= i;
-            out.slope(Terminals::B, Terminals::B) += at.gmin, out.slope(Terminals::B, end) -= at.gmin;
-            out.slope(end, Terminals::B) -= at.gmin, out.slope(end, end) += at.gmin;
-        }
+        lanes::one_by_one.eval({reinterpret_cast<const std::byte*>(&uicm_), 1, v.data(), at.gmin, out.f.data(), out.df.data(),
+                                at.charges ? out.q.data() : nullptr, out.dq.data()});
+    }
+
+    bool draw(const Draw* chip, std::uint32_t number) override {
+        constants_ = chip == nullptr
+                         ? designed_
+                         : shifted(designed_, chip->mismatch ? mismatch(card_, size_, chip->seed, number, chip->chip) : UicmShift{},
+                                   process(card_, pmos_, chip->process));
+        uicm_ = Uicm<double>(constants_);
+        return true;
     }
 
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
         const auto n = uicm_.noise(Voltages(v).v);
-        std::vector<NoiseSource> out = {{"channel", Terminals::D, Terminals::S, n.thermal, n.flicker},
-                                        {"source junction", Terminals::B, Terminals::S, n.shot_s, 0},
-                                        {"drain junction", Terminals::B, Terminals::D, n.shot_d, 0}};
-        return out;
+        return {{"channel", Terminals::D, Terminals::S, n.thermal, n.flicker},
+                {"source junction", Terminals::B, Terminals::S, n.shot_s, 0},
+                {"drain junction", Terminals::B, Terminals::D, n.shot_d, 0}};
     }
 
     std::vector<Reading> readings(std::span<const double> v) const override {
-        const auto a = answer(v);
-        const auto inside = uicm_.inside(Voltages(v).v);
-        const auto D = Terminals::D, G = Terminals::G, S = Terminals::S, B = Terminals::B;
-        const double sign = constants_.polarity;
-        const double g_d = a.di[D][D] - junction_slope(a, D), g_s = a.di[S][S] - junction_slope(a, S);
-        return {{"i_d", "A", sign * inside.I},
-                {"i_f", "", inside.q_S * (inside.q_S + 2)},
-                {"i_r", "", inside.q_D * (inside.q_D + 2)},
-                {"g_mg", "S", a.di[D][G]},
-                {"g_ms", "S", g_s},
-                {"g_md", "S", g_d},
-                {"g_mb", "S", g_s - g_d - a.di[D][G]},
-                {"v_t", "V", sign * constants_.V_T},
-                {"i_bulk", "A", a.i[B]},
-                {"i_off", "A", off(v)},
-                {"c_gs", "F", -a.dq[G][S]},
-                {"c_gd", "F", -a.dq[G][D]},
-                {"c_gb", "F", -a.dq[G][B]},
-                {"c_bs", "F", -a.dq[B][S]},
-                {"c_bd", "F", -a.dq[B][D]}};
+        const auto p = uicm_point(constants_, Voltages(v).v);
+        return {{"i_d", "A", p.I_D},   {"i_f", "", p.i_f},    {"i_r", "", p.i_r},     {"g_mg", "S", p.g_mg},
+                {"g_ms", "S", p.g_ms}, {"g_md", "S", p.g_md}, {"g_mb", "S", p.g_mb},  {"v_t", "V", p.V_T},
+                {"i_bs", "A", p.I_bs}, {"i_bd", "A", p.I_bd}, {"i_off", "A", off(v)}, {"c_gs", "F", p.C_gs},
+                {"c_gd", "F", p.C_gd}, {"c_gb", "F", p.C_gb}, {"c_bs", "F", p.C_bs},  {"c_bd", "F", p.C_bd}};
     }
-
-    std::string_view state(std::span<const double> v) const override {
-        const auto inside = uicm_.inside(Voltages(v).v);
-        const double more = std::max(inside.q_S, inside.q_D), less = std::min(inside.q_S, inside.q_D), i = more * (more + 2);
-        if (i < 1e-6) return "off";
-        const bool saturated = less * (less + 2) < 0.05 * i;
-        if (i < 1) return saturated ? "weak, saturation" : "weak, triode";
-        if (i < 100) return saturated ? "moderate, saturation" : "moderate, triode";
-        return saturated ? "strong, saturation" : "strong, triode";
+    std::string state(std::span<const double> v) const override {
+        const auto p = uicm_point(constants_, Voltages(v).v);
+        return p.inversion == "off" ? "off" : fmt::format("{}, {}", p.inversion, p.region);
     }
 
 private:
-    static double junction_slope(const UicmAnswer<double>& a, int end) { return -a.di[Terminals::B][end]; }
     /// What would flow from drain to source if the gate were at the source.
     double off(std::span<const double> v) const {
         const double at[4] = {v[Terminals::D], v[Terminals::S], v[Terminals::S], v[Terminals::B]};
         return constants_.polarity * uicm_.inside(at).I;
+    }
+};
+
+class TransistorBank final : public Bank {
+    struct alignas(64) Line {
+        std::byte bytes[64];
+    };
+    const lanes::TransistorLanes& lanes_;
+    std::vector<Line> models_;
+
+public:
+    explicit TransistorBank(const lanes::TransistorLanes& lanes) : lanes_(lanes) {}
+
+    void take(std::span<const Device* const> devices) override {
+        UicmConstants some[lanes::widest];
+        const auto room = (devices.size() + lanes::widest - 1) / lanes::widest * lanes::widest;
+        models_.resize((room / lanes_.lanes * lanes_.model_bytes + sizeof(Line) - 1) / sizeof(Line));
+        auto* at = models_.data()->bytes;
+        for (std::size_t k = 0; k < room; k += lanes_.lanes, at += lanes_.model_bytes) {
+            for (std::size_t l = 0; l < lanes_.lanes; ++l)
+                some[l] = static_cast<const Transistor*>(devices[std::min(k + l, devices.size() - 1)])->constants();
+            lanes_.build(at, some);
+        }
+    }
+
+    void eval(const Instant& at, const BankStamp& s) const override {
+        lanes_.eval({models_.data()->bytes, s.room, s.v, at.gmin, s.f, s.df, s.q, s.dq});
     }
 };
 
@@ -124,9 +131,21 @@ Result<std::unique_ptr<Device>> make_transistor(const Element& e, Setup& setup) 
     if (!card) return card.error();
     const auto size = size_of(e);
     if (!size) return size.error();
-    auto device = std::make_unique<Transistor>(uicm_constants(*card, *size, setup.temperature(e) - zero_celsius, model.type == "pmos"));
+    auto device = std::make_unique<Transistor>(*card, *size, setup.temperature(e) - zero_celsius, model.type == "pmos");
     for (const int node : e.nodes) device->unknowns.push_back(setup.node(node));
     return std::unique_ptr<Device>(std::move(device));
+}
+
+Result<std::unique_ptr<Bank>> make_transistor_bank() {
+    const auto set = instruction_set();
+    if (!set) return set.error();
+    const auto& lanes = *set == InstructionSet::scalar ? lanes::one_by_one
+#ifdef __x86_64__
+                        : *set == InstructionSet::avx512 ? lanes::avx512::transistors
+                        : *set == InstructionSet::avx2   ? lanes::avx2::transistors
+#endif
+                                                       : lanes::baseline::transistors;
+    return std::unique_ptr<Bank>(std::make_unique<TransistorBank>(lanes));
 }
 
 }  // namespace corpuscle::circuit

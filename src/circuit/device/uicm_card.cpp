@@ -60,18 +60,39 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, doubl
     return c;
 }
 
-UicmInstance with_mismatch(UicmInstance at, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
+UicmShift mismatch(const UicmCard& card, const UicmInstance& at, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
     const double per_side = 1 / num::sqrt(at.area());
-    at.delvto += card.A_VT * per_side * normal(seed, device, mismatch_of_vto, chip);
-    at.mulu0 *= num::exp(card.A_IS * per_side * normal(seed, device, mismatch_of_isq, chip));
+    return {card.A_VT * per_side * normal(seed, device, mismatch_of_vto, chip),
+            num::exp(card.A_IS * per_side * normal(seed, device, mismatch_of_isq, chip))};
+}
+
+UicmInstance with_mismatch(UicmInstance at, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
+    const UicmShift own = mismatch(card, at, seed, device, chip);
+    at.delvto += own.V_T, at.mulu0 *= own.factor;
     return at;
 }
 
+ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip) {
+    return {normal(seed, 0, process_of_vto, chip), normal(seed, 1, process_of_vto, chip), normal(seed, 0, process_of_isq, chip),
+            normal(seed, 1, process_of_isq, chip)};
+}
+
+UicmShift process(const UicmCard& card, bool pmos, const double (&deviates)[4]) {
+    return {card.S_VT0 * deviates[pmos ? 1 : 0], num::exp(card.S_IS * deviates[pmos ? 3 : 2])};
+}
+
 UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_t chip) {
-    const std::uint32_t polarity = pmos ? 1 : 0;
-    card.V_T0 += card.S_VT0 * normal(seed, polarity, process_of_vto, chip);
-    card.I_SQ *= num::exp(card.S_IS * normal(seed, polarity, process_of_isq, chip));
+    const UicmShift all = process(card, pmos, process_deviates(seed, chip).of);
+    card.V_T0 += all.V_T, card.I_SQ *= all.factor;
     return card;
+}
+
+UicmConstants shifted(UicmConstants c, const UicmShift& own, const UicmShift& process) {
+    const double factor = own.factor * process.factor;
+    c.V_T += own.V_T + process.V_T;
+    c.I_S *= factor, c.thermal *= factor, c.flicker *= factor;
+    c.zeta *= own.factor;
+    return c;
 }
 
 }  // namespace corpuscle::circuit

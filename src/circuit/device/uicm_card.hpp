@@ -83,11 +83,27 @@ inline constexpr double junction_current_top = 10e-3;
 /// temperature in C.
 UicmConstants uicm_constants(const UicmCard&, const UicmInstance&, double temperature, bool pmos);
 
-/// The instance with a mismatch of its own added, drawn for (seed, device, chip): vto by A_VT / sqrt(area), I_SQ by a factor exp(A_IS /
-/// sqrt(area) times a normal deviate), over the gate area of the whole array. `device` numbers the transistors of a netlist.
+/// How a transistor differs from its design.
+struct UicmShift {
+    double V_T = 0, factor = 1;  ///< V; of I_SQ
+};
+
+/// A transistor's own part, drawn for (seed, device, chip): A_VT / sqrt(area) times a normal deviate, and exp(A_IS / sqrt(area) times
+/// another), over the gate area of the whole array. `device` numbers the transistors of a netlist.
+UicmShift mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
+/// The same as the instance's delvto and mulu0.
 UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 
-/// The card as the process made it on one chip, drawn for (seed, polarity, chip): the same for all its transistors.
+/// What all transistors of a chip share, as normal deviates drawn for (seed, chip): V_T0 of NMOS and of PMOS, then I_SQ of both.
+struct ProcessDeviates {
+    double of[4];
+};
+ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip);
+UicmShift process(const UicmCard&, bool pmos, const double (&deviates)[4]);
+/// The card as the process made it on one chip.
 UicmCard with_process(UicmCard, bool pmos, std::uint64_t seed, std::uint64_t chip);
+
+/// The numbers of a transistor that its own part and the process have shifted: those of with_mismatch and with_process, to rounding.
+UicmConstants shifted(UicmConstants, const UicmShift& own, const UicmShift& process);
 
 }  // namespace corpuscle::circuit

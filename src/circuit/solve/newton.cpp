@@ -20,7 +20,8 @@ double reach(const System& system) {
 }  // namespace
 
 Newton::Newton(const System& s, const Tolerances& t) : system(s), tolerances(t), solver(s.pattern()), memory(s.fresh_memory()) {
-    instant.gmin = t.gmin;
+    instant.gmin = t.gmin, instant.charges = false;
+    step.resize(static_cast<std::size_t>(s.size()));
 }
 
 bool Newton::balanced() const {
@@ -35,7 +36,6 @@ bool Newton::run(std::vector<double>& x, const Springs& springs, int most) {
     const auto count = static_cast<std::size_t>(system.size()), nodes = static_cast<std::size_t>(system.nodes());
     const bool linear = system.linear();
     const double cap = linear ? 0 : reach(system);
-    std::vector<double> step(count);
     bool close = false;  // the last step was small
     singular = -1;
     for (int k = 0; k < (most > 0 ? most : tolerances.itl1); ++k) {

@@ -11,8 +11,8 @@ namespace {
 
 /// One way after another, from where the last good answer was.
 class Search {
+    Newton& newton_;
     const System& system_;
-    Newton newton_;
     std::vector<double> start_, last_;  // last: where plain Newton gave up
     std::size_t nodes_;
 
@@ -97,9 +97,10 @@ class Search {
     }
 
 public:
-    Search(const System& system, const Tolerances& t, std::vector<double> start)
-        : system_(system), newton_(system, t), start_(std::move(start)), nodes_(static_cast<std::size_t>(system.nodes())) {
-        start_.resize(static_cast<std::size_t>(system.size()));
+    Search(Newton& newton, std::vector<double> start)
+        : newton_(newton), system_(newton.system), start_(std::move(start)), nodes_(static_cast<std::size_t>(system_.nodes())) {
+        start_.resize(static_cast<std::size_t>(system_.size()));
+        newton_.iterations = 0;
     }
 
     Result<OperatingPoint> run() {
@@ -156,8 +157,6 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
     return t;
 }
 
-Result<OperatingPoint> operating_point(const System& system, const Tolerances& t, std::vector<double> start) {
-    return Search(system, t, std::move(start)).run();
-}
+Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start) { return Search(newton, std::move(start)).run(); }
 
 }  // namespace corpuscle::circuit

@@ -31,7 +31,7 @@ struct Springs {
     std::vector<double> g, to;
 };
 
-/// Newton's steps from x on; x is left where they ended. False: they did not arrive.
+/// Newton's steps from x on; x is left where they ended. False: they did not arrive. Bound to its system, whose matrix it has analysed.
 struct Newton {
     const System& system;
     Tolerances tolerances;
@@ -41,6 +41,7 @@ struct Newton {
     std::vector<double> memory;
     int iterations = 0;
     int singular = -1;  ///< the unknown at which the matrix was last found singular; -1: it was not
+    std::vector<double> step;
 
     Newton(const System&, const Tolerances&);
     bool balanced() const;  ///< whether the last sums are as good as zero
@@ -50,6 +51,6 @@ struct Newton {
 };
 
 /// From `start` (empty: 0 everywhere), with .nodeset first.
-Result<OperatingPoint> operating_point(const System&, const Tolerances&, std::vector<double> start = {});
+Result<OperatingPoint> operating_point(Newton&, std::vector<double> start = {});
 
 }  // namespace corpuscle::circuit

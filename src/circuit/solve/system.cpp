@@ -66,7 +66,39 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
             for (const int column : d->unknowns)
                 places.push_back(row >= 0 && column >= 0 ? system.pattern_->place(row, column) : system.pattern_->entries());
     }
+    if (auto ok = system.make_groups(); !ok) return ok.error();
+    system.linear_ = std::all_of(system.devices_.begin(), system.devices_.end(), [](const auto& d) { return d->linear(); });
     return system;
+}
+
+Result<void> System::make_groups() {
+    for (const auto& kind : circuit::devices) {
+        std::vector<std::size_t> members;
+        for (std::size_t k = 0; k < devices_.size(); ++k)
+            if (circuit_->elements[k].letter == kind.letter) members.push_back(k);
+        if (members.empty()) continue;
+        if (kind.bank == nullptr) {
+            alone_.insert(alone_.end(), members.begin(), members.end());
+            continue;
+        }
+        auto bank = kind.bank();
+        if (!bank) return bank.error();
+        const auto terminals = devices_[members[0]]->unknowns.size();
+        take(groups_.emplace_back(std::move(*bank), std::move(members), terminals));
+    }
+    return {};
+}
+
+void System::take(const Group& group) const {
+    std::vector<const Device*> members;
+    for (const auto k : group.members) members.push_back(devices_[k].get());
+    group.bank->take(members);
+}
+
+void System::draw(const Draw* chip) {
+    std::uint32_t number = 0;
+    for (const auto& d : devices_) number += d->draw(chip, number);
+    for (const auto& group : groups_) take(group);
 }
 
 int System::unknown(std::string_view name) const {
@@ -77,10 +109,6 @@ int System::unknown(std::string_view name) const {
 Device* System::device(std::string_view name) const {
     const auto at = std::find_if(devices_.begin(), devices_.end(), [&](const auto& d) { return d->name == name; });
     return at == devices_.end() ? nullptr : at->get();
-}
-
-bool System::linear() const {
-    return std::all_of(devices_.begin(), devices_.end(), [](const auto& d) { return d->linear(); });
 }
 
 std::vector<double> System::terminals(const Device& d, std::span<const double> x) const {
@@ -94,35 +122,69 @@ void System::eval(std::span<const double> x, const Instant& at, std::vector<doub
     sums.f.assign(count, 0), sums.q.assign(count, 0), sums.size.assign(count, 0), sums.grain.assign(count, 0);
     sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: of ground
     sums.limited = false;
-    for (std::size_t k = 0; k < devices_.size(); ++k) {
-        const Device& d = *devices_[k];
-        const auto n = d.unknowns.size();
-        if (sums.v_.size() < n) sums.v_.resize(n), sums.looked_.resize(n), sums.own_.resize(2 * n + 2 * n * n);
-        const auto v = std::span(sums.v_).first(n), looked = std::span(sums.looked_).first(n),
-                   own = std::span(sums.own_).first(2 * n + 2 * n * n);
-        for (std::size_t j = 0; j < n; ++j) v[j] = d.unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[j])];
-        std::copy(v.begin(), v.end(), looked.begin());
-        const bool limited = d.memory() > 0 && d.limit(looked, std::span(memory).subspan(memory_at_[k], d.memory()));
-        sums.limited |= limited;
-        std::fill(own.begin(), own.end(), 0.0);
-        const Stamp stamp{own.first(n), own.subspan(n, n), own.subspan(2 * n, n * n), own.subspan(2 * n + n * n)};
-        d.eval(looked, at, stamp);
-        const auto& places = places_[k];
-        for (std::size_t row = 0; row < n; ++row) {
-            double f = stamp.f[row], q = stamp.q[row], grain = 0;
-            for (std::size_t column = 0; column < n; ++column) {
-                if (limited) {
-                    f += stamp.slope(row, column) * (v[column] - looked[column]);
-                    q += stamp.capacitance(row, column) * (v[column] - looked[column]);
-                }
-                grain = std::max(grain, std::abs(stamp.slope(row, column) * v[column]));
-                sums.G[places[row * n + column]] += stamp.slope(row, column);
-                sums.C[places[row * n + column]] += stamp.capacitance(row, column);
+    for (const auto k : alone_) add_device(k, x, at, memory, sums);
+    for (const auto& group : groups_) add_group(group, x, at, sums);
+}
+
+void System::add_device(std::size_t k, std::span<const double> x, const Instant& at, std::vector<double>& memory, Sums& sums) const {
+    const Device& d = *devices_[k];
+    const auto n = d.unknowns.size();
+    if (sums.v_.size() < n) sums.v_.resize(n), sums.looked_.resize(n), sums.own_.resize(2 * n + 2 * n * n);
+    const auto v = std::span(sums.v_).first(n), looked = std::span(sums.looked_).first(n),
+               own = std::span(sums.own_).first(2 * n + 2 * n * n);
+    for (std::size_t j = 0; j < n; ++j) v[j] = d.unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[j])];
+    std::copy(v.begin(), v.end(), looked.begin());
+    const bool limited = d.memory() > 0 && d.limit(looked, std::span(memory).subspan(memory_at_[k], d.memory()));
+    sums.limited |= limited;
+    std::fill(own.begin(), own.end(), 0.0);
+    const Stamp stamp{own.first(n), own.subspan(n, n), own.subspan(2 * n, n * n), own.subspan(2 * n + n * n)};
+    d.eval(looked, at, stamp);
+    const auto& places = places_[k];
+    for (std::size_t row = 0; row < n; ++row) {
+        double f = stamp.f[row], q = stamp.q[row], grain = 0;
+        for (std::size_t column = 0; column < n; ++column) {
+            if (limited) {
+                f += stamp.slope(row, column) * (v[column] - looked[column]);
+                q += stamp.capacitance(row, column) * (v[column] - looked[column]);
             }
-            if (d.unknowns[row] < 0) continue;
-            const auto u = static_cast<std::size_t>(d.unknowns[row]);
-            sums.f[u] += f, sums.q[u] += q;
-            sums.size[u] = std::max(sums.size[u], std::abs(f));
+            grain = std::max(grain, std::abs(stamp.slope(row, column) * v[column]));
+            sums.G[places[row * n + column]] += stamp.slope(row, column);
+            sums.C[places[row * n + column]] += stamp.capacitance(row, column);
+        }
+        if (d.unknowns[row] < 0) continue;
+        const auto u = static_cast<std::size_t>(d.unknowns[row]);
+        sums.f[u] += f, sums.q[u] += q;
+        sums.size[u] = std::max(sums.size[u], std::abs(f));
+        sums.grain[u] = std::max(sums.grain[u], 1e-15 * grain);
+    }
+}
+
+void System::add_group(const Group& group, std::span<const double> x, const Instant& at, Sums& sums) const {
+    const auto n = group.terminals, room = group.room();
+    if (sums.side_by_side_.size() < (3 * n + 2 * n * n) * room / 8) sums.side_by_side_.resize((3 * n + 2 * n * n) * room / 8);
+    double* const v = sums.side_by_side_.data()->of;
+    double *const f = v + n * room, *const df = f + n * room, *const q = df + n * n * room, *const dq = q + n * room;
+    for (std::size_t k = 0; k < room; ++k) {
+        const auto& unknowns = devices_[group.members[std::min(k, group.members.size() - 1)]]->unknowns;
+        for (std::size_t j = 0; j < n; ++j) v[j * room + k] = unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(unknowns[j])];
+    }
+    group.bank->eval(at, {room, v, f, df, at.charges ? q : nullptr, dq});
+    for (std::size_t k = 0; k < group.members.size(); ++k) {
+        const auto* unknowns = devices_[group.members[k]]->unknowns.data();
+        const auto* places = places_[group.members[k]].data();
+        for (std::size_t row = 0; row < n; ++row) {
+            double grain = 0;
+            for (std::size_t column = 0; column < n; ++column) {
+                const double slope = df[(row * n + column) * room + k];
+                grain = std::max(grain, std::abs(slope * v[column * room + k]));
+                sums.G[places[row * n + column]] += slope;
+                if (at.charges) sums.C[places[row * n + column]] += dq[(row * n + column) * room + k];
+            }
+            if (unknowns[row] < 0) continue;
+            const auto u = static_cast<std::size_t>(unknowns[row]);
+            sums.f[u] += f[row * room + k];
+            if (at.charges) sums.q[u] += q[row * room + k];
+            sums.size[u] = std::max(sums.size[u], std::abs(f[row * room + k]));
             sums.grain[u] = std::max(sums.grain[u], 1e-15 * grain);
         }
     }

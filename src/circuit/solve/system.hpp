@@ -20,7 +20,11 @@ struct Sums {
 
 private:
     friend class System;
+    struct alignas(64) Line {
+        double of[8];
+    };
     std::vector<double> v_, looked_, own_;  // of the device at work
+    std::vector<Line> side_by_side_;        // of those at work together
 };
 
 class System {
@@ -31,9 +35,22 @@ class System {
     std::size_t memory_ = 0;
     std::unique_ptr<Pattern> pattern_;
     std::vector<std::vector<std::size_t>> places_;  // of each device's slopes; beyond the pattern: of ground, nowhere
+    struct Group {                                  // devices with a bank
+        std::unique_ptr<Bank> bank;
+        std::vector<std::size_t> members;
+        std::size_t terminals;
+        std::size_t room() const { return (members.size() + 7) / 8 * 8; }
+    };
+    std::vector<Group> groups_;
+    std::vector<std::size_t> alone_;  // devices without one
     int nodes_ = 0;
+    bool linear_ = true;
 
     class Maker;
+    Result<void> make_groups();
+    void take(const Group&) const;
+    void add_device(std::size_t k, std::span<const double> x, const Instant&, std::vector<double>& memory, Sums&) const;
+    void add_group(const Group&, std::span<const double> x, const Instant&, Sums&) const;
 
 public:
     /// Refuses what cannot have an answer: floating nodes, loops of voltage sources, missing models.
@@ -48,10 +65,12 @@ public:
     const Pattern& pattern() const { return *pattern_; }
     const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
     Device* device(std::string_view name) const;  ///< null: none of this name
-    bool linear() const;
+    bool linear() const { return linear_; }
     std::vector<double> fresh_memory() const { return std::vector<double>(memory_); }
 
     void eval(std::span<const double> x, const Instant&, std::vector<double>& memory, Sums&) const;
+    /// All devices as drawn; null: as designed.
+    void draw(const Draw*);
     /// A device's own unknowns' values.
     std::vector<double> terminals(const Device&, std::span<const double> x) const;
 };

@@ -1,0 +1,76 @@
+// What does one chip of a Monte Carlo cost: the operating point of a circuit whose transistors each have their own mismatch?
+//
+//     bench-chips NETLIST [CHIPS]
+//
+// Method: the netlist is read once; each chip draws its mismatch and its process and is solved from the rest of the circuit as
+// designed, to the tolerances of its .options. Of 9 rounds over the same chips the median, least and greatest are printed, and what was
+// done: Newton's steps, chips whose answer took another way than Newton's or was not found, and mean and deviation of each node.
+// `bench/peers/chips.py` runs it beside ngspice.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "circuit/analysis/bench.hpp"
+#include "circuit/device/uicm_card.hpp"
+
+namespace {
+
+using namespace corpuscle;
+using namespace corpuscle::circuit;
+
+struct Work {
+    long steps = 0, detours = 0, lost = 0;
+    std::vector<double> sum, squares;
+};
+
+Work round_of(TestBench& bench, std::uint64_t chips) {
+    Work work;
+    const auto nodes = static_cast<std::size_t>(bench.system.nodes());
+    work.sum.resize(nodes), work.squares.resize(nodes);
+    for (std::uint64_t chip = 0; chip < chips; ++chip) {
+        Draw draw{1, chip, true, {}};
+        std::copy_n(process_deviates(draw.seed, chip).of, 4, draw.process);
+        bench.draw(draw);
+        const auto found = bench.rest();
+        if (!found) {
+            ++work.lost;
+            continue;
+        }
+        work.steps += found->iterations, work.detours += found->how != "newton";
+        for (std::size_t n = 0; n < nodes; ++n) work.sum[n] += found->x[n], work.squares[n] += found->x[n] * found->x[n];
+    }
+    return work;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) return std::fputs("bench-chips NETLIST [CHIPS]\n", stderr), 2;
+    const auto chips = static_cast<std::uint64_t>(argc > 2 ? std::atol(argv[2]) : 5000);
+    const auto netlist = Netlist::read(argv[1]);
+    if (!netlist) return std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), 1;
+    auto circuit = netlist->elaborate();
+    if (!circuit) return std::fprintf(stderr, "%s\n", circuit.error().text().c_str()), 1;
+    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
+    std::vector<double> us;
+    Work work;
+    for (int round = 0; round < 9; ++round) {
+        const auto start = std::chrono::steady_clock::now();
+        work = round_of(**bench, chips);
+        us.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() * 1e6 / static_cast<double>(chips));
+    }
+    std::sort(us.begin(), us.end());
+    std::printf("%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another way, %ld lost\n",
+                static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
+                static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost);
+    const double count = static_cast<double>(chips) - static_cast<double>(work.lost);
+    for (std::size_t n = 0; n < work.sum.size(); ++n) {
+        const double mean = work.sum[n] / count;
+        std::printf("  %-12s mean %.6f V  deviation %.6f V\n", (*bench)->system.names()[n].c_str(), mean,
+                    std::sqrt(std::max(0.0, work.squares[n] / count - mean * mean)));
+    }
+}

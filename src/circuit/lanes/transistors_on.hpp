@@ -1,0 +1,82 @@
+#pragma once
+// The transistor's equations along the arrays of a call, T at a time: one number, or a vector of lanes.
+
+#include <new>
+#include <type_traits>
+
+#include "circuit/device/uicm.hpp"
+#include "circuit/lanes/transistors.hpp"
+
+namespace corpuscle::circuit::lanes {
+namespace {
+
+template <class T>
+constexpr std::size_t width() {
+    if constexpr (std::is_same_v<T, double>)
+        return 1;
+    else
+        return T::size;
+}
+template <class T>
+[[gnu::always_inline]] inline T loaded(const double* at) {
+    if constexpr (std::is_same_v<T, double>)
+        return *at;
+    else
+        return T::load_aligned(at);
+}
+template <class T>
+[[gnu::always_inline]] inline void store(const T& x, double* at) {
+    if constexpr (std::is_same_v<T, double>)
+        *at = x;
+    else
+        x.store_aligned(at);
+}
+
+template <class T>
+void build(std::byte* at, const UicmConstants* of) {
+    new (at) Uicm<T>([of](double UicmConstants::* field) {
+        alignas(64) double lanes[width<T>()];
+        for (std::size_t l = 0; l < width<T>(); ++l) lanes[l] = of[l].*field;
+        return loaded<T>(lanes);
+    });
+}
+
+template <class T, bool charges>
+[[gnu::always_inline]] inline void eval_as(const TransistorCall& call) {
+    using Of = Terminals;
+    const std::size_t room = call.room;
+    const auto* model = reinterpret_cast<const Uicm<T>*>(call.models);
+    const T gmin(call.gmin);
+    for (std::size_t k = 0; k < room; k += width<T>(), ++model) {
+        const T v[4] = {loaded<T>(call.v + k), loaded<T>(call.v + room + k), loaded<T>(call.v + 2 * room + k),
+                        loaded<T>(call.v + 3 * room + k)};
+        UicmAnswer<T> a;
+        model->eval(v, a);
+        const T i_d = gmin * (v[Of::B] - v[Of::D]), i_s = gmin * (v[Of::B] - v[Of::S]);
+        a.i[Of::B] = a.i[Of::B] + i_d + i_s, a.i[Of::D] = a.i[Of::D] - i_d, a.i[Of::S] = a.i[Of::S] - i_s;
+        a.di[Of::B][Of::B] = a.di[Of::B][Of::B] + gmin + gmin;
+        for (const int end : {Of::D, Of::S}) {
+            a.di[end][end] = a.di[end][end] + gmin;
+            a.di[Of::B][end] = a.di[Of::B][end] - gmin, a.di[end][Of::B] = a.di[end][Of::B] - gmin;
+        }
+        for (std::size_t row = 0; row < 4; ++row) {
+            store(a.i[row], call.f + row * room + k);
+            for (std::size_t column = 0; column < 4; ++column) store(a.di[row][column], call.df + (4 * row + column) * room + k);
+            if constexpr (charges) {
+                store(a.q[row], call.q + row * room + k);
+                for (std::size_t column = 0; column < 4; ++column) store(a.dq[row][column], call.dq + (4 * row + column) * room + k);
+            }
+        }
+    }
+}
+
+template <class T>
+void eval(const TransistorCall& call) {
+    call.q ? eval_as<T, true>(call) : eval_as<T, false>(call);
+}
+
+template <class T>
+constexpr TransistorLanes transistor_lanes{width<T>(), sizeof(Uicm<T>), build<T>, eval<T>};
+
+}  // namespace
+}  // namespace corpuscle::circuit::lanes
