@@ -22,14 +22,22 @@ constexpr Words philox(Words counter, std::uint64_t key) {
     return counter;
 }
 
-/// Draw number `index` of a standard normal deviate for (seed, unit, purpose), by Box and Muller.
-inline double normal(std::uint64_t seed, std::uint32_t unit, std::uint32_t purpose, std::uint64_t index) {
+/// Draw number `index` of two independent standard normal deviates for (seed, unit, purpose), by Box and Muller.
+struct Normals {
+    double first, second;
+};
+inline Normals normals(std::uint64_t seed, std::uint32_t unit, std::uint32_t purpose, std::uint64_t index) {
     const Words w = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), unit, purpose}, seed);
     const auto unit_interval = [](std::uint32_t high, std::uint32_t low) {  // 53 bits, never 0
         return (static_cast<double>((std::uint64_t{high} << 21) | (low >> 11)) + 0.5) * 0x1p-53;
     };
     const double u = unit_interval(w[0], w[1]), turns = unit_interval(w[2], w[3]);
-    return num::sqrt(-2.0 * num::log(u)) * num::cos_turns(turns);
+    const double far = num::sqrt(-2.0 * num::log(u));
+    return {far * num::cos_turns(turns), far * num::cos_turns(turns - 0.25)};
+}
+/// The first of them.
+inline double normal(std::uint64_t seed, std::uint32_t unit, std::uint32_t purpose, std::uint64_t index) {
+    return normals(seed, unit, purpose, index).first;
 }
 
 }  // namespace corpuscle

@@ -86,6 +86,7 @@ struct BankStamp {
     std::size_t room;
     const double* v;
     double *f, *df;
+    double* most;    ///< of each f, the largest of its slopes times its voltage: what its last digit is of
     double *q, *dq;  ///< null: not asked
 };
 

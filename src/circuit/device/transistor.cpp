@@ -26,17 +26,17 @@ class Transistor final : public Device {
     UicmInstance size_;
     bool pmos_;
     UicmConstants designed_, constants_;
-    Uicm<double> uicm_;
 
 public:
     Transistor(const UicmCard& card, const UicmInstance& size, double temperature, bool pmos)
-        : card_(card), size_(size), pmos_(pmos), designed_(uicm_constants(card, size, temperature, pmos)), constants_(designed_),
-          uicm_(constants_) {}
+        : card_(card), size_(size), pmos_(pmos), designed_(uicm_constants(card, size, temperature, pmos)), constants_(designed_) {}
     const UicmConstants& constants() const { return constants_; }
     bool linear() const override { return false; }
 
     void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
-        lanes::one_by_one.eval({reinterpret_cast<const std::byte*>(&uicm_), 1, v.data(), at.gmin, out.f.data(), out.df.data(),
+        const Uicm<double> model(constants_);
+        double most[4];
+        lanes::one_by_one.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), at.gmin, out.f.data(), out.df.data(), most,
                                 at.charges ? out.q.data() : nullptr, out.dq.data()});
     }
 
@@ -45,12 +45,11 @@ public:
                          ? designed_
                          : shifted(designed_, chip->mismatch ? mismatch(card_, size_, chip->seed, number, chip->chip) : UicmShift{},
                                    process(card_, pmos_, chip->process));
-        uicm_ = Uicm<double>(constants_);
         return true;
     }
 
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
-        const auto n = uicm_.noise(Voltages(v).v);
+        const auto n = Uicm<double>(constants_).noise(Voltages(v).v);
         return {{"channel", Terminals::D, Terminals::S, n.thermal, n.flicker},
                 {"source junction", Terminals::B, Terminals::S, n.shot_s, 0},
                 {"drain junction", Terminals::B, Terminals::D, n.shot_d, 0}};
@@ -72,7 +71,7 @@ private:
     /// What would flow from drain to source if the gate were at the source.
     double off(std::span<const double> v) const {
         const double at[4] = {v[Terminals::D], v[Terminals::S], v[Terminals::S], v[Terminals::B]};
-        return constants_.polarity * uicm_.inside(at).I;
+        return constants_.polarity * Uicm<double>(constants_).inside(at).I;
     }
 };
 
@@ -82,24 +81,25 @@ class TransistorBank final : public Bank {
     };
     const lanes::TransistorLanes& lanes_;
     std::vector<Line> models_;
+    std::size_t count_ = 0;
 
 public:
     explicit TransistorBank(const lanes::TransistorLanes& lanes) : lanes_(lanes) {}
 
     void take(std::span<const Device* const> devices) override {
         UicmConstants some[lanes::widest];
-        const auto room = (devices.size() + lanes::widest - 1) / lanes::widest * lanes::widest;
-        models_.resize((room / lanes_.lanes * lanes_.model_bytes + sizeof(Line) - 1) / sizeof(Line));
+        count_ = devices.size();
+        models_.resize(((count_ + lanes_.lanes - 1) / lanes_.lanes * lanes_.model_bytes + sizeof(Line) - 1) / sizeof(Line));
         auto* at = models_.data()->bytes;
-        for (std::size_t k = 0; k < room; k += lanes_.lanes, at += lanes_.model_bytes) {
+        for (std::size_t k = 0; k < count_; k += lanes_.lanes, at += lanes_.model_bytes) {
             for (std::size_t l = 0; l < lanes_.lanes; ++l)
-                some[l] = static_cast<const Transistor*>(devices[std::min(k + l, devices.size() - 1)])->constants();
+                some[l] = static_cast<const Transistor*>(devices[std::min(k + l, count_ - 1)])->constants();
             lanes_.build(at, some);
         }
     }
 
     void eval(const Instant& at, const BankStamp& s) const override {
-        lanes_.eval({models_.data()->bytes, s.room, s.v, at.gmin, s.f, s.df, s.q, s.dq});
+        lanes_.eval({models_.data()->bytes, count_, s.room, s.v, at.gmin, s.f, s.df, s.most, s.q, s.dq});
     }
 };
 

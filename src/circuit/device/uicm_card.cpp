@@ -29,7 +29,7 @@ double junction_growth(const UicmCard& card, double T, double T_nom, double phi_
 /// exp's argument at which a junction carries junction_current_top.
 double top_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_top / I_sat), 0.0, 600.0) : 0; }
 
-enum Purpose : std::uint32_t { mismatch_of_vto = 0x75690001, mismatch_of_isq, process_of_vto, process_of_isq };  // of Philox's draws
+enum Purpose : std::uint32_t { of_mismatch = 0x75690001, of_process };  // of Philox's draws
 
 }  // namespace
 
@@ -62,8 +62,8 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, doubl
 
 UicmShift mismatch(const UicmCard& card, const UicmInstance& at, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
     const double per_side = 1 / num::sqrt(at.area());
-    return {card.A_VT * per_side * normal(seed, device, mismatch_of_vto, chip),
-            num::exp(card.A_IS * per_side * normal(seed, device, mismatch_of_isq, chip))};
+    const auto drawn = normals(seed, device, of_mismatch, chip);
+    return {card.A_VT * per_side * drawn.first, num::exp(card.A_IS * per_side * drawn.second)};
 }
 
 UicmInstance with_mismatch(UicmInstance at, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
@@ -73,8 +73,8 @@ UicmInstance with_mismatch(UicmInstance at, const UicmCard& card, std::uint64_t 
 }
 
 ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip) {
-    return {normal(seed, 0, process_of_vto, chip), normal(seed, 1, process_of_vto, chip), normal(seed, 0, process_of_isq, chip),
-            normal(seed, 1, process_of_isq, chip)};
+    const auto n = normals(seed, 0, of_process, chip), p = normals(seed, 1, of_process, chip);
+    return {n.first, p.first, n.second, p.second};
 }
 
 UicmShift process(const UicmCard& card, bool pmos, const double (&deviates)[4]) {

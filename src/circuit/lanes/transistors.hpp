@@ -14,10 +14,11 @@ inline constexpr std::size_t widest = 8;  ///< lanes of any instruction set divi
 /// gate, source, bulk.
 struct TransistorCall {
     const std::byte* models;
-    std::size_t room;  ///< a multiple of the lanes
+    std::size_t count, room;  ///< `room` is not below `count` rounded up to the lanes
     const double* v;   ///< [4][room], V
     double gmin;       ///< S, beside every junction
     double *f, *df;    ///< [4][room], A; [4 * 4][room], S
+    double* most;      ///< [4][room], A: the largest |df v| of each row
     double *q, *dq;    ///< charges and capacitances, the same; null: not asked
 };
 

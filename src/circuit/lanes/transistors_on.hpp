@@ -47,7 +47,7 @@ template <class T, bool charges>
     const std::size_t room = call.room;
     const auto* model = reinterpret_cast<const Uicm<T>*>(call.models);
     const T gmin(call.gmin);
-    for (std::size_t k = 0; k < room; k += width<T>(), ++model) {
+    for (std::size_t k = 0; k < call.count; k += width<T>(), ++model) {
         const T v[4] = {loaded<T>(call.v + k), loaded<T>(call.v + room + k), loaded<T>(call.v + 2 * room + k),
                         loaded<T>(call.v + 3 * room + k)};
         UicmAnswer<T> a;
@@ -61,7 +61,12 @@ template <class T, bool charges>
         }
         for (std::size_t row = 0; row < 4; ++row) {
             store(a.i[row], call.f + row * room + k);
-            for (std::size_t column = 0; column < 4; ++column) store(a.di[row][column], call.df + (4 * row + column) * room + k);
+            T most(0.0);
+            for (std::size_t column = 0; column < 4; ++column) {
+                store(a.di[row][column], call.df + (4 * row + column) * room + k);
+                most = num::max(most, num::abs(a.di[row][column] * v[column]));
+            }
+            store(most, call.most + row * room + k);
             if constexpr (charges) {
                 store(a.q[row], call.q + row * room + k);
                 for (std::size_t column = 0; column < 4; ++column) store(a.dq[row][column], call.dq + (4 * row + column) * room + k);

@@ -83,22 +83,22 @@ Result<void> System::make_groups() {
         }
         auto bank = kind.bank();
         if (!bank) return bank.error();
-        const auto terminals = devices_[members[0]]->unknowns.size();
-        take(groups_.emplace_back(std::move(*bank), std::move(members), terminals));
+        Group group{std::move(*bank), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
+        for (const auto k : members) {
+            group.members.push_back(devices_[k].get());
+            group.unknowns.insert(group.unknowns.end(), devices_[k]->unknowns.begin(), devices_[k]->unknowns.end());
+            group.places.insert(group.places.end(), places_[k].begin(), places_[k].end());
+        }
+        group.bank->take(group.members);
+        groups_.push_back(std::move(group));
     }
     return {};
-}
-
-void System::take(const Group& group) const {
-    std::vector<const Device*> members;
-    for (const auto k : group.members) members.push_back(devices_[k].get());
-    group.bank->take(members);
 }
 
 void System::draw(const Draw* chip) {
     std::uint32_t number = 0;
     for (const auto& d : devices_) number += d->draw(chip, number);
-    for (const auto& group : groups_) take(group);
+    for (const auto& group : groups_) group.bank->take(group.members);
 }
 
 int System::unknown(std::string_view name) const {
@@ -160,33 +160,33 @@ void System::add_device(std::size_t k, std::span<const double> x, const Instant&
 }
 
 void System::add_group(const Group& group, std::span<const double> x, const Instant& at, Sums& sums) const {
-    const auto n = group.terminals, room = group.room();
-    if (sums.side_by_side_.size() < (3 * n + 2 * n * n) * room / 8) sums.side_by_side_.resize((3 * n + 2 * n * n) * room / 8);
+    const auto n = group.terminals, room = group.room, count = group.members.size();
+    const auto lines = (4 * n + 2 * n * n) * room / 8;
+    if (sums.side_by_side_.size() < lines) sums.side_by_side_.resize(lines);
     double* const v = sums.side_by_side_.data()->of;
-    double *const f = v + n * room, *const df = f + n * room, *const q = df + n * n * room, *const dq = q + n * room;
+    double *const f = v + n * room, *const most = f + n * room, *const df = most + n * room;
+    double *const q = df + n * n * room, *const dq = q + n * room;
     for (std::size_t k = 0; k < room; ++k) {
-        const auto& unknowns = devices_[group.members[std::min(k, group.members.size() - 1)]]->unknowns;
+        const auto* unknowns = group.unknowns.data() + std::min(k, count - 1) * n;
         for (std::size_t j = 0; j < n; ++j) v[j * room + k] = unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(unknowns[j])];
     }
-    group.bank->eval(at, {room, v, f, df, at.charges ? q : nullptr, dq});
-    for (std::size_t k = 0; k < group.members.size(); ++k) {
-        const auto* unknowns = devices_[group.members[k]]->unknowns.data();
-        const auto* places = places_[group.members[k]].data();
+    group.bank->eval(at, {room, v, f, df, most, at.charges ? q : nullptr, dq});
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto* unknowns = group.unknowns.data() + k * n;
+        const auto* places = group.places.data() + k * n * n;
+        for (std::size_t entry = 0; entry < n * n; ++entry) sums.G[places[entry]] += df[entry * room + k];
         for (std::size_t row = 0; row < n; ++row) {
-            double grain = 0;
-            for (std::size_t column = 0; column < n; ++column) {
-                const double slope = df[(row * n + column) * room + k];
-                grain = std::max(grain, std::abs(slope * v[column * room + k]));
-                sums.G[places[row * n + column]] += slope;
-                if (at.charges) sums.C[places[row * n + column]] += dq[(row * n + column) * room + k];
-            }
             if (unknowns[row] < 0) continue;
             const auto u = static_cast<std::size_t>(unknowns[row]);
-            sums.f[u] += f[row * room + k];
-            if (at.charges) sums.q[u] += q[row * room + k];
-            sums.size[u] = std::max(sums.size[u], std::abs(f[row * room + k]));
-            sums.grain[u] = std::max(sums.grain[u], 1e-15 * grain);
+            const double i = f[row * room + k];
+            sums.f[u] += i;
+            sums.size[u] = std::max(sums.size[u], std::abs(i));
+            sums.grain[u] = std::max(sums.grain[u], 1e-15 * most[row * room + k]);
         }
+        if (!at.charges) continue;
+        for (std::size_t entry = 0; entry < n * n; ++entry) sums.C[places[entry]] += dq[entry * room + k];
+        for (std::size_t row = 0; row < n; ++row)
+            if (unknowns[row] >= 0) sums.q[static_cast<std::size_t>(unknowns[row])] += q[row * room + k];
     }
 }
 

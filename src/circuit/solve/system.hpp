@@ -37,9 +37,10 @@ class System {
     std::vector<std::vector<std::size_t>> places_;  // of each device's slopes; beyond the pattern: of ground, nowhere
     struct Group {                                  // devices with a bank
         std::unique_ptr<Bank> bank;
-        std::vector<std::size_t> members;
-        std::size_t terminals;
-        std::size_t room() const { return (members.size() + 7) / 8 * 8; }
+        std::vector<const Device*> members;
+        std::size_t terminals, room;
+        std::vector<int> unknowns;         // of each member, one after another
+        std::vector<std::size_t> places;
     };
     std::vector<Group> groups_;
     std::vector<std::size_t> alone_;  // devices without one
@@ -48,7 +49,6 @@ class System {
 
     class Maker;
     Result<void> make_groups();
-    void take(const Group&) const;
     void add_device(std::size_t k, std::span<const double> x, const Instant&, std::vector<double>& memory, Sums&) const;
     void add_group(const Group&, std::span<const double> x, const Instant&, Sums&) const;
 
