@@ -1,0 +1,105 @@
+#pragma once
+// A netlist's text, run: its numbers and its curves.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "circuit/curves.hpp"
+#include "circuit/run.hpp"
+#include "circuit/variants.hpp"
+#include "support/places.hpp"
+
+namespace corpuscle::circuit {
+
+/// What a netlist found. Asking for what is not there fails the test and gives NaN.
+class Ran {
+    std::shared_ptr<const Circuit> circuit_;  // the outcome points at its commands
+    RunOutcome outcome_;
+
+public:
+    Ran() = default;
+    Ran(std::shared_ptr<const Circuit> circuit, RunOutcome outcome) : circuit_(std::move(circuit)), outcome_(std::move(outcome)) {}
+
+    bool done() const { return circuit_ != nullptr; }
+    std::string title() const { return circuit_ ? circuit_->title : ""; }
+    const std::vector<Expectation>& expectations() const { return outcome_.expectations; }
+
+    /// A curve of the first plot that has it, of one analysis ("ac") if named; as .print names them, so v(a,b) and vdb(a) too.
+    std::vector<std::complex<double>> complex(const std::string& name, const std::string& analysis = "") const {
+        for (const auto& a : outcome_.analyses)
+            if (analysis.empty() || a.command->name == analysis)
+                for (const auto& plot : a.findings.plots)
+                    if (auto values = values_of(plot, name)) return *values;
+        ADD_FAILURE() << title() << ": no curve " << name;
+        return {std::complex<double>(std::nan(""), 0)};
+    }
+    std::vector<double> curve(const std::string& name, const std::string& analysis = "") const {
+        std::vector<double> out;
+        for (const auto& value : complex(name, analysis)) out.push_back(value.real());
+        return out;
+    }
+    /// A measure, a number of an analysis, or a curve's last value.
+    double number(const std::string& name) const {
+        for (const auto& [known, value] : outcome_.numbers)
+            if (known == name) return value;
+        return curve(name).back();
+    }
+};
+
+inline Result<Netlist> parsed(const std::string& text) {
+    const auto open = [](const std::string& path) -> Result<std::string> {
+        std::ifstream file(path);
+        if (!file) return bad_input(path + " cannot be opened");
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    return Netlist::parse(text, test::root() + "/process/test.cir", open);
+}
+
+inline Ran ran(Circuit circuit) {
+    const auto kept = std::make_shared<const Circuit>(std::move(circuit));
+    auto outcome = run(kept);
+    if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << kept->title, Ran();
+    return {kept, std::move(*outcome)};
+}
+
+/// The text begins with its title; it stands in process/, where the cards are.
+inline Ran ran(const std::string& text) {
+    const auto netlist = parsed(text);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, Ran();
+    auto circuit = netlist->elaborate();
+    if (!circuit) return ADD_FAILURE() << circuit.error().text() << "\n" << text, Ran();
+    return ran(std::move(*circuit));
+}
+
+/// Every variant that .step and .mc ask for.
+inline std::vector<Ran> ran_all(const std::string& text) {
+    std::vector<Ran> out;
+    const auto netlist = parsed(text);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, out;
+    const auto variants = Variants::of(*netlist);
+    if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
+    for (std::size_t k = 0; k < variants->count(); ++k) {
+        auto one = variants->at(k);
+        if (!one) return ADD_FAILURE() << one.error().text() << "\n" << text, out;
+        out.push_back(ran(*one->circuit));
+    }
+    return out;
+}
+
+/// A netlist of circuits/, with other values of its .param if any are given.
+inline Ran ran_file(const std::string& name, const Values& parameters = {}) {
+    const auto netlist = Netlist::read(test::root() + "/circuits/" + name);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text(), Ran();
+    auto circuit = netlist->elaborate(parameters);
+    if (!circuit) return ADD_FAILURE() << circuit.error().text(), Ran();
+    return ran(std::move(*circuit));
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,100 @@
+// Noise that thermodynamics knows before any netlist is solved: kT/C, 4kTg, 2qI.
+
+#include <fmt/format.h>
+
+#include "netlist_runner.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double pi = 3.14159265358979323846, boltzmann = 1.380649e-23, charge = 1.602176634e-19;
+double kelvin(double celsius) { return celsius + 273.15; }
+
+// 200 points a decade are integrated as powers of f between them, to 2e-5; five decades to either side of the corner leave out 1.3e-5.
+TEST(ThermalNoise, AResistorLeavesKTByCOnACapacitor) {
+    for (const auto& [R, C] : {std::pair{1e3, 1e-9}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}})
+        for (const double celsius : {-55.0, 27.0, 125.0}) {
+            const double corner = 1 / (2 * pi * R * C);
+            const auto found = ran(fmt::format("kT/C\nv1 in 0 0\nr1 in out {}\nc1 out 0 {}\n.temp {}\n.noise v(out) v1 dec 200 {} {}\n", R,
+                                               C, celsius, corner * 1e-5, corner * 1e5));
+            EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(celsius) / C), 1, 5e-5) << R << " ohm";
+        }
+}
+
+TEST(ThermalNoise, ManyResistorsLeaveKTByCTogether) {
+    const auto found =
+        ran("kT/C\ni1 0 a 0\nr1 a b 1k\nr2 b 0 10k\nr3 b c 100k\nr4 c a 3k\nr5 a 0 1meg\nc1 a 0 1n\n.noise v(a) i1 dec 200 100m 1g\n");
+    EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(27) / 1e-9), 1, 5e-5);
+}
+
+/// A transistor of the card whose drain hangs on a capacitor only: at rest V_DS = 0. Driven in .ac by a current, so that v(d) is what
+/// its drain and the capacitor present.
+std::string open_drain(const char* type, double gate, double bulk, double celsius, const std::string& words, double from, double to) {
+    return fmt::format(
+        "open drain\n.lib 'tsmc180.lib' tt\nvg g 0 {}\nvb b 0 {}\ni1 0 d ac 1\nm1 d g 0 b {} w=1.5u l=0.5u m=2 stack=8\n.temp {}\n"
+        ".options gmin=0\n{}\n.ac dec 1 {} {}\n.noise v(d) i1 dec 200 {} {}\n",
+        gate, bulk, type, celsius, words, from, to, from, to);
+}
+
+// C counts the drain's own capacitances, 1.5 to 12 fF here, as .ac sees them. The junction's shot noise, 2q times twice its saturation
+// current, is more than 4kT times its slope by n_dio = 1.05: it shows only where the channel conducts no better than the junction.
+TEST(ThermalNoise, ATransistorLeavesKTByCWithItsOwnCapacitances) {
+    for (const char* type : {"nch", "pch", "nch_hv"})
+        for (const double gate : {0.3, 0.5, 0.9, 1.8})
+            for (const char* load : {"", "c1 d 0 3f", "c1 d 0 1p"})
+                for (const double celsius : {-55.0, 27.0, 95.0}) {
+                    const double sign = type[0] == 'p' ? -1 : 1;
+                    const auto probe = ran(open_drain(type, sign * gate, 0, celsius, load, 1, 1e6));
+                    const auto y = 1.0 / probe.complex("v(d)")[0];  // at 1 Hz
+                    const double C = y.imag() / (2 * pi), corner = y.real() / (2 * pi * C);
+                    const auto found = ran(open_drain(type, sign * gate, 0, celsius, load, corner * 1e-5, corner * 1e5));
+                    EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(celsius) / C), 1, 1e-4)
+                        << type << " V_G " << gate << " at " << celsius << " C, " << C << " F, corner " << corner << " Hz";
+                }
+}
+
+/// The density of a transistor's drain current (A^2/Hz) at 1 Hz without flicker, and its current and conductance.
+struct Drain {
+    double S, I, g;
+    Drain(const std::string& model, double d, double g, double b, double celsius = 27) {
+        const auto found =
+            ran(fmt::format("drain\n{}\nvg g 0 {}\nvb b 0 {}\nvd d 0 {} ac 1\nm1 d g 0 b x w=1.5u l=0.5u\nh1 out 0 vd 1\nr1 out 0 "
+                            "1\n.temp {}\n.options gmin=0\n.op\n.ac lin 1 1 1\n.noise v(out) vd lin 1 1 1\n",
+                            model, g, b, d, celsius));
+        S = std::pow(found.number("onoise_spectrum"), 2);
+        I = -found.number("i(vd)");
+        this->g = -found.complex("i(vd)", "ac").back().real();
+    }
+};
+constexpr const char* plain = ".model x nmos(level=80 isq=112n vto=0.46 n=1.27 zetal=0 ve=1e30 nt=0 js=0 jssw=0)";
+constexpr const char* full = ".model x nmos(level=80 isq=112n vto=0.46 n=1.27 zetal=15n ve=8e6 nt=0 js=0 jssw=0)";
+
+TEST(ThermalNoise, WeakInversionIsShotNoiseOfBothDirections) {
+    for (const double V_DS : {1e-3, 10e-3, 50e-3, 0.1, 0.3, 0.7})
+        for (const double celsius : {-55.0, 27.0, 95.0}) {
+            const Drain at(plain, V_DS, 0, 0, celsius);
+            const double v_t = boltzmann * kelvin(celsius) / charge;
+            EXPECT_NEAR(at.S / (2 * charge * at.I / std::tanh(V_DS / (2 * v_t))), 1, 1e-4) << V_DS;  // i_f is 1e-4 at the most
+        }
+}
+
+TEST(ThermalNoise, SaturatedWeakInversionIs2qIAndRisesToTwoThirdsOf4kTgms) {
+    const Drain weak(plain, 0.5, 0.1, 0), strong(plain, 3, 4, 0);
+    EXPECT_NEAR(weak.S / (2 * charge * weak.I), 1, 1e-4);
+    const double v_t = boltzmann * kelvin(27) / charge, I_S = 112e-9 * 3;
+    const double g_ms = 2 * I_S / v_t * (std::sqrt(1 + strong.I / I_S) - 1);     // thesis eq. 28
+    EXPECT_NEAR(strong.S / (4 * boltzmann * kelvin(27) * g_ms), 2.0 / 3, 0.01);  // the limit, left by 1 / (1 + i_f)^(1/2)
+}
+
+TEST(ThermalNoise, WithNoVoltageAcrossItIs4kTg) {
+    for (const char* model : {plain, full})
+        for (const double gate : {0.0, 0.3, 0.46, 0.7, 1.8})
+            for (const double bulk : {-0.3, 0.0, 0.4})
+                for (const double celsius : {-55.0, 27.0, 95.0}) {
+                    const Drain at(model, 0, gate, bulk, celsius);
+                    EXPECT_NEAR(at.S / (4 * boltzmann * kelvin(celsius) * at.g), 1, 1e-9) << gate << ", bulk " << bulk;
+                }
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
