@@ -2,17 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/device/uicm_point.hpp"
 #include "circuit/netlist/netlist.hpp"
-#include "support/places.hpp"
+#include "netlist_runner.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -179,6 +181,96 @@ TEST(Tsmc180, TheShortUnitMakesTheArraysOfTables11And14) {
         EXPECT_NEAR(slope(0, 0, h) / a.g_mb, 1, 0.02) << a.name;
         EXPECT_NEAR(slope(h, 0, 0) / a.g_md, 1, 0.22) << a.name;
     }
+}
+
+/// The arrays of the 0.42/0.18 um unit in tables 12 and 15 (units of g_mg/A as errata U9 reads them); parts from the source up.
+constexpr struct {
+    const char* name;
+    int parts[8], count;
+    double g_mg_by_I, V_A, dB, n_1, g_mg_by_area, sigma;  // 1/V, V, dB, -, uS/um^2, %
+    int units() const {
+        int sum = 0;
+        for (int k = 0; k < count; ++k) sum += parts[k];
+        return sum;
+    }
+    std::vector<double> stack() const { return std::vector<double>(parts, parts + count); }
+} table12_and_15[] = {
+    {"A", {1}, 1, 14.87, 2.10, 29.9, 0.265, 421.0, 15.6},
+    {"B2", {1, 1, 1, 1}, 4, 15.07, 7.65, 41.2, 0.266, 25.43, 8.00},
+    {"C2", {2, 2}, 2, 14.98, 4.11, 35.8, 0.266, 101.4, 7.73},
+    {"D2", {4}, 1, 14.86, 2.10, 29.9, 0.265, 421.0, 7.41},
+    {"G1", {1, 1, 1, 1, 1, 1, 1, 1}, 8, 15.18, 14.17, 46.7, 0.267, 6.425, 5.77},
+    {"G2", {1, 1, 1, 1, 4}, 5, 15.17, 44.54, 56.6, 0.268, 11.55, 7.46},
+    {"G3", {1, 7}, 2, 15.36, 22.15, 50.6, 0.269, 38.89, 14.9},
+};
+
+TEST(Tsmc180, TheShortUnitHasTheRatiosOfTables12And15) {
+    const UicmCard card = model("tt", "nch018");
+    for (const auto& a : table12_and_15) {
+        const double h = 1e-3, I = stacked(card, a.stack(), 0.5, 0.5, 0);
+        const auto slope = [&](double d, double g, double b) {
+            return (stacked(card, a.stack(), 0.5 + d, 0.5 + g, b) - stacked(card, a.stack(), 0.5 - d, 0.5 - g, -b)) / (2 * h);
+        };
+        const double g_mg = slope(0, h, 0), g_md = slope(h, 0, 0), area = a.units() * 0.42 * 0.18;
+        EXPECT_NEAR(g_mg / I / a.g_mg_by_I, 1, 0.035) << a.name;
+        EXPECT_NEAR(slope(0, 0, h) / g_mg, a.n_1, 0.003) << a.name;
+        EXPECT_NEAR(1e6 * g_mg / area / a.g_mg_by_area, 1, 0.02) << a.name;
+        EXPECT_NEAR(I / g_md / a.V_A, 1, 0.25) << a.name;  // one Early voltage a length is too simple: 18 % low to 25 % high
+        EXPECT_NEAR(20 * std::log10(g_mg / g_md), a.dB, 2.2) << a.name;
+    }
+}
+
+TEST(Tsmc180, ArraysCarryLessThanTheirAspectRatioAsInTables11And14) {  // eq. 31 and 32, which are exact without length modulation
+    const UicmCard card = model("tt", "nch018");
+    const double of_one = stacked(card, {1}, 0.5, 0.5, 0);
+    constexpr double in_thesis[] = {1, 0.953, 0.957, 1.000, 0.957, 0.915, 0.817};
+    for (std::size_t k = 0; k < std::size(table12_and_15); ++k) {
+        const auto& a = table12_and_15[k];
+        double per_S = 0;
+        for (const double part : a.stack()) per_S += 1 / part;
+        EXPECT_NEAR(stacked(card, a.stack(), 0.5, 0.5, 0) * per_S / of_one, in_thesis[k], 0.06) << a.name;
+    }
+}
+
+/// Deviation of the drain current in %, every unit drawn for itself.
+double mismatch_of(const std::string& devices) {
+    double I = 0, II = 0;
+    const auto all = ran_all("mismatch\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\n" + devices + ".op\n.mc 1000 seed=5 process=0\n");
+    for (const auto& one : all) I += one.number("i(vd)"), II += one.number("i(vd)") * one.number("i(vd)");
+    const double count = static_cast<double>(all.size()), mean = I / count;
+    return 100 * std::sqrt(II / count - mean * mean) / std::abs(mean);
+}
+
+// Of 1000 draws a deviation is known to 2.2 %, here as in the thesis. G3 (one unit under seven) is 13.0 % where 14.9 % is printed, nearly
+// a lone unit's: in UICM the unit at the source is not quite saturated, i_r being an eighth of i_f, and the seven share in the deviation.
+TEST(Tsmc180, UnitsDrawnEachForItselfMakeTheMismatchOfTables12And15) {
+    for (const auto& a : table12_and_15) {
+        std::string devices;
+        for (int k = 0; k < a.count; ++k)
+            for (int unit = 0; unit < a.parts[k]; ++unit)
+                devices += fmt::format("m{}_{} {} d {} 0 nch018 w=0.42u l=0.18u\n", k, unit,
+                                       k + 1 == a.count ? "d" : fmt::format("n{}", k + 1), k == 0 ? "0" : fmt::format("n{}", k));
+        const bool is_G3 = a.name == std::string("G3");
+        EXPECT_NEAR(mismatch_of(devices) / a.sigma, 1, is_G3 ? 0.15 : 0.08) << a.name;
+    }
+}
+
+TEST(Tsmc180, ArraysDrawnAsOneDeviceAreAsUnlikeAsTheirUnits) {
+    for (const auto& [name, m, stack, sigma] :
+         {std::tuple{"A", 1, 1, 15.6}, {"B2", 1, 4, 8.00}, {"C2", 2, 2, 7.73}, {"D2", 4, 1, 7.41}, {"G1", 1, 8, 5.77}})
+        EXPECT_NEAR(mismatch_of(fmt::format("m1 d d 0 0 nch018 w=0.42u l=0.18u m={} stack={}\n", m, stack)) / sigma, 1, 0.08) << name;
+}
+
+// B1, C1, D1, E and F are other geometries, each with a threshold of its own, for which there is no card: their mismatch is held against
+// the law that the card draws by, at the g_mg/I_D that is printed.
+TEST(Tsmc180, OtherGeometriesAreMismatchedByTheSameLaw) {
+    const UicmCard card = model("tt", "nch018");
+    for (const auto& [name, g_mg_by_I, area, sigma] : {std::tuple{"B1", 13.63, 0.756, 4.41},
+                                                       {"C1", 16.38, 1.008, 4.39},
+                                                       {"D1", 18.07, 0.4032, 7.97},
+                                                       {"E", 12.96, 2.1924, 2.36},
+                                                       {"F", 12.90, 2.0874, 2.51}})
+        EXPECT_NEAR(100 * std::hypot(g_mg_by_I * card.A_VT, card.A_IS) / std::sqrt(area * 1e-12) / sigma, 1, 0.08) << name;
 }
 
 }  // namespace
