@@ -69,11 +69,11 @@ inline Ran ran(Circuit circuit) {
     return {kept, std::move(*outcome)};
 }
 
-/// The text begins with its title; it stands in process/, where the cards are.
-inline Ran ran(const std::string& text) {
+/// The text begins with its title; it stands in process/, where the cards are. `parameters` overrule its .param.
+inline Ran ran(const std::string& text, const Values& parameters = {}) {
     const auto netlist = parsed(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, Ran();
-    auto circuit = netlist->elaborate();
+    auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text() << "\n" << text, Ran();
     return ran(std::move(*circuit));
 }
