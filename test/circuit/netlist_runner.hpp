@@ -83,7 +83,7 @@ inline std::vector<Ran> ran_all(const std::string& text) {
     std::vector<Ran> out;
     const auto netlist = parsed(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, out;
-    const auto variants = Variants::of(*netlist);
+    auto variants = Variants::of(*netlist);
     if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
     for (std::size_t k = 0; k < variants->count(); ++k) {
         auto one = variants->at(k);
