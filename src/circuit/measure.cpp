@@ -17,7 +17,12 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 struct Course {
     std::vector<double> x, y;
 
+    /// Nothing beyond the ends; a value that rounding put there is meant as the end.
     double at(double where) const {
+        if (x.empty()) return nothing;
+        const double slack = 1e-9 * std::abs(x.back() - x.front());
+        for (const std::size_t end : {std::size_t{0}, x.size() - 1})
+            if (std::abs(where - x[end]) <= slack) return y[end];
         for (std::size_t k = 1; k < x.size(); ++k)
             if ((x[k - 1] <= where && where <= x[k]) || (x[k] <= where && where <= x[k - 1])) {
                 const double h = x[k] - x[k - 1];

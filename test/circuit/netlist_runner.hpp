@@ -85,10 +85,19 @@ inline std::vector<Ran> ran_all(const std::string& text) {
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, out;
     auto variants = Variants::of(*netlist);
     if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
+    std::unique_ptr<TestBench> bench;
     for (std::size_t k = 0; k < variants->count(); ++k) {
         auto one = variants->at(k);
         if (!one) return ADD_FAILURE() << one.error().text() << "\n" << text, out;
-        out.push_back(ran(*one->circuit));
+        if (!bench || bench->circuit != one->circuit) {
+            auto made = TestBench::make(one->circuit);
+            if (!made) return ADD_FAILURE() << made.error().text() << "\n" << text, out;
+            bench = std::move(*made);
+        }
+        if (one->draw) bench->draw(*one->draw);
+        auto outcome = run(*bench);
+        if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << text, out;
+        out.emplace_back(one->circuit, std::move(*outcome));
     }
     return out;
 }

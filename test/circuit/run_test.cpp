@@ -60,6 +60,20 @@ TEST(Run, StepsThroughAParameter) {
     EXPECT_DOUBLE_EQ(document[0]["plots"][0]["curves"]["v(out)"][0].get<double>(), 1.5);
 }
 
+TEST(Run, MeasuresAtTheVeryEndOfASweep) {
+    const Folder folder;
+    folder.write("x.cir", "t\nif 0 a 0\nr1 a 0 1\n.dc if 0.2u 2.6u 5n\n.meas dc end find v(a) at=2.6u\n.expect end 2.6u 1e-9\n");
+    folder.write("y.cir", "t\nif 0 a 0\nr1 a 0 1\n.dc if 3 3 1\n.meas dc end find v(a) at=3\n.expect end 3 1e-9\n");
+    EXPECT_EQ(run(folder, "run x.cir").status, 0);
+    EXPECT_EQ(run(folder, "run y.cir").status, 0);
+}
+
+TEST(Run, ANodeThatAFormulaReadsDoesNotStandAlone) {
+    const Folder folder;
+    folder.write("x.cir", "t\nv1 a 0 1\nb1 c 0 v=2*v(a)\nr1 c 0 1\n.op\n");
+    EXPECT_EQ(run(folder, "run x.cir").err, "");
+}
+
 TEST(Run, TablesOfManyStepsHaveTheStepInEachRow) {
     const Folder folder;
     folder.write("x.cir", std::string(divider) + ".dc v1 0 1 1\n.step param r list 1k 3k\n");
@@ -125,6 +139,7 @@ TEST(Run, StatusTellsWhatWentWrong) {
 TEST(Circuits, HoldWhatTheyExpect) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(test::root() + "/circuits")) {
+        if (entry.path().extension() != ".cir") continue;
         const Folder folder;
         const auto ran = run(folder, fmt::format("run '{}' --json", entry.path().string()));
         EXPECT_EQ(ran.status, 0) << entry.path() << "\n" << ran.err;

@@ -15,11 +15,11 @@ inline constexpr std::size_t widest = 8;  ///< lanes of any instruction set divi
 struct TransistorCall {
     const std::byte* models;
     std::size_t count, room;  ///< `room` is not below `count` rounded up to the lanes
-    const double* v;   ///< [4][room], V
-    double gmin;       ///< S, beside every junction
-    double *f, *df;    ///< [4][room], A; [4 * 4][room], S
-    double* most;      ///< [4][room], A: the largest |df v| of each row
-    double *q, *dq;    ///< charges and capacitances, the same; null: not asked
+    const double* v;          ///< [4][room], V
+    double gmin;              ///< S, beside every junction
+    double *f, *df;           ///< [4][room], A; [4 * 4][room], S
+    double* most;             ///< [4][room], A: the largest |df v| of each row
+    double *q, *dq;           ///< charges and capacitances, the same; null: not asked
 };
 
 /// What one instruction set offers.

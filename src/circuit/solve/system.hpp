@@ -39,7 +39,7 @@ class System {
         std::unique_ptr<Bank> bank;
         std::vector<const Device*> members;
         std::size_t terminals, room;
-        std::vector<int> unknowns;         // of each member, one after another
+        std::vector<int> unknowns;  // of each member, one after another
         std::vector<std::size_t> places;
     };
     std::vector<Group> groups_;

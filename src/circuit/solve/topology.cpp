@@ -125,8 +125,13 @@ std::optional<Error> unanswerable(const Circuit& c) {
 std::vector<Error> suspicious(const Circuit& c) {
     std::vector<int> ends(c.nodes.size());
     std::vector<const Element*> at(c.nodes.size());
-    for (const auto& e : c.elements)
+    for (const auto& e : c.elements) {
         for (const int n : e.nodes) ++ends[static_cast<std::size_t>(n)], at[static_cast<std::size_t>(n)] = &e;
+        if (!e.formula) continue;
+        for (const auto& in : e.formula->inputs())
+            for (const auto& name : {in.name, in.minus})
+                if (const int n = c.node(name); in.kind == FormulaInput::Kind::voltage && n > 0) ++ends[static_cast<std::size_t>(n)];
+    }
     std::vector<std::string_view> shared;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (ends[n] > 1) shared.push_back(c.nodes[n]);
