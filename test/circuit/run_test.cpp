@@ -120,6 +120,29 @@ TEST(Run, AStepThatDoesNotConvergeIsToldAndTheRestGoesOn) {
     EXPECT_NE(ran.err.find("1 of 3 did not converge"), std::string::npos) << ran.err;
 }
 
+TEST(Run, LinesOfTenMegabytesAreReadOrRefused) {
+    const Folder folder;
+    const auto refused = [&](const std::string& line, const std::string& why) {
+        folder.write("x.cir", "t\nv1 a 0 1\n" + line + "\n.op\n");
+        const auto ran = run(folder, "run x.cir");
+        EXPECT_EQ(ran.status, 1);
+        EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err.substr(0, 300);
+        EXPECT_LT(ran.err.size(), 1000U);
+    };
+    const std::size_t many = 10'000'000;
+    std::string sum = "b1 b 0 v=v(a)", nodes = "x1", wave = "v2 b 0 pwl(";
+    while (sum.size() < many) sum += "+v(a)";
+    while (nodes.size() < many) nodes += " node" + std::to_string(nodes.size());
+    for (int k = 0; wave.size() < many; ++k) wave += std::to_string(k) + " 1 ";
+    refused("r1 a 0 " + std::string(many, '1'), "x.cir:3:8: '1111");
+    refused("r1 a 0 " + std::string(many, '('), "x.cir:3:");
+    refused("b1 b 0 v=" + std::string(many, '(') + "1" + std::string(many, ')'), "nested more than");
+    refused(sum, "the formula has more than");
+    refused(nodes + " sub", "unknown subcircuit 'sub'");
+    folder.write("x.cir", "t\nv1 a 0 1\nr1 a 0 1\n* " + std::string(many, 'x') + "\n" + wave + ")\nr2 b 0 1\n.op\n");
+    EXPECT_EQ(run(folder, "run x.cir").status, 0);
+}
+
 TEST(Run, StatusTellsWhatWentWrong) {
     const Folder folder;
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");

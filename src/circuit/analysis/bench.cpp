@@ -26,9 +26,17 @@ Result<OperatingPoint> TestBench::rest() {
     return found;
 }
 
+/// Chips are solved from where the circuit rests as designed, along the pivots of its matrix there.
+void TestBench::prepare() {
+    const auto found = rest();
+    if (!found) return;
+    designed_ = found->x;
+    system.eval(designed_, newton.instant, newton.memory, newton.sums);
+    newton.solver.settle(std::span<const double>(newton.sums.G).first(system.pattern().entries()));
+}
+
 void TestBench::draw(const Draw& chip) {
-    if (!drawn_)
-        if (const auto found = rest(); found) designed_ = found->x;
+    if (!drawn_) prepare();
     drawn_ = chip;
     system.draw(&chip);
     rest_.reset();

@@ -27,6 +27,7 @@ class TestBench {
     std::optional<Draw> drawn_;
 
     TestBench(std::shared_ptr<const Circuit>, System, const Tolerances&);
+    void prepare();
 
 public:
     std::shared_ptr<const Circuit> circuit;

@@ -3,7 +3,10 @@
 #include <klu.h>
 
 #include <algorithm>
+#include <optional>
 #include <type_traits>
+
+#include "circuit/solve/elimination.hpp"
 
 namespace corpuscle::circuit {
 
@@ -23,13 +26,17 @@ std::size_t Pattern::place(int row, int column) const {
 template <class T>
 struct Solver<T>::Held {
     static constexpr bool is_complex = !std::is_same_v<T, double>;
+    const Pattern& pattern;
     int size;
     std::vector<int> begin, rows;
     klu_common common;
     klu_symbolic* symbolic;
     klu_numeric* numeric = nullptr;
+    std::optional<Elimination> list;
+    bool by_list = false;  // the last matrix went along the list
+    long strayed = 0;
 
-    explicit Held(const Pattern& p) : size(p.size()), begin(p.begin().begin(), p.begin().end()), rows(p.rows().begin(), p.rows().end()) {
+    explicit Held(const Pattern& p) : pattern(p), size(p.size()), begin(p.begin().begin(), p.begin().end()), rows(p.rows().begin(), p.rows().end()) {
         klu_defaults(&common);
         symbolic = klu_analyze(size, begin.data(), rows.data(), &common);
     }
@@ -74,7 +81,32 @@ template <class T>
 bool Solver<T>::factor(std::span<const T> values) {
     auto* numbers = reinterpret_cast<double*>(const_cast<T*>(values.data()));  // KLU takes no const, and changes nothing
     if (held_->symbolic == nullptr) return false;
+    if constexpr (!Held::is_complex) {
+        held_->by_list = held_->list && held_->list->factor(values);
+        if (held_->by_list) return true;
+        held_->strayed += held_->list.has_value();
+    }
     return (held_->numeric != nullptr && held_->again(numbers)) || held_->anew(numbers);
+}
+
+template <class T>
+void Solver<T>::settle(std::span<const T> values) {
+    if constexpr (!Held::is_complex) {
+        constexpr int too_large = 3000;  // unknowns: the list's pattern is worked out in a square of bytes
+        auto* numbers = const_cast<double*>(values.data());
+        if (held_->symbolic == nullptr || held_->size > too_large || !held_->anew(numbers)) return;
+        std::vector<int> rows(static_cast<std::size_t>(held_->size)), columns(rows.size());
+        klu_extract(held_->numeric, held_->symbolic, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                    rows.data(), columns.data(), nullptr, nullptr, &held_->common);
+        held_->list.emplace(held_->pattern, rows, columns, values);
+        held_->strayed = 0;
+    }
+    (void)values;
+}
+
+template <class T>
+long Solver<T>::strayed() const {
+    return held_->strayed;
 }
 
 template <class T>
@@ -85,6 +117,8 @@ Singular Solver<T>::where() const {
 template <class T>
 void Solver<T>::solve(std::span<T> b) const {
     auto* numbers = reinterpret_cast<double*>(b.data());
+    if constexpr (!Held::is_complex)
+        if (held_->by_list) return held_->list->solve(b);
     if constexpr (Held::is_complex)
         klu_z_solve(held_->symbolic, held_->numeric, held_->size, 1, numbers, &held_->common);
     else

@@ -44,6 +44,10 @@ public:
     /// Factors the matrix of these values, along the pivots of the last one if they still serve. False: it is singular, see where().
     bool factor(std::span<const T> values);
     Singular where() const;
+    /// Takes the pivots of this matrix for good and writes their elimination out as a list, for the many like it that follow; one that
+    /// they do not serve is still factored anew. Only of doubles, and not of a very large one: then nothing changes.
+    void settle(std::span<const T> values);
+    long strayed() const;  ///< matrices since then that the list did not serve
     void solve(std::span<T> right_side) const;             ///< A x = b, in place
     void solve_transposed(std::span<T> right_side) const;  ///< A^T x = b (no conjugate)
 };

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""A Monte Carlo of the bias generator beside ngspice: operating points of chips whose transistors each have a mismatch.
+
+    chips.py CORPUSCLE BENCH_CHIPS NETLIST [CHIPS] [CHIPS_OF_NGSPICE]
+
+Method: `bench-chips` solves its chips; then ngspice runs the same circuit, as `corpuscle export` writes it, with normal deviates of the
+same sizes added to each transistor's threshold and current (agauss), chip after chip in one process (reset, op), as people do it there.
+Its deviates are its own, so that means and deviations of v(q), not single chips, are compared. ngspice's time is that of its whole
+process less that of a process that does one chip. A chip is lost where ngspice says that the operating point failed, and wrong where
+v(q) lies further than 20 deviations of ours from our mean.
+"""
+import math
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+corpuscle, bench, netlist = sys.argv[1:4]
+chips, of_ngspice = (int(sys.argv[k]) if len(sys.argv) > k else n for k, n in ((4, 5000), (5, 100)))
+card = open(re.sub(r"circuits/[^/]*$", "process/tsmc180.lib", netlist)).read()
+of_card = {name: float(value) * {"": 1, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e-12, "f": 1e-15}[unit]
+           for name, value, unit in re.findall(r"\b(avt|ais|cox)=([0-9.e+-]+)([munpf]?)", card)}
+
+
+def with_chance(line):
+    """A line of parameters with deviates on vt and is; the size of its gate follows two lines later."""
+    def size(match):
+        area = float(match["cox"]) / of_card["cox"]
+        return (f"vt={{{match['vt']}+agauss(0,{of_card['avt'] / math.sqrt(area)},1)}}{match['between']}"
+                f"is={{{match['is']}*(1+agauss(0,{of_card['ais'] / math.sqrt(area)},1))}}{match['then']}cox={match['cox']}")
+    return re.sub(r"vt=(?P<vt>\S+)(?P<between>[^\n]*)\bis=(?P<is>\S+)(?P<then>[^\n]*\n\+ )cox=(?P<cox>\S+)", size, line)
+
+
+deck = subprocess.run([corpuscle, "export", netlist, "--for", "ngspice"], capture_output=True, text=True, check=True).stdout
+head, body = deck.split(".ends", 1) if deck.count(".ends") == 1 else deck.rsplit(".ends", 1)
+body = with_chance(body)
+assert "agauss" in body
+body = "\n".join(l for l in body.splitlines() if not re.match(r"\.(op|end|print|save|meas)\b", l, re.I))
+
+
+def ngspice(count):
+    text = f"{head}.ends{body}\n.control\nrepeat {count}\nreset\nop\nprint v(q)\nend\nquit\n.endc\n.end\n"
+    with tempfile.NamedTemporaryFile("w", suffix=".cir") as file:
+        file.write(text)
+        file.flush()
+        start = time.perf_counter()
+        ran = subprocess.run(["ngspice", "-b", file.name], capture_output=True, text=True)
+        seconds = time.perf_counter() - start
+    values = [float(v) for v in re.findall(r"^v\(q\) = (\S+)", ran.stdout, re.M)]
+    return seconds, values, count - len(values)
+
+
+ours = subprocess.run([bench, netlist, str(chips)], capture_output=True, text=True, check=True).stdout
+print("corpuscle:", ours.splitlines()[0])
+us = float(re.search(r"([0-9.]+) us each", ours)[1])
+mean, deviation = (float(x) for x in re.search(r"v\(q\) +mean ([0-9.]+) V +deviation ([0-9.]+) V", ours).groups())
+one = min(ngspice(1)[0] for _ in range(3))
+seconds, values, lost = ngspice(of_ngspice + 1)
+peer = (seconds - one) / of_ngspice * 1e6
+good = [v for v in values if abs(v - mean) < 20 * deviation]
+print(f"ngspice:   {of_ngspice} chips: {peer:.0f} us each, {lost} lost, {len(values) - len(good)} wrong")
+print(f"v(q): ours {mean * 1e3:.3f} mV, deviation {deviation * 1e3:.3f} mV; ngspice {statistics.mean(good) * 1e3:.3f} mV, "
+      f"{statistics.stdev(good) * 1e3:.3f} mV")
+print(f"ngspice's time over ours: {peer / us:.0f}")

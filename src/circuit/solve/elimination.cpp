@@ -1,0 +1,128 @@
+#include "circuit/solve/elimination.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "circuit/solve/matrix.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double largest_multiplier = 1e7;  // of scaled rows; KLU's own pivots keep below 1e3
+
+std::vector<int> inverse(std::span<const int> of) {
+    std::vector<int> out(of.size());
+    for (std::size_t k = 0; k < of.size(); ++k) out[static_cast<std::size_t>(of[k])] = static_cast<int>(k);
+    return out;
+}
+
+/// Which columns each row holds, in steps of elimination, once all fill is there.
+std::vector<std::vector<int>> filled(const Pattern& p, std::span<const int> step_of_row, std::span<const int> step_of_column) {
+    const auto n = static_cast<std::size_t>(p.size());
+    std::vector<std::vector<char>> there(n, std::vector<char>(n));
+    for (std::size_t column = 0; column < n; ++column)
+        for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e)
+            there[static_cast<std::size_t>(step_of_row[static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)])])]
+                 [static_cast<std::size_t>(step_of_column[column])] = 1;
+    for (std::size_t k = 0; k < n; ++k) {
+        there[k][k] = 1;
+        for (std::size_t i = k + 1; i < n; ++i)
+            for (std::size_t j = k + 1; there[i][k] && j < n; ++j) there[i][j] = static_cast<char>(there[i][j] | there[k][j]);
+    }
+    std::vector<std::vector<int>> out(n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+            if (there[i][j]) out[i].push_back(static_cast<int>(j));
+    return out;
+}
+
+}  // namespace
+
+Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<const int> columns, std::span<const double> values)
+    : rows_(rows.begin(), rows.end()), columns_(columns.begin(), columns.end()) {
+    const auto n = static_cast<std::size_t>(p.size());
+    const auto step_of_row = inverse(rows), step_of_column = inverse(columns);
+    const auto there = filled(p, step_of_row, step_of_column);
+
+    std::map<std::pair<int, int>, int> slot;  // of (row, column), in steps
+    const auto put = [&](int i, int j) {
+        const int at = static_cast<int>(slot.size());
+        slot[{i, j}] = at;
+        return at;
+    };
+    pivots_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        put(static_cast<int>(k), static_cast<int>(k));
+        pivots_[k].u_begin = static_cast<int>(slot.size());
+        for (const int j : there[k])
+            if (j > static_cast<int>(k)) put(static_cast<int>(k), j);
+        pivots_[k].u_end = static_cast<int>(slot.size());
+    }
+    l_from_ = static_cast<int>(slot.size());
+    u_columns_.resize(slot.size());
+    for (const auto& [place, at] : slot) u_columns_[static_cast<std::size_t>(at)] = place.second;
+    for (std::size_t k = 0; k < n; ++k) {
+        pivots_[k].l_begin = static_cast<int>(slot.size());
+        for (std::size_t i = k + 1; i < n; ++i)
+            if (std::binary_search(there[i].begin(), there[i].end(), static_cast<int>(k))) {
+                put(static_cast<int>(i), static_cast<int>(k));
+                l_rows_.push_back(static_cast<int>(i));
+            }
+        pivots_[k].l_end = static_cast<int>(slot.size());
+    }
+    for (auto& pivot : pivots_) {
+        pivot.update = static_cast<int>(updates_.size());
+        for (int l = pivot.l_begin; l < pivot.l_end; ++l)
+            for (int u = pivot.u_begin; u < pivot.u_end; ++u)
+                updates_.push_back(slot.at({l_rows_[static_cast<std::size_t>(l - l_from_)], u_columns_[static_cast<std::size_t>(u)]}));
+    }
+    scale_.assign(n, 0);
+    for (std::size_t column = 0; column < n; ++column)
+        for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e) {
+            const auto entry = static_cast<std::size_t>(e);
+            const auto row = static_cast<std::size_t>(p.rows()[entry]);
+            entry_slot_.push_back(slot.at({step_of_row[row], step_of_column[column]}));
+            entry_row_.push_back(p.rows()[entry]);
+            scale_[row] = std::max(scale_[row], std::abs(values[entry]));
+        }
+    for (double& s : scale_) s = s > 0 ? 1 / s : 1;
+    slots_.resize(slot.size()), per_pivot_.resize(n), work_.resize(n);
+}
+
+bool Elimination::factor(std::span<const double> values) {
+    std::fill(slots_.begin(), slots_.end(), 0.0);
+    double* const s = slots_.data();
+    for (std::size_t e = 0; e < entry_slot_.size(); ++e) s[entry_slot_[e]] = values[e] * scale_[static_cast<std::size_t>(entry_row_[e])];
+    double most = 0;
+    const int* target = updates_.data();
+    for (std::size_t k = 0; k < pivots_.size(); ++k) {
+        const Pivot& p = pivots_[k];
+        const double per = 1 / s[p.u_begin - 1];
+        per_pivot_[k] = per;
+        for (int l = p.l_begin; l < p.l_end; ++l) {
+            const double m = s[l] *= per;
+            most = std::max(most, std::abs(m));
+            for (int u = p.u_begin; u < p.u_end; ++u) s[*target++] -= m * s[u];
+        }
+        if (!(std::abs(per) < 1e300)) return false;
+    }
+    return most <= largest_multiplier;
+}
+
+void Elimination::solve(std::span<double> b) const {
+    const double* const s = slots_.data();
+    double* const y = work_.data();
+    const auto n = pivots_.size();
+    for (std::size_t k = 0; k < n; ++k) y[k] = b[static_cast<std::size_t>(rows_[k])] * scale_[static_cast<std::size_t>(rows_[k])];
+    for (std::size_t k = 0; k < n; ++k)
+        for (int l = pivots_[k].l_begin; l < pivots_[k].l_end; ++l) y[l_rows_[static_cast<std::size_t>(l - l_from_)]] -= s[l] * y[k];
+    for (std::size_t k = n; k-- > 0;) {
+        double x = y[k];
+        for (int u = pivots_[k].u_begin; u < pivots_[k].u_end; ++u) x -= s[u] * y[u_columns_[static_cast<std::size_t>(u)]];
+        y[k] = x * per_pivot_[k];
+        b[static_cast<std::size_t>(columns_[k])] = y[k];
+    }
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,114 @@
+// The flat list of an elimination: it solves what it was made for and what is like it, and what it does not serve goes another way.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "circuit/solve/elimination.hpp"
+#include "circuit/solve/matrix.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+struct Matrix {
+    Pattern pattern;
+    std::vector<double> values;
+
+    /// A row times x.
+    double times(int row, const std::vector<double>& x) const {
+        double sum = 0;
+        for (int column = 0; column < pattern.size(); ++column)
+            for (int e = pattern.begin()[static_cast<std::size_t>(column)]; e < pattern.begin()[static_cast<std::size_t>(column) + 1]; ++e)
+                if (pattern.rows()[static_cast<std::size_t>(e)] == row) sum += values[static_cast<std::size_t>(e)] * x[static_cast<std::size_t>(column)];
+        return sum;
+    }
+};
+
+/// Conductances over seven decades between random nodes, and some rows of a voltage source: 1 beside the diagonal, 0 on it.
+Matrix random_circuit(std::mt19937& chance, int nodes, int sources) {
+    std::vector<std::tuple<int, int, double>> all;
+    std::uniform_real_distribution<double> decade(-12, -5);
+    const auto node = [&] { return static_cast<int>(chance() % static_cast<unsigned>(nodes)); };
+    const auto add = [&](int row, int column, double value) { all.emplace_back(row, column, value); };
+    for (int k = 0; k < nodes; ++k) add(k, k, std::pow(10, decade(chance)));
+    for (int k = 0; k < 3 * nodes; ++k) {
+        const int a = node(), b = node();
+        if (a == b) continue;
+        const double g = std::pow(10, decade(chance)), m = std::pow(10, decade(chance));
+        add(a, a, g), add(b, b, g), add(a, b, -g), add(b, a, -g), add(a, b, m);
+    }
+    for (int k = 0; k < sources; ++k) add(k, nodes + k, 1), add(nodes + k, k, 1), add(nodes + k, nodes + k, 0);
+    std::vector<std::pair<int, int>> entries;
+    for (const auto& [row, column, value] : all) entries.emplace_back(row, column);
+    Matrix out{Pattern(nodes + sources, entries), {}};
+    out.values.resize(out.pattern.entries());
+    for (const auto& [row, column, value] : all) out.values[out.pattern.place(row, column)] += value;
+    return out;
+}
+
+void solves(Solver<double>& solver, const Matrix& m, std::mt19937& chance) {
+    const auto n = static_cast<std::size_t>(m.pattern.size());
+    std::vector<double> x(n), b(n), size(n);
+    for (double& v : x) v = std::normal_distribution<double>()(chance);
+    for (std::size_t row = 0; row < n; ++row) b[row] = m.times(static_cast<int>(row), x);
+    ASSERT_TRUE(solver.factor(m.values));
+    auto found = b;
+    solver.solve(found);
+    for (std::size_t row = 0; row < n; ++row) {
+        double scale = 0;
+        for (std::size_t c = 0; c < n; ++c)
+            for (int e = m.pattern.begin()[c]; e < m.pattern.begin()[c + 1]; ++e)
+                if (m.pattern.rows()[static_cast<std::size_t>(e)] == static_cast<int>(row))
+                    scale += std::abs(m.values[static_cast<std::size_t>(e)] * found[c]);
+        EXPECT_NEAR(m.times(static_cast<int>(row), found), b[row], 1e-9 * scale) << "row " << row << " of " << n;
+    }
+}
+
+TEST(Elimination, SolvesWhatItWasMadeForAndWhatIsLikeIt) {
+    std::mt19937 chance(1);
+    for (int round = 0; round < 100; ++round) {
+        const int nodes = 1 + static_cast<int>(chance() % 40), sources = static_cast<int>(chance() % static_cast<unsigned>(nodes)) / 4;
+        auto m = random_circuit(chance, nodes, sources);
+        Solver<double> solver(m.pattern);
+        solver.settle(m.values);
+        solves(solver, m, chance);
+        for (int other = 0; other < 5; ++other) {
+            for (double& v : m.values)
+                if (std::abs(v) != 1) v *= std::exp(0.3 * std::normal_distribution<double>()(chance));
+            solves(solver, m, chance);
+        }
+        EXPECT_EQ(solver.strayed(), 0);
+    }
+}
+
+TEST(Elimination, AMatrixThatItsPivotsDoNotServeIsFactoredAnew) {
+    Matrix m{Pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}}), {1, 1e-3, 1e-3, 1}};
+    Solver<double> solver(m.pattern);
+    solver.settle(m.values);
+    std::mt19937 chance(2);
+    solves(solver, m, chance);
+    EXPECT_EQ(solver.strayed(), 0);
+    m.values = {1e-20, 1, 1, 1e-20};
+    solves(solver, m, chance);
+    EXPECT_EQ(solver.strayed(), 1);
+    m.values = {2, 1e-3, 1e-3, 3};
+    solves(solver, m, chance);
+    EXPECT_EQ(solver.strayed(), 1);
+}
+
+TEST(Elimination, DoesNoMoreThanItsFillAsksFor) {
+    // an arrow: with the dense row and column last there is no fill
+    std::vector<std::pair<int, int>> entries;
+    for (int k = 0; k < 10; ++k) entries.insert(entries.end(), {{k, k}, {k, 9}, {9, k}});
+    const Pattern pattern(10, entries);
+    std::vector<int> order(10);
+    for (int k = 0; k < 10; ++k) order[static_cast<std::size_t>(k)] = k;
+    const std::vector<double> ones(pattern.entries(), 1);
+    const Elimination list(pattern, order, order, ones);
+    EXPECT_EQ(list.slots(), pattern.entries());
+    EXPECT_EQ(list.multiplications(), 9U);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
