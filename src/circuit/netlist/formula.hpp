@@ -53,6 +53,10 @@ public:
     /// The value, and in `slopes` how it changes with each input.
     double value(std::span<const double> inputs, std::span<double> slopes) const;
 
+    /// A text that means the same here and in ngspice's B sources, with `name` for each input: "2*v(a)+max(i(vx),0)". Refused where there
+    /// is no such text: a number that is not finite, or more than a million letters.
+    Result<std::string> text(const std::function<std::string(const FormulaInput&)>& name) const;
+
 private:
     friend class FormulaReader;
     template <class Room>

@@ -1,0 +1,81 @@
+#include "circuit/export/names.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "signal/text.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
+
+/// Names given so far.
+class Given {
+    std::set<std::string, std::less<>> all_;
+
+public:
+    std::string give(std::string_view wanted, std::string_view also_legal) {
+        std::string name;
+        for (const char c : wanted) {
+            const char small = lower(c);
+            name += is_letter_or_digit(small) || also_legal.find(small) != std::string_view::npos ? small : '_';
+        }
+        const auto plain = name;
+        for (int k = 2; !all_.insert(name).second; ++k) name = fmt::format("{}_{}", plain, k);
+        return name;
+    }
+};
+
+std::string letter_first(const Element& e) {
+    const std::string letters = e.letter == 'm' ? "xm" : std::string(1, e.letter);
+    if (e.name.find('.') != std::string::npos) return letters + "_" + e.name;
+    return e.letter == 'm' ? "x" + e.name : e.name;
+}
+
+bool in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' || c == '#' || c == '@'; }
+
+}  // namespace
+
+ExportNames::ExportNames(const Circuit& circuit) : circuit_(circuit) {
+    Given nodes, elements, models;
+    for (const auto& n : circuit.nodes) nodes_.push_back(nodes.give(n, "_.#"));
+    for (const auto& e : circuit.elements) elements_.push_back(elements.give(letter_first(e), "_"));
+    for (const auto& m : circuit.models) models_.push_back(models.give(m.name, "_"));
+}
+
+std::string ExportNames::node(std::string_view name) const {
+    const int number = name == "gnd" ? 0 : circuit_.node(name);
+    return number < 0 ? "" : nodes_[static_cast<std::size_t>(number)];
+}
+
+std::string ExportNames::element(std::string_view name) const {
+    const int number = circuit_.element(name);
+    return number < 0 ? "" : elements_[static_cast<std::size_t>(number)];
+}
+
+std::string ExportNames::word(std::string_view text) const {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto open = text.find('(', at), close = text.find(')', std::min(open, text.size()));
+        if (close == std::string_view::npos) return out + std::string(text.substr(at));
+        std::size_t name = open;
+        while (name > at && in_name(text[name - 1])) --name;
+        out += text.substr(at, open + 1 - at);
+        at = open + 1;
+        const char kind = name < open ? text[name] : ' ';
+        if (open - name > 3 || (kind != 'v' && kind != 'i')) continue;  // v vm vdb ...; not max(
+        auto inside = text.substr(at, close - at);
+        for (bool first = true; first || !inside.empty(); first = false) {
+            const auto comma = std::min(inside.find(','), inside.size());
+            const auto said = inside.substr(0, comma);
+            const auto known = kind == 'v' ? node(said) : element(said);
+            out += fmt::format("{}{}", first ? "" : ",", known.empty() ? std::string(said) : known);
+            inside.remove_prefix(std::min(comma + 1, inside.size()));
+        }
+        at = close;
+    }
+    return out;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,70 @@
+#include "circuit/export/transistor_text.hpp"
+
+#include <fmt/format.h>
+
+namespace corpuscle::circuit {
+namespace {
+
+// g is q as a function of z, such that q + ln q is nearly a straight line over z: Newton's steps cannot go astray there, and q never is
+// below 0. With p and q the charges at the two ends, h and l the higher and the lower of them (channel.hpp):
+//     d = q_S - q_D once velocity saturation has had its say;   y = q_S + q_D - zeta |i|;   i = d (y + 2)
+// and the charge of one end from d, as it sees it, and y.
+constexpr std::string_view functions = R"(.func uicm_g(z) {z > 300 ? z+0.6931471805599453 : asinh(exp(min(z,300)))}
+.func uicm_ln_g(z) {z < -30 ? z : ln(uicm_g(max(z,-30)))}
+.func uicm_root(h,k) {sqrt((1+k)*(1+k)+2*k*h)}
+.func uicm_d(d,h,l,k) {d*(1-k+uicm_root(h,k))/(1+k+uicm_root(h,k)+k*(h-l)-2*k*l/h)}
+.func uicm_y(h,d,k) {2*h-d-k*(2*h+2-d)*d/(1+k*d)}
+.func uicm_charge(d,y,k) {y/4+d/12+d*d/(12*(y+2))-d*d*d/(60*(y+2)*(y+2))+k/4*abs(d)*(y+2)}
+)";
+
+// {1} {2} {3} {4}: voltages from gate, source and drain to bulk, and from drain to source, in the transistor's own polarity; {5} {6}: the
+// ends between which it carries current; {7}: which way charges count; {8} {9} {10} {11}: a junction's ends at source and at drain.
+constexpr std::string_view subcircuit = R"(.subckt {0} d g s b vt=0.5 slope=1.3 phit=0.02587 sigma=0 zeta=0 is=0 va=1e6
++ cox=0 cgs=0 cgd=0 cgb=0 iss=0 isd=0 tops=0 topd=0 njphit=0.02587 cjs=0 cjd=0 pb=0.8 mj=0.4 fc=0.5
+* q + ln q = x at source and drain
+bzs zs 0 i=uicm_g(v(zs))+uicm_ln_g(v(zs))-1-(({1}-vt+sigma*({2}+{3}))/slope-{2})/phit
+bzd zd 0 i=uicm_g(v(zd))+uicm_ln_g(v(zd))-1-(({1}-vt+sigma*({2}+{3}))/slope-{3})/phit
+bqs qs 0 i=v(qs)-uicm_g(v(zs))
+bqd qd 0 i=v(qd)-uicm_g(v(zd))
+* the channel's current
+bd d1 0 i=v(d1)-uicm_d(v(qs)-v(qd),max(max(v(qs),v(qd)),1e-90),max(min(v(qs),v(qd)),0),zeta)
+by y 0 i=v(y)-uicm_y(max(max(v(qs),v(qd)),0),abs(v(d1)),zeta)
+bi {5} i=is*v(d1)*(max(v(y),0)+2)*(1+(sqrt(v(d,s)*v(d,s)+16*phit*phit)-4*phit)/va)
+* its charges: each end's on a capacitor of its own, whose other side a voltage holds; the depletion's share comes back from the bulk
+cqd d cd {{slope*cox}}
+bqdg cd g v=v(d,g){7}phit*uicm_charge(-v(d1),max(v(y),0),zeta)
+cqs s cs {{slope*cox}}
+bqsg cs g v=v(s,g){7}phit*uicm_charge(v(d1),max(v(y),0),zeta)
+bqb g b i=(1-1/slope)*(i(bqdg)+i(bqsg))
+cgd g d {{cgd}}
+cgs g s {{cgs}}
+cgb g b {{cgb+cox*(slope-1)/slope}}
+* junctions: their currents, then their charges and gmin
+bjs {8} {9} i=iss*(exp(min(v({8},{9})/njphit,tops))*(1+max(v({8},{9})/njphit-tops,0))-1)
+bjd {10} {11} i=isd*(exp(min(v({10},{11})/njphit,topd))*(1+max(v({10},{11})/njphit-topd,0))-1)
+djs {8} {9} js temp=27
+djd {10} {11} jd temp=27
+.model js d(is=1e-40 n=10 cjo={{cjs}} vj={{pb}} m={{mj}} fc={{fc}} tnom=27)
+.model jd d(is=1e-40 n=10 cjo={{cjd}} vj={{pb}} m={{mj}} fc={{fc}} tnom=27)
+.ends
+)";
+
+}  // namespace
+
+std::string uicm_functions() { return std::string(functions); }
+
+std::string uicm_subcircuit(bool pmos) {
+    if (pmos) return fmt::format(subcircuit, "uicm_p", "v(b,g)", "v(b,s)", "v(b,d)", "v(s,d)", "s d", "", "-", "s", "b", "d", "b");
+    return fmt::format(subcircuit, "uicm_n", "v(g,b)", "v(s,b)", "v(d,b)", "v(d,s)", "d s", "", "+", "b", "s", "b", "d");
+}
+
+std::string uicm_parameters(const UicmCard& card, const UicmInstance& size, double temperature, bool pmos) {
+    const auto c = uicm_constants(card, size, temperature, pmos);
+    std::string out = fmt::format("vt={} slope={} phit={} sigma={} zeta={} is={} va={}\n", c.V_T, card.n, 1 / c.per_phi_t,
+                                  c.sigma_n * card.n, c.zeta, c.I_S, 1 / c.lambda);
+    out += fmt::format("+ cox={} cgs={} cgd={} cgb={}", card.C_ox * size.area(), c.C_gs, c.C_gd, c.C_gb);
+    out += fmt::format(" iss={} isd={} tops={} topd={} njphit={}\n", c.I_sat_s, c.I_sat_d, c.top_s, c.top_d, 1 / c.per_n_phi_t);
+    return out + fmt::format("+ cjs={} cjd={} pb={} mj={} fc={}\n", c.C_js, c.C_jd, card.P_B, card.M_J, card.F_C);
+}
+
+}  // namespace corpuscle::circuit
