@@ -22,6 +22,7 @@ constexpr const char* first_steps = R"(First steps:
   corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
   corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
   corpuscle run circuits/inverter.cir                    a netlist's analyses, transistor by transistor
+  corpuscle export circuits/inverter.cir --for ngspice   the same netlist for another simulator
   corpuscle study --report studies.html                  what others printed, made again
   corpuscle list                                         every afferent, stimulus and parameter
 
@@ -70,6 +71,16 @@ Examples:
   corpuscle run circuits/divider.cir
   corpuscle run amplifier.cir -o amplifier.raw
   corpuscle run amplifier.cir -o amplifier.csv --json)";
+
+constexpr const char* export_examples =
+    R"(The deck is flat: subcircuits put in place, every parameter worked out. Transistors become subcircuits of formulas that carry what
+ours carry: currents to 1e-5 of themselves, small signals to 0.1 %; their noise ngspice cannot have. What it has no word for (.step,
+.mc, .expect ...) stays as a comment, and is told.
+
+Examples:
+  corpuscle export amplifier.cir --for ngspice -o amplifier-ng.cir
+  ngspice -b amplifier-ng.cir -r amplifier.raw                          the curves that 'corpuscle run amplifier.cir -o ...' writes
+  corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       prints, and measures)";
 
 void add_common(CLI::App& verb, Common& common) {
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
@@ -216,6 +227,18 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
     add_common(verb, common);
 }
 
+void add_export(CLI::App& app, ExportWords& w, Common& common) {
+    auto& verb = *app.add_subcommand("export", "a netlist as another simulator's deck, for a second opinion");
+    verb.footer(export_examples);
+    verb.add_option("NETLIST", w.netlist, "a SPICE netlist")->required();
+    verb.add_option("--for", w.target, "whose deck: ngspice (39, as Debian has it)")
+        ->check(CLI::IsMember({"ngspice"}))
+        ->capture_default_str()
+        ->type_name("SIMULATOR");
+    verb.add_option("--out,-o", w.out, "write it here, not to standard output")->type_name("FILE")->group("Output");
+    add_common(verb, common);
+}
+
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
@@ -233,6 +256,7 @@ int main(int argc, char** argv) {
     CompareWords compare_words;
     StudyWords study_words;
     RunWords run_words;
+    ExportWords export_words;
     ListWords list_words;
 
     CLI::App app(about, "corpuscle");
@@ -243,6 +267,7 @@ int main(int argc, char** argv) {
     add_compare(app, compare_words, common);
     add_study(app, study_words, common);
     add_run(app, run_words, common);
+    add_export(app, export_words, common);
     add_list(app, list_words, common);
     try {
         app.parse(argc, argv);
@@ -255,6 +280,7 @@ int main(int argc, char** argv) {
     try {
         return app.got_subcommand("list")      ? list(list_words, common)
                : app.got_subcommand("run")     ? run(run_words, common)
+               : app.got_subcommand("export")  ? export_to(export_words, common)
                : app.got_subcommand("study")   ? study(study_words, common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);

@@ -44,6 +44,10 @@ struct RunWords {
     bool ascii = false;
 };
 
+struct ExportWords {
+    std::string netlist, target = "ngspice", out;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
@@ -52,6 +56,7 @@ int respond(const RespondWords&, const Common&);
 int compare(const CompareWords&, const Common&);
 int study(const StudyWords&, const Common&);
 int run(const RunWords&, const Common&);
+int export_to(const ExportWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle

@@ -1,6 +1,7 @@
 #include "circuit/export/elements.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "circuit/device/values.hpp"
 #include "circuit/export/transistor_text.hpp"
@@ -58,18 +59,21 @@ private:
         return e_.values.contains("dtemp") ? fmt::format(" dtemp={}", said("dtemp", 0)) : "";
     }
 
-    /// Several in parallel as one, so that a sweep of its value means the same.
+    /// Several in parallel as one. What a .dc sweeps stands as worked out: ngspice would apply the temperature to each value of the sweep.
     std::string passive() const {
         const double m = said("m", 1), value = e_.letter == 'c' ? e_.value * m : e_.value / m;
-        const double tc1 = said_or_of_model("tc1", 0), tc2 = said_or_of_model("tc2", 0), tnom = said_or_of_model("tnom", 27);
-        if (tnom != 27) {  // measured elsewhere: ngspice has no word for it in this line
-            const double dT = celsius() - tnom;
-            return fmt::format("{} {}{}\n", head_, value * (1 + tc1 * dT + tc2 * dT * dT), temperature());
-        }
+        const double tc1 = said_or_of_model("tc1", 0), tc2 = said_or_of_model("tc2", 0), dT = celsius() - said_or_of_model("tnom", 27);
+        if (swept()) return fmt::format("{} {}{}\n", head_, value * (1 + tc1 * dT + tc2 * dT * dT), temperature());
         std::string out = fmt::format("{} {}", head_, value);
+        if (model() && model()->values.contains("tnom")) out += ' ' + names_.model(e_.model);
         if (tc1 != 0 || tc2 != 0) out += fmt::format(" tc1={} tc2={}", tc1, tc2);
         if (e_.values.contains("ic")) out += fmt::format(" ic={}", said("ic", 0));
         return out + temperature() + '\n';
+    }
+    bool swept() const {
+        return std::any_of(circuit_.commands.begin(), circuit_.commands.end(), [this](const Command& c) {
+            return c.name == "dc" && std::find(c.words.begin(), c.words.end(), e_.name) != c.words.end();
+        });
     }
 
     std::string source() const {
@@ -124,7 +128,8 @@ private:
             case FormulaInput::Kind::time:
                 return "time";
             case FormulaInput::Kind::temperature:
-                return temperature().empty() ? "temper" : fmt::format("{}", celsius());
+                if (e_.values.contains("temp")) return fmt::format("{}", celsius());
+                return e_.values.contains("dtemp") ? fmt::format("(temper+{})", said("dtemp", 0)) : "temper";
         }
         return "0";
     }
@@ -147,6 +152,10 @@ Result<std::string> element_text(const Circuit& circuit, std::size_t element, co
 
 std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames& names) {
     const Model& m = circuit.models[k];
+    if (m.type == "r" || m.type == "c" || m.type == "l") {
+        const double tnom = value_or(m.values, "tnom", 27);
+        return m.values.contains("tnom") ? fmt::format(".model {} {}(tnom={})\n", names.model(static_cast<int>(k)), m.type, tnom) : "";
+    }
     if (m.type != "d") return "";
     std::string out = fmt::format(".model {} d(", names.model(static_cast<int>(k)));
     for (const auto& [name, value] : m.values) {

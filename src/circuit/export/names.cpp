@@ -10,22 +10,25 @@ namespace {
 
 bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 
-/// Names given so far.
-class Given {
-    std::set<std::string, std::less<>> all_;
+std::string legal(std::string_view name, std::string_view also) {
+    std::string out;
+    for (const char c : name) out += is_letter_or_digit(lower(c)) || also.find(c) != std::string_view::npos ? lower(c) : '_';
+    return out;
+}
 
-public:
-    std::string give(std::string_view wanted, std::string_view also_legal) {
-        std::string name;
-        for (const char c : wanted) {
-            const char small = lower(c);
-            name += is_letter_or_digit(small) || also_legal.find(small) != std::string_view::npos ? small : '_';
-        }
-        const auto plain = name;
-        for (int k = 2; !all_.insert(name).second; ++k) name = fmt::format("{}_{}", plain, k);
-        return name;
+/// A name each: first for those that may keep theirs.
+std::vector<std::string> given(const std::vector<std::string>& wanted, std::string_view also) {
+    std::set<std::string, std::less<>> taken;
+    std::vector<std::string> out(wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        if (legal(wanted[k], also) == wanted[k] && taken.insert(wanted[k]).second) out[k] = wanted[k];
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        const auto plain = legal(wanted[k], also);
+        for (int n = 1; out[k].empty(); ++n)
+            if (auto name = n == 1 ? plain : fmt::format("{}_{}", plain, n); taken.insert(name).second) out[k] = std::move(name);
     }
-};
+    return out;
+}
 
 std::string letter_first(const Element& e) {
     const std::string letters = e.letter == 'm' ? "xm" : std::string(1, e.letter);
@@ -38,10 +41,11 @@ bool in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' || c
 }  // namespace
 
 ExportNames::ExportNames(const Circuit& circuit) : circuit_(circuit) {
-    Given nodes, elements, models;
-    for (const auto& n : circuit.nodes) nodes_.push_back(nodes.give(n, "_.#"));
-    for (const auto& e : circuit.elements) elements_.push_back(elements.give(letter_first(e), "_"));
-    for (const auto& m : circuit.models) models_.push_back(models.give(m.name, "_"));
+    nodes_ = given(circuit.nodes, "_.#");
+    std::vector<std::string> elements, models;
+    for (const auto& e : circuit.elements) elements.push_back(legal(letter_first(e), "_"));
+    for (const auto& m : circuit.models) models.push_back(legal(m.name, "_"));
+    elements_ = given(elements, "_"), models_ = given(models, "_");
 }
 
 std::string ExportNames::node(std::string_view name) const {

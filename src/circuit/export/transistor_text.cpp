@@ -7,14 +7,15 @@ namespace {
 
 // g is q as a function of z, such that q + ln q is nearly a straight line over z: Newton's steps cannot go astray there, and q never is
 // below 0. With p and q the charges at the two ends, h and l the higher and the lower of them (channel.hpp):
-//     d = q_S - q_D once velocity saturation has had its say;   y = q_S + q_D - zeta |i|;   i = d (y + 2)
-// and the charge of one end from d, as it sees it, and y.
+//     d = q_S - q_D once velocity saturation has had its say;   y = q_S + q_D of these = p + q + |p - q| - |d|
+//     t = y + 2 - zeta |i| = (y + 2) / (1 + zeta |d|);           i = d t
+// and an end's charge from d, as that end sees it, y and t. None of these has a kink at V_DS = 0, where ngspice gives |x| no slope.
 constexpr std::string_view functions = R"(.func uicm_g(z) {z > 300 ? z+0.6931471805599453 : asinh(exp(min(z,300)))}
 .func uicm_ln_g(z) {z < -30 ? z : ln(uicm_g(max(z,-30)))}
 .func uicm_root(h,k) {sqrt((1+k)*(1+k)+2*k*h)}
 .func uicm_d(d,h,l,k) {d*(1-k+uicm_root(h,k))/(1+k+uicm_root(h,k)+k*(h-l)-2*k*l/h)}
-.func uicm_y(h,d,k) {2*h-d-k*(2*h+2-d)*d/(1+k*d)}
-.func uicm_charge(d,y,k) {y/4+d/12+d*d/(12*(y+2))-d*d*d/(60*(y+2)*(y+2))+k/4*abs(d)*(y+2)}
+.func uicm_t(d,y,k) {(y+2)/(1+k*abs(d))}
+.func uicm_charge(d,y,t) {y/4+d/12+d*d/(12*t)-d*d*d/(60*t*t)}
 )";
 
 // {1} {2} {3} {4}: voltages from gate, source and drain to bulk, and from drain to source, in the transistor's own polarity; {5} {6}: the
@@ -28,13 +29,13 @@ bqs qs 0 i=v(qs)-uicm_g(v(zs))
 bqd qd 0 i=v(qd)-uicm_g(v(zd))
 * the channel's current
 bd d1 0 i=v(d1)-uicm_d(v(qs)-v(qd),max(max(v(qs),v(qd)),1e-90),max(min(v(qs),v(qd)),0),zeta)
-by y 0 i=v(y)-uicm_y(max(max(v(qs),v(qd)),0),abs(v(d1)),zeta)
-bi {5} i=is*v(d1)*(max(v(y),0)+2)*(1+(sqrt(v(d,s)*v(d,s)+16*phit*phit)-4*phit)/va)
+by y 0 i=v(y)-max(v(qs)+v(qd)+abs(v(qs)-v(qd))-abs(v(d1)),0)
+bi {5} i=is*v(d1)*uicm_t(v(d1),max(v(y),0),zeta)*(1+(sqrt(v(d,s)*v(d,s)+16*phit*phit)-4*phit)/va)
 * its charges: each end's on a capacitor of its own, whose other side a voltage holds; the depletion's share comes back from the bulk
 cqd d cd {{slope*cox}}
-bqdg cd g v=v(d,g){7}phit*uicm_charge(-v(d1),max(v(y),0),zeta)
+bqdg cd g v=v(d,g){7}phit*uicm_charge(-v(d1),max(v(y),0),uicm_t(v(d1),max(v(y),0),zeta))
 cqs s cs {{slope*cox}}
-bqsg cs g v=v(s,g){7}phit*uicm_charge(v(d1),max(v(y),0),zeta)
+bqsg cs g v=v(s,g){7}phit*uicm_charge(v(d1),max(v(y),0),uicm_t(v(d1),max(v(y),0),zeta))
 bqb g b i=(1-1/slope)*(i(bqdg)+i(bqsg))
 cgd g d {{cgd}}
 cgs g s {{cgs}}

@@ -1,0 +1,60 @@
+// corpuscle export: a netlist as another simulator's.
+
+#include <fmt/format.h>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "circuit/export/ngspice.hpp"
+#include "io/output.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+namespace {
+
+using namespace circuit;
+using Json = nlohmann::ordered_json;
+
+Result<void> write_file(const std::string& path, const std::string& text) {
+    auto file = OutputFile::create(path);
+    if (!file) return file.error();
+    if (auto ok = file->write(text); !ok) return ok;
+    return file->commit();
+}
+
+Json document_of(const NgspiceDeck& deck, const std::vector<Error>& remarks) {
+    Json warnings = Json::array();
+    for (const auto& r : remarks) warnings.push_back(r.text());
+    return {{"for", "ngspice"}, {"deck", deck.text}, {"warnings", warnings}};
+}
+
+Result<void> export_netlist(const ExportWords& words, const Common& common) {
+    std::error_code ignored;
+    if (!words.out.empty() && std::filesystem::equivalent(words.netlist, words.out, ignored))
+        return bad_usage(fmt::format("export -o {}: that is the netlist itself; name another file", words.out));
+    const auto netlist = Netlist::read(words.netlist);
+    if (!netlist) return netlist.error();
+    auto circuit = netlist->elaborate();
+    if (!circuit) return circuit.error();
+    auto remarks = circuit->remarks;
+    const auto deck = ngspice_deck(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!deck) return deck.error();
+    remarks.insert(remarks.end(), deck->left_out.begin(), deck->left_out.end());
+    if (!words.out.empty())
+        if (auto ok = write_file(words.out, deck->text); !ok) return ok;
+    for (const auto& r : remarks) fmt::print(stderr, "corpuscle: warning: {}\n", r.text());
+    if (common.json)
+        fmt::print("{}\n", document_of(*deck, remarks).dump(1, ' ', false, Json::error_handler_t::replace));
+    else if (words.out.empty())
+        fmt::print("{}", deck->text);
+    return {};
+}
+
+}  // namespace
+
+int export_to(const ExportWords& words, const Common& common) {
+    const auto done = export_netlist(words, common);
+    return done ? 0 : fail(done.error());
+}
+
+}  // namespace corpuscle

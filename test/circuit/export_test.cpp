@@ -1,0 +1,276 @@
+// Exported decks, run by ngspice and read back by ourselves, give what the netlists give.
+
+#include <fmt/format.h>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "circuit/export/names.hpp"
+#include "circuit/export/ngspice.hpp"
+#include "support/ngspice.hpp"
+#include "support/program.hpp"
+#include "support/property.hpp"
+
+namespace corpuscle::circuit::test {
+namespace {
+
+std::vector<std::string> netlists_in(const std::string& folder) {
+    std::vector<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator(root() + folder))
+        if (entry.path().extension() == ".cir") out.push_back(entry.path().string());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/// Every netlist of the project that ngspice could be asked to run.
+std::vector<std::string> netlists() {
+    std::vector<std::string> out;
+    for (const char* folder : {"/circuits", "/test/circuit/decks", "/test/circuit/export"})
+        for (auto& path : netlists_in(folder)) out.push_back(std::move(path));
+    return out;
+}
+
+std::string exported(const std::shared_ptr<const Circuit>& circuit) {
+    const auto deck = ngspice_deck(circuit);
+    EXPECT_TRUE(deck) << (deck ? "" : deck.error().text());
+    return deck ? deck->text : "";
+}
+
+/// What a curve of ours is called in the exported deck's plots: "i(x1.v1)" is "i(v_x1_v1)".
+std::string name_there(const ExportNames& names, const std::string& curve) {
+    if (!curve.starts_with("v(") && !curve.starts_with("i(")) return curve;
+    const auto inside = curve.substr(2, curve.size() - 3);
+    const auto known = curve[0] == 'v' ? names.node(inside) : names.element(inside);
+    return known.empty() ? curve : fmt::format("{}({})", curve[0], known);
+}
+
+/// How far one plot's curves are from another's, in what is allowed: 1e-5 of each value, small signals and noise 1e-3; besides, what the
+/// simulators' own floors leave: 2 nV and 1e-16 A, and of small signals 1e-9 of the largest.
+void hold(const ExportNames& names, const Plot& mine, const Plot& theirs) {
+    SCOPED_TRACE(mine.name);
+    ASSERT_EQ(mine.points(), theirs.points());
+    std::map<std::string, const Curve*> there;
+    for (const auto& c : theirs.curves) there[plain(c.name)] = &c;
+    const bool small = mine.is_complex || mine.name.find("oise") != std::string::npos;
+    for (const auto& c : mine.curves) {
+        if (c.name.find('#') != std::string::npos && c.name.starts_with("v(")) continue;  // inside a device
+        if (c.name.ends_with("-sweep") || c.name == "frequency" || c.name == "inoise_total" || c.name == "onoise_total") continue;
+        const auto found = there.find(name_there(names, c.name));
+        ASSERT_NE(found, there.end()) << c.name << " as " << name_there(names, c.name);
+        double most = 0;
+        for (const auto& x : c.values) most = std::max(most, std::abs(x));
+        const double floor = small ? 1e-9 * most + 1e-30 : c.type == "current" ? 1e-16 : 2e-9, share = small ? 1e-3 : 1e-5;
+        for (std::size_t k = 0; k < c.values.size(); ++k)
+            ASSERT_LE(std::abs(c.values[k] - found->second->values[k]), share * std::abs(c.values[k]) + floor)
+                << c.name << " at point " << k << ": ours " << c.values[k] << ", theirs " << found->second->values[k];
+    }
+}
+
+/// Plots of the same name in the order in which they were asked for.
+void hold_all(const ExportNames& names, const std::vector<Plot>& mine, const std::vector<Plot>& theirs) {
+    std::map<std::string, std::size_t> seen;
+    for (const auto& plot : mine) {
+        std::size_t skip = seen[plot.name]++;
+        const auto found = std::find_if(theirs.begin(), theirs.end(), [&](const Plot& p) { return p.name == plot.name && skip-- == 0; });
+        ASSERT_NE(found, theirs.end()) << "no plot '" << plot.name << "'";
+        hold(names, plot, *found);
+    }
+}
+
+/// What the netlist itself gives: for what has transistors by formulas, with our own in their place.
+std::string of_our_transistors(const Folder& folder, const std::string& path) {
+    const auto name = std::filesystem::path(path).stem().string();
+    return name.starts_with("uicm_") ? folder.write("native.cir", native(path)) : path;
+}
+
+/// Commands that ngspice cannot be asked, and others that would be asked there alone.
+std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Circuit>& circuit) {
+    auto out = std::make_shared<Circuit>(*circuit);
+    std::erase_if(out->commands, [](const Command& c) {
+        return c.name == "expect" || c.name == "step" || c.name == "mc" || (!c.words.empty() && c.words.back() == "updown");
+    });
+    return out;
+}
+
+class Export : public testing::TestWithParam<std::string> {};
+
+TEST_P(Export, GivesInNgspiceWhatTheNetlistGivesHere) {
+    const Folder folder;
+    const auto read = circuit_of(of_our_transistors(folder, GetParam()));
+    ASSERT_TRUE(read);
+    const auto circuit = of_what_both_know(read);
+    const auto log = ngspice(folder.write("deck.cir", exported(circuit)), folder / "deck.raw");
+    const auto mine = run(circuit);
+    ASSERT_TRUE(mine) << mine.error().text();
+    const auto theirs = read_raw_file(folder / "deck.raw");
+    ASSERT_FALSE(theirs.empty()) << log;
+    hold_all(ExportNames(*circuit), mine->plots(), theirs);
+    if (HasFailure()) std::puts(log.c_str());
+}
+
+TEST_P(Export, ReadsBackHereAndMeansTheSame) {
+    const Folder folder;
+    const auto read = circuit_of(of_our_transistors(folder, GetParam()));
+    ASSERT_TRUE(read);
+    const auto circuit = of_what_both_know(read);
+    const auto mine = run(circuit);
+    ASSERT_TRUE(mine) << mine.error().text();
+    const auto again = circuit_of(folder.write("deck.cir", exported(circuit)));
+    ASSERT_TRUE(again);
+    if (std::any_of(circuit->elements.begin(), circuit->elements.end(), [](const Element& e) { return e.letter == 'm'; })) {
+        // Their noise is not in the deck.
+        auto quiet = std::make_shared<Circuit>(*again);
+        std::erase_if(quiet->commands, [](const Command& c) { return c.name == "noise"; });
+    }
+    const auto back = run(again);
+    ASSERT_TRUE(back) << back.error().text();
+    hold_all(ExportNames(*circuit), mine->plots(), back->plots());
+    const auto twice = circuit_of(folder.write("twice.cir", exported(again)));
+    ASSERT_TRUE(twice);
+    const auto last = run(twice);
+    ASSERT_TRUE(last) << last.error().text();
+    hold_all(ExportNames(*again), back->plots(), last->plots());
+}
+
+INSTANTIATE_TEST_SUITE_P(Netlists, Export, testing::ValuesIn(netlists()), [](const auto& one) {
+    const std::filesystem::path path(one.param);
+    return path.parent_path().filename().string() + "_" + path.stem().string();
+});
+
+TEST(ExportedOrders, AreMeasuredByNgspiceAsHere) {
+    const Folder folder;
+    const auto circuit = circuit_of(root() + "/circuits/inverter.cir");
+    const auto log = ngspice(folder.write("deck.cir", exported(circuit)), "");
+    const auto mine = run(circuit);
+    ASSERT_TRUE(mine);
+    ASSERT_EQ(mine->numbers.size(), 2U);
+    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(number_of(log, name), value, 1e-5 * std::abs(value)) << log;
+}
+
+constexpr const char* wishes_for_all = R"(what ngspice has no words for
+.param w=1.5u
+vdd v 0 0.7
+vin g 0 dc 0.4 ac 1
+x1 d g v load
+.subckt load d g v
+m1 d g 0 0 nch w={w} l=0.5u
+r1 v d 1meg
+.ends
+.model nch nmos(level=80)
+.dc vin 0 0.7 0.05 updown
+.dc temp 0 50 10
+.noise v(d) vin dec 5 1 1k
+.step param w 1u 2u 0.5u
+.mc 10
+.meas dc half when v(d)=0.35
+.print v(d) i(vdd)
+.expect half 0.35 1
+.end
+)";
+
+TEST(ExportedOrders, ThatNgspiceLacksStayAsCommentsAndAreTold) {
+    const Folder folder;
+    const auto deck = ngspice_deck(circuit_of(folder.write("x.cir", wishes_for_all)));
+    ASSERT_TRUE(deck);
+    for (const char* line :
+         {"* left out: .step param w 1u 2u 0.5u", "* left out: .mc 10", "* left out: .expect half 0.35 1", "* left out: .dc temp 0 50 10",
+          "* left out: updown", "\n.dc vin 0 0.7 0.05\n", "\n.print dc v(d) i(vdd)\n", "\n.meas dc half when v(d)=0.35\n",
+          "\nxm_x1_m1 d g 0 0", "* the transistors' own noise is not in what ngspice gives"})
+        EXPECT_NE(deck->text.find(line), std::string::npos) << line << "\n" << deck->text;
+    EXPECT_EQ(deck->left_out.size(), 6U);
+    for (const auto& e : deck->left_out) EXPECT_GT(e.place.line, 10) << e.text();
+}
+
+TEST(ExportedNames, AreLegalAndOneToOne) {
+    EXPECT_TRUE(rc::check([](const std::vector<std::string>& wanted) {
+        Circuit circuit;
+        for (const auto& w : wanted) {
+            const auto name = "n" + w;
+            if (circuit.node_numbers.try_emplace(name, static_cast<int>(circuit.nodes.size())).second) circuit.nodes.push_back(name);
+            circuit.elements.push_back({});
+            circuit.elements.back().name = "x." + name, circuit.elements.back().letter = 'r';
+        }
+        const ExportNames names(circuit);
+        std::set<std::string> nodes, elements;
+        for (std::size_t k = 0; k < circuit.nodes.size(); ++k) nodes.insert(names.node(static_cast<int>(k)));
+        for (std::size_t k = 0; k < circuit.elements.size(); ++k) elements.insert(names.element(k));
+        RC_ASSERT(nodes.size() == circuit.nodes.size());
+        RC_ASSERT(elements.size() == circuit.elements.size());
+        for (const auto& name : nodes) RC_ASSERT(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.#") == std::string::npos);
+    }));
+}
+
+/// A random formula of v(a), v(b) and i(v1) as text.
+rc::Gen<std::string> formulas(int depth) {
+    const auto leaf = rc::gen::element<std::string>("v(a)", "v(b)", "v(a,b)", "i(v1)", "2.5", "1m", "(-3)", "temper", "0");
+    if (depth == 0) return leaf;
+    const auto inner = formulas(depth - 1);
+    const auto by = [&](std::string form) {
+        return rc::gen::map(rc::gen::tuple(inner, inner, inner), [form](const auto& t) {
+            return fmt::format(fmt::runtime(form), std::get<0>(t), std::get<1>(t), std::get<2>(t));
+        });
+    };
+    return rc::gen::oneOf(
+        leaf, by("({0}+{1})"), by("({0}-{1})"), by("({0}-({1}-{2}))"), by("({0}*{1})"), by("({0}/{1}/{2})"), by("({0}/({1}*{2}))"),
+        by("(-{0})"), by("(-{0}^{1})"), by("({0}^{1}^2)"), by("max({0},{1})"), by("min({0},{1})"), by("exp({0}*{1})"), by("abs({0})"),
+        by("ln(abs({0})+1)"), by("log10(abs({0})+1)"), by("tanh({0})"), by("atan2({0},{1})"), by("hypot({0},{1})"), by("int({0})"),
+        by("nint({0})"), by("sgn({0})"), by("({0} < {1} ? {1} : {2})"), by("({0} >= {1} && !({2} == 0))"), by("({0} != {1} || {2} > 1)"),
+        by("limit({0},{1},{2})"), by("u({0})*u2({1})"), by("uramp({0})"), by("pwr({0},3)"), by("sqrt(abs({0}))"), by("sin({0})*cos({1})"));
+}
+
+TEST(FormulaText, ReadsBackAsTheSameFormula) {
+    EXPECT_TRUE(rc::check([] {
+        const auto text = *formulas(*rc::gen::inRange(0, 5));
+        FormulaScope scope;
+        scope.inputs = true;
+        const auto first = Formula::parse(text, {}, scope);
+        if (!first) RC_FAIL(text + ": " + first.error().text());
+        const auto written = first->text([](const FormulaInput& in) -> std::string {
+            if (in.kind == FormulaInput::Kind::current) return "i(" + in.name + ")";
+            if (in.kind == FormulaInput::Kind::temperature) return "temper";
+            return in.minus.empty() ? "v(" + in.name + ")" : "v(" + in.name + "," + in.minus + ")";
+        });
+        if (!written) {
+            RC_ASSERT(written.error().sentence.find("not finite") != std::string::npos);
+            return;
+        }
+        const auto again = Formula::parse(*written, {}, scope);
+        if (!again) RC_FAIL(*written + ": " + again.error().text());
+        for (const double x : {-1.5, -0.2, 0.0, 0.4, 1.0, 3.0}) {
+            const auto values = [&](const Formula& f) {
+                std::vector<double> out;
+                for (const auto& in : f.inputs())
+                    out.push_back(in.kind == FormulaInput::Kind::voltage   ? (in.minus.empty() ? (in.name == "a" ? x : 0.7) : x - 0.7)
+                                  : in.kind == FormulaInput::Kind::current ? 0.3 * x
+                                                                           : 27);
+                return out;
+            };
+            const double a = first->value(values(*first)), b = again->value(values(*again));
+            const bool same = a == b || (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-9 * std::abs(a) || !std::isfinite(a);
+            if (!same) RC_FAIL(fmt::format("{} at {}: {}; as {}: {}", text, x, a, *written, b));
+        }
+    }));
+}
+
+TEST(ExportVerb, WritesAWholeDeckOrNothing) {
+    using corpuscle::test::run;
+    const Folder folder;
+    folder.write("x.cir", "divider\nv1 in 0 3\nr1 in out 1k\nr2 out 0 2k\n.op\n.expect v(out) 2 1%\n");
+    folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
+    const auto printed = run(folder, "export x.cir --for ngspice"), written = run(folder, "export x.cir --for ngspice -o y.cir");
+    EXPECT_EQ(printed.status, 0) << printed.err;
+    EXPECT_TRUE(printed.out.starts_with("divider\n* ")) << printed.out;
+    EXPECT_TRUE(printed.out.ends_with(".end\n")) << printed.out;
+    EXPECT_NE(printed.err.find("x.cir:6:1: left out: .expect"), std::string::npos) << printed.err;
+    EXPECT_EQ(written.status, 0) << written.err;
+    EXPECT_EQ(written.out, "");
+    EXPECT_EQ(read_file(folder / "y.cir"), printed.out);
+    EXPECT_EQ(run(folder, "export bad.cir -o z.cir").status, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / "z.cir"));
+    EXPECT_EQ(run(folder, "export x.cir --for hspice").status, 2);
+    EXPECT_EQ(run(folder, "export x.cir -o x.cir").status, 2);
+    EXPECT_EQ(run(folder, "export").status, 2);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit::test

@@ -1,0 +1,93 @@
+#pragma once
+// Debian's ngspice beside us: the decks that both run, how each is run, and our transistors in the place of formulas.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
+#include "circuit/run.hpp"
+#include "signal/text.hpp"
+#include "support/raw_file.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle::circuit::test {
+
+using namespace corpuscle::test;
+
+inline std::string deck_path(const std::string& name) { return root() + "/test/circuit/decks/" + name + ".cir"; }
+
+inline std::vector<std::string> decks() {
+    std::vector<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator(root() + "/test/circuit/decks"))
+        if (entry.path().extension() == ".cir") out.push_back(entry.path().stem());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/// What ngspice writes on standard output for a deck, and its .raw file if one is named.
+inline std::string ngspice(const std::string& deck, const std::string& raw) {
+    const auto command = "ngspice -b " + (raw.empty() ? "" : "-r " + raw + " ") + deck + " 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    std::string out;
+    char buffer[4096];
+    for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, n);
+    pclose(pipe);
+    return out;
+}
+
+inline std::shared_ptr<const Circuit> circuit_of(const std::string& deck) {
+    const auto netlist = Netlist::read(deck);
+    EXPECT_TRUE(netlist) << (netlist ? "" : netlist.error().text());
+    if (!netlist) return {};
+    auto circuit = netlist->elaborate();
+    EXPECT_TRUE(circuit) << (circuit ? "" : circuit.error().text());
+    return circuit ? std::make_shared<const Circuit>(std::move(*circuit)) : nullptr;
+}
+
+inline RunOutcome ours(const std::string& deck) {
+    static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points at its circuit's commands
+    kept.push_back(circuit_of(deck));
+    if (!kept.back()) return {};
+    auto outcome = run(kept.back());
+    EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
+    return outcome ? *outcome : RunOutcome{};
+}
+
+/// A name as we give it: ngspice's files wrap what is no voltage in v(), and keep capitals.
+inline std::string plain(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) { return lower(c); });
+    for (const std::string_view word : {"transfer_function", "impedance", "noise_"})
+        if (name.starts_with("v(") && name.find(word) != std::string::npos) return name.substr(2, name.size() - 3);
+    return name;
+}
+
+/// A deck of transistors by formulas, with our own transistors in their place: its line "* native: .model ..." says which.
+inline std::string native(const std::string& deck) {
+    std::istringstream lines(read_file(deck));
+    std::string out, line;
+    for (bool inside = false; std::getline(lines, line);) {
+        if (line.starts_with(".subckt")) inside = true;
+        const bool left_out = inside;
+        if (line.starts_with(".ends")) inside = false;
+        if (left_out) continue;
+        if (line.starts_with("* native: ")) line = line.substr(10);
+        if (line.starts_with("xm")) line = line.substr(1);
+        out += line + '\n';
+    }
+    return out;
+}
+
+/// "name = value" in what a simulator prints; NaN: there is none.
+inline double number_of(const std::string& log, const std::string& name) {
+    for (std::size_t at = log.find("\n" + name); at != std::string::npos; at = log.find("\n" + name, at + 1)) {
+        const auto equals = log.find('=', at + 1);
+        const auto between = log.substr(at + 1 + name.size(), equals - at - 1 - name.size());
+        if (between.find_first_not_of(' ') == std::string::npos) return std::stod(log.substr(equals + 1));
+    }
+    return std::nan("");
+}
+
+}  // namespace corpuscle::circuit::test
