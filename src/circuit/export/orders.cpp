@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <iterator>
 
 namespace corpuscle::circuit {
 namespace {
@@ -80,13 +81,15 @@ private:
 
     /// ngspice wants to know of which analysis: without a word, of each.
     std::string print(const Command& c) const {
-        constexpr std::string_view kinds[] = {"op", "dc", "ac", "noise", "tran"};
-        const auto is_kind = [&](const std::string& w) { return std::find(std::begin(kinds), std::end(kinds), w) != std::end(kinds); };
+        constexpr std::string_view printed[] = {"op", "dc", "ac", "noise", "tran"};
+        const auto is_kind = [&](const std::string& w) {
+            return std::find(std::begin(printed), std::end(printed), w) != std::end(printed);
+        };
         auto words = renamed(c);
         if (words.empty() || is_kind(words[0])) return line("print", words);
         words.insert(words.begin(), "");
         std::string out;
-        for (const auto kind : kinds) {
+        for (const auto kind : printed) {
             const bool asked =
                 std::any_of(circuit_.commands.begin(), circuit_.commands.end(), [&](const Command& other) { return other.name == kind; });
             words[0] = kind;
@@ -98,11 +101,34 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// In the order in which ngspice runs them, whatever that of their lines; of one kind, the last line first.
+constexpr std::string_view kinds[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
+std::ptrdiff_t rank(std::string_view kind) { return std::find(std::begin(kinds), std::end(kinds), kind) - std::begin(kinds); }
+bool is_analysis(const Command& c) { return rank(c.name) < std::ssize(kinds); }
+
+}  // namespace
+
 std::string orders_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out) {
-    std::string out;
     const Orders orders(circuit, names, left_out);
-    for (const auto& c : circuit.commands) out += orders.text(c);
-    return out;
+    std::string analyses, others;
+    std::string_view last = kinds[0];
+    for (const auto& c : circuit.commands)
+        if (is_analysis(c) && rank(c.name) > rank(last)) last = c.name;
+    for (const auto& c : circuit.commands) {
+        if (is_analysis(c)) {
+            analyses.insert(0, orders.text(c));
+            continue;
+        }
+        if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last) {
+            const auto why = fmt::format(".meas {}: ngspice measures only what it runs last, here .{}", c.words[0], last);
+            left_out.push_back(bad_input(why, c.place));
+            others += fmt::format("* {}\n", why);
+        }
+        others += orders.text(c);
+    }
+    return analyses + others;
 }
 
 }  // namespace corpuscle::circuit
