@@ -62,7 +62,7 @@ Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit) {
     const Circuit& c = *circuit;
     const ExportNames names(c);
     const bool n = has_transistors(c, "nmos"), p = has_transistors(c, "pmos");
-    NgspiceDeck deck{header(c, n || p) + options(bench->tolerances, c), {}};
+    NgspiceDeck deck{header(c, n || p) + options((*bench)->tolerances, c), {}};
     for (std::size_t k = 0; k < c.elements.size(); ++k) {
         auto text = element_text(c, k, names);
         if (!text) return text.error();
