@@ -20,7 +20,8 @@ struct Matrix {
         double sum = 0;
         for (int column = 0; column < pattern.size(); ++column)
             for (int e = pattern.begin()[static_cast<std::size_t>(column)]; e < pattern.begin()[static_cast<std::size_t>(column) + 1]; ++e)
-                if (pattern.rows()[static_cast<std::size_t>(e)] == row) sum += values[static_cast<std::size_t>(e)] * x[static_cast<std::size_t>(column)];
+                if (pattern.rows()[static_cast<std::size_t>(e)] == row)
+                    sum += values[static_cast<std::size_t>(e)] * x[static_cast<std::size_t>(column)];
         return sum;
     }
 };

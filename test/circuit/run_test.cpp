@@ -133,7 +133,7 @@ TEST(Run, LinesOfTenMegabytesAreReadOrRefused) {
     std::string sum = "b1 b 0 v=v(a)", nodes = "x1", wave = "v2 b 0 pwl(";
     while (sum.size() < many) sum += "+v(a)";
     while (nodes.size() < many) nodes += " node" + std::to_string(nodes.size());
-    for (int k = 0; wave.size() < many; ++k) wave += std::to_string(k) + " 1 ";
+    for (int k = 0; wave.size() < many; ++k) wave += fmt::format("{:08d} 1 ", k);
     refused("r1 a 0 " + std::string(many, '1'), "x.cir:3:8: '1111");
     refused("r1 a 0 " + std::string(many, '('), "x.cir:3:");
     refused("b1 b 0 v=" + std::string(many, '(') + "1" + std::string(many, ')'), "nested more than");

@@ -115,7 +115,9 @@ private:
         }
         const auto n = out_.numbers.size();
         if (n < row.least || n > row.most)
-            return wrong(fmt::format("{} has {} number{}; wanted is {}", row.name, n, n == 1 ? "" : "s", row.sentence), head);
+            return wrong(fmt::format("{} has {} number{}; wanted is {}{}", row.name, n, n == 1 ? "" : "s", row.sentence,
+                                     n > row.most ? fmt::format(" with at most {}", row.most) : ""),
+                         head);
         if (row.shape == Shape::force && n == 0) out_.numbers = {1};
         return row.shape == Shape::points ? points() : Result<void>();
     }

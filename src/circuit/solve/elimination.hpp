@@ -19,10 +19,10 @@ class Elimination {
         int update;          // where in updates_ its targets begin: for each of L's slots as many as U's row has
     };
     std::vector<Pivot> pivots_;
-    std::vector<int> updates_;           // target slots
+    std::vector<int> updates_;             // target slots
     std::vector<int> l_rows_, u_columns_;  // of the slots: steps of elimination
     std::vector<int> entry_slot_, entry_row_;
-    std::vector<int> rows_, columns_;    // P, Q
+    std::vector<int> rows_, columns_;  // P, Q
     std::vector<double> scale_, slots_, per_pivot_;
     int l_from_ = 0;
     mutable std::vector<double> work_;

@@ -36,7 +36,8 @@ struct Solver<T>::Held {
     bool by_list = false;  // the last matrix went along the list
     long strayed = 0;
 
-    explicit Held(const Pattern& p) : pattern(p), size(p.size()), begin(p.begin().begin(), p.begin().end()), rows(p.rows().begin(), p.rows().end()) {
+    explicit Held(const Pattern& p)
+        : pattern(p), size(p.size()), begin(p.begin().begin(), p.begin().end()), rows(p.rows().begin(), p.rows().end()) {
         klu_defaults(&common);
         symbolic = klu_analyze(size, begin.data(), rows.data(), &common);
     }

@@ -47,7 +47,7 @@ public:
     /// Takes the pivots of this matrix for good and writes their elimination out as a list, for the many like it that follow; one that
     /// they do not serve is still factored anew. Only of doubles, and not of a very large one: then nothing changes.
     void settle(std::span<const T> values);
-    long strayed() const;  ///< matrices since then that the list did not serve
+    long strayed() const;                                  ///< matrices since then that the list did not serve
     void solve(std::span<T> right_side) const;             ///< A x = b, in place
     void solve_transposed(std::span<T> right_side) const;  ///< A^T x = b (no conjugate)
 };
