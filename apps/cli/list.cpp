@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "circuit/analyses.hpp"
+#include "circuit/device/uicm_card.hpp"
+#include "circuit/devices.hpp"
 #include "io/formats.hpp"
 #include "measure/measures.hpp"
 #include "model/catalog.hpp"
@@ -55,21 +58,36 @@ std::vector<Entry> afferent_entries() {
     return entries;
 }
 
+/// What netlists may hold and ask for: the cards of .model lines and M lines, elements by their letter, analyses.
+std::vector<Section> circuit_sections() {
+    using namespace circuit;
+    const Card card{UicmCard::name, UicmCard::sentence, UicmCard::source, rows_of<UicmCard>(UicmCard::fields)};
+    const Card size{"m", "size of a transistor: an M line's own numbers", "choice: a unit of 1/1 um",
+                    rows_of<UicmInstance>(UicmInstance::fields)};
+    std::vector<Entry> elements, asked;
+    for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.sentence), "", {}, {}});
+    for (const auto& a : circuit::analyses)
+        asked.push_back({"." + std::string(a.word), std::string(a.usage), std::string(a.sentence), "", {}, {}, "usage"});
+    return {{"devices", elements}, {"models", entries_of({card, size})}, {"analyses", asked}};
+}
+
 std::vector<Section> catalogue() {
     std::vector<Entry> measured, readable;
     for (const auto& m : measures)
         measured.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}, "unit"});
     for (const auto& f : formats)
         readable.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}, "extensions"});
-    return {{"afferents", afferent_entries()},
-            {"sensors", entries_of(sensor_cards())},
-            {"transducers", entries_of(transducer_cards())},
-            {"converters", entries_of(converter_cards())},
-            {"transductions", entries_of(receptor_cards())},
-            {"neurons", entries_of(neuron_cards())},
-            {"stimuli", entries_of(stimulus_cards())},
-            {"measures", measured},
-            {"formats", readable}};
+    std::vector<Section> all = {{"afferents", afferent_entries()},
+                                {"sensors", entries_of(sensor_cards())},
+                                {"transducers", entries_of(transducer_cards())},
+                                {"converters", entries_of(converter_cards())},
+                                {"transductions", entries_of(receptor_cards())},
+                                {"neurons", entries_of(neuron_cards())},
+                                {"stimuli", entries_of(stimulus_cards())},
+                                {"measures", measured},
+                                {"formats", readable}};
+    for (auto& s : circuit_sections()) all.push_back(std::move(s));
+    return all;
 }
 
 /// The sections and entries asked for; all of them if nothing is.
