@@ -31,8 +31,8 @@ void expect_curve(const Ran& ran, const std::string& name, double tolerance, con
 TEST(ClosedForm, ALowPassFallsOverTwelveDecadesAsOnePole) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-6}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}}) {
         const auto found = ran(fmt::format("low-pass\nv1 in 0 ac 1\nr1 in out {}\nc1 out 0 {}\n.ac dec 10 1m 1g\n", R, C));
-        expect_curve(found, "v(out)", 1e-12, [R = R, C = C](Complex s) { return 1.0 / (1.0 + s * R * C); }, 3e-16);
-        expect_curve(found, "i(v1)", 1e-12, [R = R, C = C](Complex s) { return -s * C / (1.0 + s * R * C); }, 3e-16 / R);
+        expect_curve(found, "v(out)", 1e-12, [r = R, c = C](Complex s) { return 1.0 / (1.0 + s * r * c); }, 3e-16);
+        expect_curve(found, "i(v1)", 1e-12, [r = R, c = C](Complex s) { return -s * c / (1.0 + s * r * c); }, 3e-16 / R);
     }
 }
 
@@ -162,8 +162,8 @@ TEST(ClosedForm, SensitivitiesAreTheSlopesOfReruns) {
     const auto found = ran(with_values() + ".sens v(d)\n");
     for (const auto& [name, value] : all_values) {
         const double h = 1e-3 * value;
-        const auto d = [&, name = name, value = value](double step) {
-            return ran(with_values(name, value + step) + ".options reltol=1e-10 vntol=1e-13\n.op\n").number("v(d)");
+        const auto d = [&, of = name, at = value](double step) {
+            return ran(with_values(of, at + step) + ".options reltol=1e-10 vntol=1e-13\n.op\n").number("v(d)");
         };
         const double slope = (8 * (d(h) - d(-h)) - (d(2 * h) - d(-2 * h))) / (12 * h);  // fourth order
         EXPECT_NEAR(found.number(name), slope, 1e-6 * std::abs(slope)) << name;

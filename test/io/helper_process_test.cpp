@@ -99,10 +99,16 @@ TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
     EXPECT_FALSE(samples->fetch(0, 1, wanted, out));
 }
 
-TEST(HelperProcess, MemoryWithoutEndIsRefused) {
-#ifdef __SANITIZE_ADDRESS__
-    GTEST_SKIP() << "AddressSanitizer ends a process that gets no memory";
+#ifdef __has_feature
+constexpr bool sanitized = __has_feature(address_sanitizer);
+#elif defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
 #endif
+
+TEST(HelperProcess, MemoryWithoutEndIsRefused) {
+    if (sanitized) GTEST_SKIP() << "AddressSanitizer ends a process that gets no memory";
     const auto samples = in_helper_process("x.h5", "it", []() -> SamplesResult {
         std::vector<std::unique_ptr<char[]>> hoard;
         for (;;) hoard.emplace_back(new char[std::size_t{1} << 30]);

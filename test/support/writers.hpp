@@ -1,6 +1,7 @@
 #pragma once
 // Files of samples, made by the libraries that others write them with.
 
+#include <cmath>
 #include <fmt/format.h>
 
 #include <hdf5.h>
@@ -33,7 +34,7 @@ inline void write_sound(const std::string& path, int format, int rate, const std
         std::vector<int> whole;
         for (const auto& c : channels) {
             frame.push_back(c[k]);
-            whole.push_back(static_cast<int>(std::clamp(c[k] * 0x1p31, -0x1p31, 0x1p31 - 1)));
+            whole.push_back(std::isnan(c[k]) ? 0 : static_cast<int>(std::clamp(c[k] * 0x1p31, -0x1p31, 0x1p31 - 1)));
         }
         const bool real = kind == SF_FORMAT_FLOAT || kind == SF_FORMAT_DOUBLE;
         real ? sf_writef_double(file, frame.data(), 1) : sf_writef_int(file, whole.data(), 1);
