@@ -24,24 +24,23 @@ of_card = {name: float(value) * {"": 1, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e
            for name, value, unit in re.findall(r"\b(avt|ais|cox)=([0-9.e+-]+)([munpf]?)", card)}
 
 
-def with_chance(line):
-    """A line of parameters with deviates on vt and is; the size of its gate follows two lines later."""
+def with_chance(deck):
+    """The deck with deviates on each transistor's vt and is, after the size of its gate."""
     def size(match):
         area = float(match["cox"]) / of_card["cox"]
-        return (f"vt={{{match['vt']}+agauss(0,{of_card['avt'] / math.sqrt(area)},1)}}{match['between']}"
+        return (f"{match['name']}vt={{{match['vt']}+agauss(0,{of_card['avt'] / math.sqrt(area)},1)}}{match['between']}"
                 f"is={{{match['is']}*(1+agauss(0,{of_card['ais'] / math.sqrt(area)},1))}}{match['then']}cox={match['cox']}")
-    return re.sub(r"vt=(?P<vt>\S+)(?P<between>[^\n]*)\bis=(?P<is>\S+)(?P<then>[^\n]*\n\+ )cox=(?P<cox>\S+)", size, line)
+    return re.sub(r"(?P<name>^xm[^\n]*)vt=(?P<vt>\S+)(?P<between>[^\n]*)\bis=(?P<is>\S+)(?P<then>[^\n]*\n\+ )cox=(?P<cox>\S+)", size,
+                  deck, flags=re.M)
 
 
 deck = subprocess.run([corpuscle, "export", netlist, "--for", "ngspice"], capture_output=True, text=True, check=True).stdout
-head, body = deck.split(".ends", 1) if deck.count(".ends") == 1 else deck.rsplit(".ends", 1)
-body = with_chance(body)
-assert "agauss" in body
-body = "\n".join(l for l in body.splitlines() if not re.match(r"\.(op|end|print|save|meas)\b", l, re.I))
+deck = "\n".join(l for l in with_chance(deck).splitlines() if not re.match(r"\.(op|end|print|save|meas)$|\.(print|save|meas) ", l))
+assert "agauss" in deck
 
 
 def ngspice(count):
-    text = f"{head}.ends{body}\n.control\nrepeat {count}\nreset\nop\nprint v(q)\nend\nquit\n.endc\n.end\n"
+    text = f"{deck}\n.control\nrepeat {count}\nreset\nop\nprint v(q)\nend\nquit\n.endc\n.end\n"
     with tempfile.NamedTemporaryFile("w", suffix=".cir") as file:
         file.write(text)
         file.flush()
