@@ -64,9 +64,10 @@ int main(int argc, char** argv) {
         us.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() * 1e6 / static_cast<double>(chips));
     }
     std::sort(us.begin(), us.end());
-    std::printf("%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another way, %ld lost\n",
-                static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
-                static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost);
+    std::printf(
+        "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another way, %ld lost, %ld matrices beside the list\n",
+        static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
+        static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost, (*bench)->newton.solver.strayed());
     const double count = static_cast<double>(chips) - static_cast<double>(work.lost);
     for (std::size_t n = 0; n < work.sum.size(); ++n) {
         const double mean = work.sum[n] / count;
