@@ -9,6 +9,7 @@ Result<Findings> analyse_op(TestBench&, const Command&);
 Result<Findings> analyse_dc(TestBench&, const Command&);
 Result<Findings> analyse_ac(TestBench&, const Command&);
 Result<Findings> analyse_noise(TestBench&, const Command&);
+Result<Findings> analyse_tran(TestBench&, const Command&);
 Result<Findings> analyse_tf(TestBench&, const Command&);
 Result<Findings> analyse_sens(TestBench&, const Command&);
 
@@ -22,6 +23,7 @@ inline constexpr Analysis analyses[] = {
     {"dc", ".dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP] [updown]", "operating points along a source, a resistor or temp", analyse_dc},
     {"ac", ".ac dec|oct|lin POINTS FROM TO", "small signals over frequency", analyse_ac},
     {"noise", ".noise v(OUT[,REF]) SOURCE dec|oct|lin POINTS FROM TO", "noise at a node, and each device's part in it", analyse_noise},
+    {"tran", ".tran STEP STOP [START [LONGEST]] [uic]", "the circuit in time, in steps as long as accuracy allows", analyse_tran},
     {"tf", ".tf v(OUT[,REF])|i(V) SOURCE", "gain, resistance in and out at 0 Hz", analyse_tf},
     {"sens", ".sens v(OUT[,REF])|i(V)", "how the output changes with each element's value", analyse_sens},
 };

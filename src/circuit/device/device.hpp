@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -71,6 +72,11 @@ public:
     virtual bool set(double) { return false; }
     virtual std::optional<double> setting() const { return {}; }
     virtual void drive(std::span<std::complex<double>>) const {}
+
+    /// From now on a source goes its course in time, in an analysis of this step and end, s; 0: it stands as it did.
+    virtual void go(double, double) {}
+    /// The first time after t at which it bends or jumps, s.
+    virtual double next_corner(double) const { return std::numeric_limits<double>::infinity(); }
 
     /// Its own part of a draw, as the device of this number among those that draw; null: as designed. False: it never differs.
     virtual bool draw(const Draw*, std::uint32_t) { return false; }

@@ -1,5 +1,6 @@
 #include "circuit/device/source.hpp"
 
+#include "circuit/device/course.hpp"
 #include "circuit/device/formula_inputs.hpp"
 #include "circuit/device/values.hpp"
 #include "signal/elementary.hpp"
@@ -28,37 +29,49 @@ std::complex<double> phasor(const Waveform& w) {
     return {w.ac_magnitude * num::cos_turns(turns), w.ac_magnitude * num::sin_turns(turns)};
 }
 
-/// Unknowns: two nodes, and the current from the first through the source to the second.
-/// v(+) - v(-) = V
-class VoltageSource final : public Device {
+class IndependentSource : public Device {
+    Waveform wave_;
     double value_;
+    std::optional<Course> course_;
+
+protected:
     std::complex<double> phasor_;
+    double value(const Instant& at) const { return at.sources * (course_ ? course_->at(at.time) : value_); }
 
 public:
-    VoltageSource(double value, std::complex<double> phasor) : value_(value), phasor_(phasor) {}
+    explicit IndependentSource(const Waveform& wave) : wave_(wave), value_(at_rest(wave)), phasor_(phasor(wave)) {}
+    bool set(double value) override { return value_ = value, true; }
+    std::optional<double> setting() const override { return value_; }
+    void go(double step, double stop) override {
+        course_.reset();
+        if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) course_.emplace(wave_, step, stop);
+    }
+    double next_corner(double t) const override { return course_ ? course_->next_corner(t) : Device::next_corner(t); }
+};
+
+/// Unknowns: two nodes, and the current from the first through the source to the second.
+/// v(+) - v(-) = V
+class VoltageSource final : public IndependentSource {
+public:
+    using IndependentSource::IndependentSource;
     void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
-        out.f[2] += v[0] - v[1] - value_ * at.sources;
+        out.f[2] += v[0] - v[1] - value(at);
         out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
     }
-    bool set(double value) override { return value_ = value, true; }
-    std::optional<double> setting() const override { return value_; }
     void drive(std::span<std::complex<double>> out) const override { out[2] += phasor_; }
 };
 
-class CurrentSource final : public Device {
-    double value_, m_;
-    std::complex<double> phasor_;
+class CurrentSource final : public IndependentSource {
+    double m_;
 
 public:
-    CurrentSource(double value, double m, std::complex<double> phasor) : value_(value), m_(m), phasor_(phasor) {}
+    CurrentSource(const Waveform& wave, double m) : IndependentSource(wave), m_(m) {}
     void eval(std::span<const double>, const Instant& at, const Stamp& out) const override {
-        const double i = value_ * m_ * at.sources;
+        const double i = value(at) * m_;
         out.f[0] += i, out.f[1] -= i;
     }
-    bool set(double value) override { return value_ = value, true; }
-    std::optional<double> setting() const override { return value_; }
     void drive(std::span<std::complex<double>> out) const override { out[0] -= m_ * phasor_, out[1] += m_ * phasor_; }
 };
 
@@ -144,14 +157,13 @@ std::unique_ptr<Device> with(std::unique_ptr<D> device, std::vector<int> unknown
 
 Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, Setup& setup) {
     if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
-    return with(std::make_unique<VoltageSource>(at_rest(e.waveform), phasor(e.waveform)),
+    return with(std::make_unique<VoltageSource>(e.waveform),
                 {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))});
 }
 
 Result<std::unique_ptr<Device>> make_current_source(const Element& e, Setup& setup) {
     if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
-    return with(std::make_unique<CurrentSource>(at_rest(e.waveform), value_or(e.values, "m", 1), phasor(e.waveform)),
-                {setup.node(e.nodes[0]), setup.node(e.nodes[1])});
+    return with(std::make_unique<CurrentSource>(e.waveform, value_or(e.values, "m", 1)), {setup.node(e.nodes[0]), setup.node(e.nodes[1])});
 }
 
 Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, Setup& setup) {

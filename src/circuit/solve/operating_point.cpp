@@ -15,12 +15,19 @@ class Search {
     const System& system_;
     std::vector<double> start_, last_;  // last: where plain Newton gave up
     std::size_t nodes_;
+    Springs held_;  // to the end
 
-    Springs all(double g, const std::vector<double>& to) const { return {std::vector<double>(nodes_, g), to}; }
+    /// A spring at every node; those that are held have their own.
+    Springs all(double g, const std::vector<double>& to) const {
+        Springs out{std::vector<double>(nodes_, g), to};
+        for (std::size_t n = 0; n < held_.g.size(); ++n)
+            if (held_.g[n] > 0) out.g[n] = held_.g[n], out.to[n] = held_.to[n];
+        return out;
+    }
 
     bool plain(std::vector<double>& x) {
         newton_.memory = system_.fresh_memory();
-        return newton_.run(x);
+        return newton_.run(x, held_);
     }
 
     /// Every node hangs at ground by a conductance that is taken away, decade by decade.
@@ -33,7 +40,7 @@ class Search {
             const auto memory = newton_.memory;
             if (newton_.run(next, all(g, ground), 50)) {
                 x = next;
-                if (g < 1e-15) return newton_.run(x);
+                if (g < 1e-15) return newton_.run(x, held_);
                 g /= factor, factor = std::min(factor * 1.5, 10.0);
             } else {
                 newton_.memory = memory;
@@ -49,12 +56,12 @@ class Search {
         double reached = 0, step = 0.1;
         newton_.memory = system_.fresh_memory();
         newton_.instant.sources = 0;
-        bool found = newton_.run(x);
+        bool found = newton_.run(x, held_);
         for (int tries = 0; found && reached < 1 && tries < 500; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
             newton_.instant.sources = std::min(1.0, reached + step);
-            if (newton_.run(next, {}, 30)) {
+            if (newton_.run(next, held_, 30)) {
                 x = next, reached = newton_.instant.sources, step *= 2;
             } else {
                 newton_.memory = memory, step /= 4;
@@ -74,7 +81,7 @@ class Search {
             const auto memory = newton_.memory;
             if (newton_.run(next, all(g, x), 20)) {
                 x = next;
-                if (g < 1e-19) return newton_.run(x);
+                if (g < 1e-19) return newton_.run(x, held_);
                 g /= 2;
             } else {
                 newton_.memory = memory;
@@ -97,8 +104,9 @@ class Search {
     }
 
 public:
-    Search(Newton& newton, std::vector<double> start)
-        : newton_(newton), system_(newton.system), start_(std::move(start)), nodes_(static_cast<std::size_t>(system_.nodes())) {
+    Search(Newton& newton, std::vector<double> start, Springs held)
+        : newton_(newton), system_(newton.system), start_(std::move(start)), nodes_(static_cast<std::size_t>(system_.nodes())),
+          held_(std::move(held)) {
         start_.resize(static_cast<std::size_t>(system_.size()));
         newton_.iterations = 0;
     }
@@ -157,6 +165,8 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
     return t;
 }
 
-Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start) { return Search(newton, std::move(start)).run(); }
+Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start, Springs held) {
+    return Search(newton, std::move(start), std::move(held)).run();
+}
 
 }  // namespace corpuscle::circuit

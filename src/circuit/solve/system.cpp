@@ -95,6 +95,16 @@ Result<void> System::make_groups() {
     return {};
 }
 
+void System::go(double step, double stop) {
+    for (const auto& d : devices_) d->go(step, stop);
+}
+
+double System::next_corner(double t) const {
+    double first = std::numeric_limits<double>::infinity();
+    for (const auto& d : devices_) first = std::min(first, d->next_corner(t));
+    return first;
+}
+
 void System::draw(const Draw* chip) {
     std::uint32_t number = 0;
     for (const auto& d : devices_) number += d->draw(chip, number);

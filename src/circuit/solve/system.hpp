@@ -69,6 +69,9 @@ public:
     std::vector<double> fresh_memory() const { return std::vector<double>(memory_); }
 
     void eval(std::span<const double> x, const Instant&, std::vector<double>& memory, Sums&) const;
+    /// See Device: all of them.
+    void go(double step, double stop);
+    double next_corner(double t) const;
     /// All devices as drawn; null: as designed.
     void draw(const Draw*);
     /// A device's own unknowns' values.

@@ -1,0 +1,101 @@
+#include "circuit/device/course.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "signal/elementary.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+using Shape = Waveform::Shape;
+
+}  // namespace
+
+Course::Course(Waveform wave, double step, double stop) : wave_(std::move(wave)), step_(step), stop_(stop) {
+    if (wave_.shape == Shape::points)
+        for (std::size_t k = 0; k + 1 < wave_.numbers.size(); k += 2) corners_.push_back(wave_.numbers[k]);
+    if (wave_.shape == Shape::exponential) {
+        const double first = number(2, 0);
+        corners_ = {first, number(4, first + step_)};
+    }
+    if (wave_.shape == Shape::sine) corners_ = {number(3, 0)};
+}
+
+double Course::at(double t) const {
+    switch (wave_.shape) {
+        case Shape::pulse:
+            return pulse(t);
+        case Shape::sine:
+            return sine(t);
+        case Shape::exponential:
+            return exponential(t);
+        case Shape::points:
+            return points(t);
+        default:
+            return wave_.dc;
+    }
+}
+
+/// v1 v2 td tr tf pw per np
+double Course::pulse(double t) const {
+    const auto given = [&](std::size_t k, double otherwise) { return number(k, 0) > 0 ? number(k, 0) : otherwise; };
+    const double v1 = number(0, 0), v2 = number(1, 0), rise = given(3, step_), fall = given(4, step_), width = number(5, stop_);
+    const double period = given(6, std::max(stop_, rise + width + fall));
+    double in = t - number(2, 0);
+    if (in < 0) return v1;
+    const double round = std::floor(in / period);
+    if (const double most = number(7, 0); most > 0 && round >= most) return v1;
+    in -= round * period;
+    if (in < rise) return v1 + (v2 - v1) * (in / rise);
+    if (in < rise + width) return v2;
+    return in < rise + width + fall ? v2 + (v1 - v2) * ((in - rise - width) / fall) : v1;
+}
+
+/// vo va freq td theta phase
+double Course::sine(double t) const {
+    const double in = t - number(3, 0), turn = number(5, 0) / 360;
+    const double frequency = number(2, 0) > 0 ? number(2, 0) : 1 / stop_;
+    if (in < 0) return number(0, 0) + number(1, 0) * num::sin_turns(turn);
+    const double turns = frequency * in + turn;
+    return number(0, 0) + number(1, 0) * num::sin_turns(turns - std::floor(turns)) * num::exp(-in * number(4, 0));
+}
+
+/// v1 v2 td1 tau1 td2 tau2
+double Course::exponential(double t) const {
+    const double v1 = number(0, 0), v2 = number(1, 0), up = number(2, 0), down = number(4, up + step_);
+    const auto given = [&](std::size_t k) { return number(k, 0) > 0 ? number(k, 0) : step_; };
+    double v = v1;
+    if (t > up) v += (v2 - v1) * (1 - num::exp(-(t - up) / given(3)));
+    if (t > down) v += (v1 - v2) * (1 - num::exp(-(t - down) / given(5)));
+    return v;
+}
+
+double Course::points(double t) const {
+    const auto& x = wave_.numbers;
+    const auto after = static_cast<std::size_t>(std::upper_bound(corners_.begin(), corners_.end(), t) - corners_.begin());
+    if (after == 0) return x[1];
+    if (after == corners_.size()) return x[2 * after - 1];
+    const double t0 = x[2 * after - 2], v0 = x[2 * after - 1], t1 = x[2 * after], v1 = x[2 * after + 1];
+    return v0 + (v1 - v0) * ((t - t0) / (t1 - t0));
+}
+
+double Course::next_corner(double t) const {
+    if (wave_.shape != Shape::pulse) {
+        const auto next = std::upper_bound(corners_.begin(), corners_.end(), t);
+        return next == corners_.end() ? never : *next;
+    }
+    const auto given = [&](std::size_t k, double otherwise) { return number(k, 0) > 0 ? number(k, 0) : otherwise; };
+    const double delay = number(2, 0), rise = given(3, step_), fall = given(4, step_), width = number(5, stop_);
+    const double period = given(6, std::max(stop_, rise + width + fall)), most = number(7, 0);
+    if (t < delay) return delay;
+    for (double round = std::max(0.0, std::floor((t - delay) / period) - 1);; ++round) {
+        if (most > 0 && round > most) return never;
+        for (const double corner : {0.0, rise, rise + width, rise + width + fall})
+            if (const double at = delay + round * period + corner; at > t) return at;
+    }
+}
+
+}  // namespace corpuscle::circuit
