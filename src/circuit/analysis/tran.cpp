@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
+#include "circuit/analysis/transient_plan.hpp"
 #include "circuit/device/values.hpp"
-#include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -59,12 +59,10 @@ Result<std::vector<double>> beginning(TestBench& bench, bool uic) {
 Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     const auto times = times_of(c);
     if (!times) return times.error();
-    TransientPlan plan;
+    auto asked = transient_plan(*bench.circuit);
+    if (!asked) return asked.error();
+    TransientPlan& plan = *asked;
     plan.stop = times->stop, plan.longest = times->longest;
-    const auto& words = bench.circuit->option_words;
-    if (const auto method = words.find("method"); method != words.end() && method->second.starts_with("trap"))
-        plan.method = Integration::trapezoidal;
-
     bench.system.go(times->step, times->stop);
     Findings out;
     Plot plot = plot_of(bench.system, "Transient Analysis", "time", "time");

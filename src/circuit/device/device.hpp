@@ -77,6 +77,8 @@ public:
     virtual void go(double, double) {}
     /// The first time after t at which it bends or jumps, s.
     virtual double next_corner(double) const { return std::numeric_limits<double>::infinity(); }
+    /// Of a linear device: whether its currents change with time at all.
+    virtual bool varies() const { return false; }
 
     /// Its own part of a draw, as the device of this number among those that draw; null: as designed. False: it never differs.
     virtual bool draw(const Draw*, std::uint32_t) { return false; }
@@ -92,7 +94,7 @@ struct BankStamp {
     std::size_t room;
     const double* v;
     double *f, *df;
-    double* most;    ///< of each f, the largest of its slopes times its voltage: what its last digit is of
+    double* most;    ///< of each f, the largest of its slopes times its voltage: what its last digit is of; null: not asked
     double *q, *dq;  ///< null: not asked
 };
 

@@ -18,7 +18,7 @@ struct TransistorCall {
     const double* v;          ///< [4][room], V
     double gmin;              ///< S, beside every junction
     double *f, *df;           ///< [4][room], A; [4 * 4][room], S
-    double* most;             ///< [4][room], A: the largest |df v| of each row
+    double* most;             ///< [4][room], A: the largest |df v| of each row; null: not asked
     double *q, *dq;           ///< charges and capacitances, the same; null: not asked
 };
 

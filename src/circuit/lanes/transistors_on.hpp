@@ -66,7 +66,7 @@ template <class T, bool charges>
                 store(a.di[row][column], call.df + (4 * row + column) * room + k);
                 most = num::max(most, num::abs(a.di[row][column] * v[column]));
             }
-            store(most, call.most + row * room + k);
+            if (call.most) store(most, call.most + row * room + k);
             if constexpr (charges) {
                 store(a.q[row], call.q + row * room + k);
                 for (std::size_t column = 0; column < 4; ++column) store(a.dq[row][column], call.dq + (4 * row + column) * room + k);

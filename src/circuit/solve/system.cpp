@@ -144,7 +144,7 @@ void System::add_device(std::size_t k, std::span<const double> x, const Instant&
                own = std::span(sums.own_).first(2 * n + 2 * n * n);
     for (std::size_t j = 0; j < n; ++j) v[j] = d.unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[j])];
     std::copy(v.begin(), v.end(), looked.begin());
-    const bool limited = d.memory() > 0 && d.limit(looked, std::span(memory).subspan(memory_at_[k], d.memory()));
+    const bool limited = d.memory() > 0 && d.limit(looked, memory_of(k, memory));
     sums.limited |= limited;
     std::fill(own.begin(), own.end(), 0.0);
     const Stamp stamp{own.first(n), own.subspan(n, n), own.subspan(2 * n, n * n), own.subspan(2 * n + n * n)};

@@ -27,6 +27,15 @@ private:
     std::vector<Line> side_by_side_;        // of those at work together
 };
 
+/// Devices of one kind, looked at together.
+struct Group {
+    std::unique_ptr<Bank> bank;
+    std::vector<const Device*> members;
+    std::size_t terminals, room;
+    std::vector<int> unknowns;        ///< of each member, one after another
+    std::vector<std::size_t> places;  ///< of each member's slopes; beyond the pattern: of ground, nowhere
+};
+
 class System {
     std::shared_ptr<const Circuit> circuit_;
     std::vector<std::string> names_;
@@ -35,13 +44,6 @@ class System {
     std::size_t memory_ = 0;
     std::unique_ptr<Pattern> pattern_;
     std::vector<std::vector<std::size_t>> places_;  // of each device's slopes; beyond the pattern: of ground, nowhere
-    struct Group {                                  // devices with a bank
-        std::unique_ptr<Bank> bank;
-        std::vector<const Device*> members;
-        std::size_t terminals, room;
-        std::vector<int> unknowns;  // of each member, one after another
-        std::vector<std::size_t> places;
-    };
     std::vector<Group> groups_;
     std::vector<std::size_t> alone_;  // devices without one
     int nodes_ = 0;
@@ -65,6 +67,13 @@ public:
     const Pattern& pattern() const { return *pattern_; }
     const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
     Device* device(std::string_view name) const;  ///< null: none of this name
+    std::span<const Group> groups() const { return groups_; }
+    std::span<const std::size_t> alone() const { return alone_; }  ///< devices in no group
+    std::span<const std::size_t> places(std::size_t device) const { return places_[device]; }
+    /// A device's part of a memory.
+    std::span<double> memory_of(std::size_t device, std::vector<double>& memory) const {
+        return std::span(memory).subspan(memory_at_[device], devices_[device]->memory());
+    }
     bool linear() const { return linear_; }
     std::vector<double> fresh_memory() const { return std::vector<double>(memory_); }
 

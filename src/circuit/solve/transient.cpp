@@ -3,131 +3,189 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double shortest_part = 1e-14;  // of the whole: no step is shorter
+constexpr double shortest_part = 1e-15;       // of the whole: no step is shorter
+constexpr double safety = 0.65;               // a step that has to be taken again costs more than some shorter ones
+constexpr double longer = 2;                  // no step is so many times as long as the last
+constexpr double far_off = 20, hopeless = 2;  // allowed units: of a first iteration that is looked at, of its error
+
+/// How much longer a step of this order may be, for an error of one allowed unit.
+double growth(double error, int order) { return error > 0 ? std::min(safety * std::pow(error, -1.0 / (order + 1)), 10.0) : 10; }
 
 }  // namespace
 
-void Transient::start_over(Point at) {
-    past_.clear();
-    past_.push_back(std::move(at));
-}
-
-/// What dq/dt weighs the newest charge by.
-double Transient::leading(double h) const {
-    if (past_.size() < 2) return 1 / h;
-    if (trapezoid_) return 2 / h;
-    const double w = h / (past_[0].t - past_[1].t);
-    return (1 + 2 * w) / (1 + w) / h;
-}
-
-/// Newton's steps at t from x on, with dq/dt = leading q + history.
-bool Transient::solve(double t, std::vector<double>& x) {
-    const double h = t - past_[0].t;
+void Transient::begin(std::vector<double> x) {
     const auto count = x.size();
-    history_.resize(count);
-    for (std::size_t n = 0; n < count; ++n) {
-        if (past_.size() < 2) {
-            history_[n] = -past_[0].q[n] / h;
-        } else if (trapezoid_) {
-            history_[n] = -2 / h * past_[0].q[n] - past_[0].dq[n];
-        } else {
-            const double w = h / (past_[0].t - past_[1].t);
-            history_[n] = (-(1 + w) * past_[0].q[n] + w * w / (1 + w) * past_[1].q[n]) / h;
-        }
-    }
-    newton_.instant.time = t;
-    const int before = newton_.iterations;
-    const bool found = newton_.run(x, {}, 25, {leading(h), history_});
-    work_.iterations += newton_.iterations - before;
-    return found;
+    for (auto* v : {&scale_, &allowed_, &history_, &rate_, &error_}) v->assign(count, 0);
+    newton_.memory = system_.fresh_memory();
+    newton_.instant.charges = true, newton_.instant.time = 0;
+    system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
+    charged_.assign(count, 0);
+    for (std::size_t n = 0; n < count; ++n)
+        charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
+    past_.clear();
+    auto& first = past_.next();
+    first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
+    past_.accept();
+    h_ = plan_.longest;
+    start_over();
+    allow();
 }
 
-/// The polynomial through up to three points before.
-void Transient::predict(double t) {
-    const auto& p = past_;
-    predicted_ = p[0].x;
-    if (p.size() == 1) return;
-    for (std::size_t n = 0; n < predicted_.size(); ++n) {
-        const double d01 = (p[0].x[n] - p[1].x[n]) / (p[0].t - p[1].t);
-        predicted_[n] += (t - p[0].t) * d01;
-        if (p.size() < 3) continue;
-        const double d12 = (p[1].x[n] - p[2].x[n]) / (p[1].t - p[2].t);
-        predicted_[n] += (t - p[0].t) * (t - p[1].t) * (d01 - d12) / (p[0].t - p[2].t);
+/// Only the newest point counts from now on; dq/dt there is what the currents leave.
+void Transient::start_over() {
+    Moment now = past_[0];
+    equations_.at(now.t, now.x, rate_, now.q);
+    for (double& r : rate_) r = -r;
+    past_.clear();
+    past_.next() = std::move(now);
+    past_.accept();
+    order_ = 1, at_this_order_ = 0, starting_ = true;
+}
+
+void Transient::allow() {
+    for (std::size_t n = 0; n < allowed_.size(); ++n) {
+        scale_[n] = std::max(scale_[n], std::abs(past_[0].x[n]));
+        if (charged_[n]) allowed_[n] = plan_.reltol * scale_[n] + (system_.is_voltage(static_cast<int>(n)) ? plan_.vntol : plan_.abstol);
     }
 }
 
-/// Of the step just solved, in units of what is allowed. With a straight line before, its distance is taken for an error that is larger.
-double Transient::error_of(double t, const std::vector<double>& x) const {
-    if (past_.size() < 2) return 0;
-    const double h = t - past_[0].t, h1 = past_[0].t - past_[1].t;
-    const double own = trapezoid_ ? h * h * h / 12 : h * h * (h + h1) * (h + h1) / (6 * (2 * h + h1));
-    const double of_parabola = past_.size() < 3 ? own : h * (h + h1) * (t - past_[2].t) / 6;
+/// Solves the step to t; the answer is past_.next(). One whose error will be far too large is left at once.
+bool Transient::attempt(double t, double& error) {
+    const double h = t - past_[0].t;
+    auto& next = past_.next();
+    const auto count = scale_.size();
+    next.t = t, next.x.resize(count), next.q.resize(count);
+    const int points = std::min(order_ + 1, past_.count());
+    past_.sum(past_.value(t, points), points, &Moment::x, next.x);
+    if (trapezoid() && past_.count() > 1) {
+        leading_ = 2 / h;
+        for (std::size_t n = 0; n < count; ++n) history_[n] = -leading_ * past_[0].q[n] - rate_[n];
+    } else {
+        const auto weights = past_.slope(t, order_, leading_);
+        past_.sum(weights, order_, &Moment::q, history_);
+    }
+    equations_.prepare(t, leading_, history_);
+    for (;;) {
+        using Way = StepEquations::Way;
+        const auto way = equations_.iterate(next.x, allowed_);
+        if (!settled_) equations_.settle(), settled_ = true;
+        if (way == Way::lost) return false;
+        const bool far = way == Way::on && equations_.step_size() > far_off;  // is it worth to go on?
+        if (way == Way::on && !far) continue;
+        equations_.charges(next.q);
+        error = error_of(order_);
+        if (way == Way::arrived || error > hopeless) return true;
+    }
+}
+
+double Transient::worst_error() {
+    equations_.answer_to(error_);
     double worst = 0;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(system_.nodes()); ++n) {
-        if (!charged_[n]) continue;
-        const double off = std::abs(x[n] - predicted_[n]) * own / (own + of_parabola);
-        worst = std::max(worst, off / (plan_.reltol * std::max(scale_[n], std::abs(x[n])) + plan_.vntol));
-    }
+    for (std::size_t n = 0; n < error_.size(); ++n)
+        if (allowed_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / allowed_[n]);
     return worst;
 }
 
-Result<void> Transient::run(std::vector<double> x, const std::function<bool(double, std::span<const double>)>& each) {
-    const auto count = x.size();
-    newton_.instant.charges = true;
-    newton_.instant.time = 0;
-    newton_.memory = system_.fresh_memory();
-    system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
-    charged_.assign(count, 0), scale_.assign(count, 0);
-    for (std::size_t n = 0; n < count; ++n) {
-        charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
-        scale_[n] = std::abs(x[n]);
+/// Of the step just solved, had it been of this order, in units of what is allowed. Infinity: too few points to tell.
+double Transient::error_of(int order) {
+    const auto& next = past_.next();
+    const double h = next.t - past_[0].t;
+    if (past_.count() == 1) {
+        for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = (next.q[n] - past_[0].q[n]) / h - rate_[n];
+        return worst_error();
     }
-    start_over({0, x, newton_.sums.q, std::vector<double>(count)});
-    bool more = each(0, x);
-    double h = 0;
-    while (more && past_[0].t < plan_.stop) {
-        const double t0 = past_[0].t, corner = std::min(plan_.stop, system_.next_corner(t0));
-        if (past_.size() == 1) h = std::min({plan_.longest, 1e-3 * (corner - t0), h > 0 ? h : plan_.longest});
-        const bool last = t0 + h * 1.01 >= corner;
+    const int points = std::min(order + 1, past_.count());
+    past_.sum(past_.value(next.t, points), points, &Moment::q, error_);
+    double per = 1 / (next.t - past_[points - 1].t);
+    if (trapezoid() && points == 3) per *= h / (next.t - past_[1].t);
+    for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = (next.q[n] - error_[n]) * per;
+    return worst_error();
+}
+
+/// The order and length of the next step, after one of this length and error.
+void Transient::choose(double h, double error) {
+    const int highest = std::min(trapezoid() ? 2 : plan_.order, past_.count() - 1);
+    double most = growth(error, order_);
+    int best = order_;
+    if (trapezoid()) {
+        best = std::max(1, highest);
+    } else if (at_this_order_ > order_ || starting_) {
+        const double lower = order_ > 1 ? 0.9 * growth(error_of(order_ - 1), order_ - 1) : 0;
+        const bool can_rise = order_ < highest && past_.count() > order_ + 1;
+        const double higher = can_rise ? 0.9 * growth(error_of(order_ + 1), order_ + 1) : 0;
+        if (lower > most && lower > higher)
+            best = order_ - 1, most = lower, starting_ = false;
+        else if (higher > most)
+            best = order_ + 1, most = higher;
+        else if (starting_ && order_ < highest)
+            best = order_ + 1;
+    }
+    if (best != order_) order_ = best, at_this_order_ = 0;
+    const double limit = past_.count() < 3 ? 5 : longer;
+    h_ = h * std::clamp(most, 0.3, limit);
+}
+
+/// The step was too long, or its equations were not solved (error 0).
+Result<void> Transient::shorten(double h, double error) {
+    ++work_.rejected, ++failures_;
+    if (error == 0) ++work_.lost;
+    h_ = h * (error > 0 ? std::clamp(growth(error, order_), past_.count() == 1 ? 1e-3 : 0.1, 0.8) : 0.125);
+    if (failures_ > 1 && past_.count() > 1) start_over();
+    if (h_ >= shortest_part * plan_.stop) return {};
+    return Error{Code::not_converged,
+                 fmt::format("at {} no step is short enough ({}); {}", format_quantity(time(), "s"), format_quantity(h_, "s"),
+                             newton_.distance(past_.next().x)),
+                 Place{system_.circuit().file}};
+}
+
+void Transient::take() {
+    const auto& next = past_.next();
+    for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
+    past_.accept();
+    allow();
+    ++work_.steps, ++at_this_order_, failures_ = 0;
+}
+
+Result<bool> Transient::step(double until) {
+    for (;;) {
+        const double t0 = time(), corner = std::min(plan_.stop, system_.next_corner(t0));
+        double h = std::min(h_, plan_.longest);
+        if (until < plan_.stop && t0 + 2.1 * h > until) return false;
+        const bool last = t0 + 1.01 * h >= corner;
         if (!last && t0 + 2 * h > corner) h = (corner - t0) / 2;
         const double t = last ? corner : t0 + h;
-        trapezoid_ = plan_.method == Integration::trapezoidal && past_.size() >= 2;
-        predict(t);
-        auto next = predicted_;
-        const bool found = solve(t, next);
-        const double error = found ? error_of(t, next) : 0;
-        if (!found || error > 1) {
-            ++work_.rejected;
-            h = (t - t0) * (found ? std::max(0.2, 0.9 * std::pow(error, -1.0 / 3)) : 0.125);
-            if (h < shortest_part * plan_.stop) {
-                newton_.instant.charges = false;
-                return Error{Code::not_converged,
-                             fmt::format("at {} no step is short enough ({}); {}", format_quantity(t0, "s"), format_quantity(h, "s"),
-                                         newton_.distance(next)),
-                             Place{system_.circuit().file}};
-            }
+        double error = 0;
+        const bool found = attempt(t, error);
+        work_.iterations = equations_.iterations;
+        if (!found || !(error <= 1)) {
+            if (auto ok = shorten(t - t0, found ? error : 0); !ok) return ok.error();
             continue;
         }
-        ++work_.steps;
-        std::vector<double> dq(count);
-        const double a = leading(t - t0);
-        for (std::size_t n = 0; n < count; ++n)
-            dq[n] = a * newton_.sums.q[n] + history_[n], scale_[n] = std::max(scale_[n], std::abs(next[n]));
-        more = each(t, next);
-        h = std::min(plan_.longest, (t - t0) * std::clamp(error > 0 ? 0.9 * std::pow(error, -1.0 / 3) : 2.0, 0.3, 2.0));
-        Point point{t, std::move(next), newton_.sums.q, std::move(dq)};
-        if (last && t < plan_.stop) {
-            start_over(std::move(point));
-            continue;
+        const double wanted = h_;
+        choose(t - t0, error);
+        if (last && t - t0 < wanted) h_ = std::max(h_, std::min(wanted, plan_.longest));
+        take();
+        return true;
+    }
+}
+
+Result<void> Transient::run(std::vector<double> x, const std::function<bool(double, std::span<const double>)>& each) {
+    begin(std::move(x));
+    bool more = each(time(), this->x());
+    while (more && time() < plan_.stop) {
+        const auto stepped = step(plan_.stop);
+        if (!stepped) {
+            newton_.instant.charges = false;
+            return stepped.error();
         }
-        past_.insert(past_.begin(), std::move(point));
-        if (past_.size() > 3) past_.pop_back();
+        more = each(time(), this->x());
     }
     newton_.instant.charges = false;
     return {};

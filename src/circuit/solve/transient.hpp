@@ -3,53 +3,70 @@
 
 #include <functional>
 
-#include "circuit/solve/operating_point.hpp"
+#include "circuit/solve/past.hpp"
+#include "circuit/solve/step_equations.hpp"
 
 namespace corpuscle::circuit {
 
-enum class Integration { bdf2, trapezoidal };
+enum class Integration { bdf, trapezoidal };
 
 struct TransientPlan {
     double stop = 0, longest = 0;  ///< s: where it ends; the longest step
-    Integration method = Integration::bdf2;
-    double reltol = 1e-4;  ///< of a step's error, against the largest voltage so far
-    double vntol = 1e-5;   ///< V, beside it
+    Integration method = Integration::bdf;
+    int order = 4;          ///< of BDF, at the most
+    double reltol = 5e-5;   ///< of a step's error, against the largest value so far
+    double vntol = 1e-6;    ///< V, beside it
+    double abstol = 1e-12;  ///< A, of inductors' currents
 };
 
 /// What was done.
 struct TransientWork {
-    long steps = 0, rejected = 0, iterations = 0;
+    long steps = 0, rejected = 0, lost = 0, iterations = 0;  ///< lost: of the rejected, those where Newton's steps did not arrive
 };
 
-/// Variable steps of second order (BDF2 or the trapezoidal rule; backward Euler right after a corner), each compared with the parabola
-/// through the points before: their distance tells the step's error (Milne's device), node by node, wherever charge is.
+/// Steps of variable length and order: BDF with the coefficients of the points as they stand, or the trapezoidal rule. The polynomial
+/// through the points before predicts; how far charges come to be from it is what the rule of this order leaves over in the equations, and
+/// the matrix turns that into the error of each voltage, which decides whether a step counts, how long the next one is, and of what order.
+/// Right after the beginning, and where a source's corner proves too sharp for the points before, all begins again with order 1.
 class Transient {
     System& system_;
     Newton& newton_;
     TransientPlan plan_;
-    struct Point {
-        double t;
-        std::vector<double> x, q, dq;
-    };
-    std::vector<Point> past_;  // newest first, since the last corner
-    std::vector<double> scale_, predicted_, history_;
+    StepEquations equations_;
+    Past past_;
+    int order_ = 1, at_this_order_ = 0, failures_ = 0;
+    double h_ = 0, leading_ = 0;
+    bool settled_ = false;  // the matrix's elimination
+    bool starting_ = true;  // since the start every step has been of the highest order its points allow
+    std::vector<double> scale_, allowed_, history_, rate_, error_;
     std::vector<char> charged_;
     TransientWork work_;
-    bool trapezoid_ = false;  // the step at work
 
-    void start_over(Point);
-    bool solve(double t, std::vector<double>& x);
-    double leading(double h) const;
-    void predict(double t);
-    double error_of(double t, const std::vector<double>& x) const;
+    bool trapezoid() const { return plan_.method == Integration::trapezoidal; }
+    void start_over();
+    bool attempt(double t, double& error);
+    double error_of(int order);
+    double worst_error();
+    void allow();
+    void choose(double h, double error);
+    Result<void> shorten(double h, double error);
+    void take();
 
 public:
-    Transient(System& system, Newton& newton, const TransientPlan& plan) : system_(system), newton_(newton), plan_(plan) {}
+    Transient(System& system, Newton& newton, const TransientPlan& plan)
+        : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
 
     /// From x at t = 0 on; calls each(t, x) with every point, x at 0 first, until it returns false or the end is reached. An error says
     /// when no step was short enough, and where.
     Result<void> run(std::vector<double> x, const std::function<bool(double, std::span<const double>)>& each);
     const TransientWork& work() const { return work_; }
+
+    /// At t = 0. x: consistent, or (uic) only where charge holds it.
+    void begin(std::vector<double> x);
+    /// One step, not beyond `until`. False: it would go beyond, or its length depends on what comes there.
+    Result<bool> step(double until);
+    double time() const { return past_[0].t; }
+    std::span<const double> x() const { return past_[0].x; }
 };
 
 }  // namespace corpuscle::circuit

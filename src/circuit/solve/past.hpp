@@ -1,0 +1,43 @@
+#pragma once
+// The last points of a transient, and the polynomials through them.
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace corpuscle::circuit {
+
+/// One point in time: unknowns, and the charge of each unknown's equation.
+struct Moment {
+    double t = 0;
+    std::vector<double> x, q;
+};
+
+/// The newest points, newest first; where time has come from and, to some order, where it is going.
+class Past {
+public:
+    static constexpr int most = 7;  ///< points
+
+    void clear() { count_ = 0; }
+    int count() const { return count_; }
+    const Moment& operator[](int k) const { return ring_[static_cast<std::size_t>((first_ + k) % room)]; }
+    /// Room for the next point, to be filled and then taken by accept().
+    Moment& next() { return ring_[static_cast<std::size_t>((first_ + room - 1) % room)]; }
+    void accept();
+
+    using Weights = std::array<double, most>;
+    /// Of the newest `points`: what the polynomial through them is at t.
+    Weights value(double t, int points) const;
+    /// Of the newest `order`: with them and a point at t, the polynomial's slope at t is leading times the new value plus these.
+    Weights slope(double t, int order, double& leading) const;
+
+    /// Sum of weights times values (member: &Moment::x or &Moment::q), into `out`.
+    void sum(const Weights&, int points, std::vector<double> Moment::* member, std::span<double> out) const;
+
+private:
+    static constexpr int room = most + 1;
+    std::array<Moment, room> ring_;
+    int first_ = 0, count_ = 0;
+};
+
+}  // namespace corpuscle::circuit

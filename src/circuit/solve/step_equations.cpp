@@ -1,0 +1,194 @@
+#include "circuit/solve/step_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr int most_iterations = 12;
+constexpr double near_enough = 0.03;  // of what is allowed: what an iteration may leave over
+
+}  // namespace
+
+StepEquations::StepEquations(const System& system, Newton& newton) : system_(system), newton_(newton) {
+    const auto count = static_cast<std::size_t>(system.size());
+    x_.resize(count + 1), still_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count);
+    J_.resize(system.pattern().entries() + 1), J_0_.resize(J_.size());
+    for (int n = 0; n < system.size(); ++n) voltage_.push_back(system.is_voltage(n));
+    std::vector<Linear> sums(J_.size(), Linear{0, -1, -1, 0, 0});
+    for (const auto k : system.alone()) {
+        const Device& d = *system.devices()[k];
+        const auto n = d.unknowns.size();
+        Own own{k, n, d.unknowns, std::vector<double>(n), std::vector<double>(n), std::vector<double>(2 * n + 2 * n * n)};
+        for (int& u : own.unknowns) u = u < 0 ? static_cast<int>(count) : u;
+        if (!d.linear()) {
+            own_.push_back(std::move(own));
+            continue;
+        }
+        if (d.varies()) varying_.push_back(k);
+        const std::span<double> all(own.stamp);
+        d.eval(own.v, newton.instant, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        for (std::size_t row = 0; row < n; ++row) {
+            if (!d.varies()) still_[static_cast<std::size_t>(own.unknowns[row])] += all[row];
+            for (std::size_t column = 0; column < n; ++column) {
+                auto& sum = sums[system.places(k)[row * n + column]];
+                sum.row = own.unknowns[row], sum.column = own.unknowns[column];
+                sum.g += all[2 * n + row * n + column], sum.c += all[2 * n + n * n + row * n + column];
+            }
+        }
+    }
+    for (std::size_t place = 0; place + 1 < sums.size(); ++place)
+        if (sums[place].g != 0 || sums[place].c != 0) linear_.push_back(sums[place]), linear_.back().place = place;
+    for (const auto& group : system.groups()) {
+        const auto n = group.terminals;
+        auto& t = together_.emplace_back(Together{group, {}, std::vector<Line>((3 * n + 2 * n * n) * group.room / 8)});
+        for (std::size_t k = 0; k < group.room; ++k)
+            for (std::size_t j = 0; j < n; ++j) {
+                const int u = group.unknowns[std::min(k, group.members.size() - 1) * n + j];
+                t.unknowns.push_back(u < 0 ? static_cast<int>(count) : u);
+            }
+    }
+}
+
+void StepEquations::prepare(double t, double a, std::span<const double> history) {
+    newton_.instant.time = t, newton_.instant.charges = true;
+    a_ = a, tries_ = 0, before_ = 0;
+    base_ = still_;
+    for (std::size_t n = 0; n < history.size(); ++n) base_[n] += history[n];
+    for (const auto k : varying_) {
+        const Device& d = *system_.devices()[k];
+        const auto n = d.unknowns.size();
+        scratch_.assign(3 * n + 2 * n * n, 0.0);
+        const std::span<double> all(scratch_);
+        d.eval(all.last(n), newton_.instant,
+               {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
+        for (std::size_t row = 0; row < n; ++row)
+            if (d.unknowns[row] >= 0) base_[static_cast<std::size_t>(d.unknowns[row])] += all[row];
+    }
+    std::fill(J_0_.begin(), J_0_.end(), 0.0);
+    for (const auto& l : linear_) J_0_[l.place] = l.g + a * l.c;
+}
+
+void StepEquations::look_at_own(Own& own) {
+    const Device& d = *system_.devices()[own.device];
+    const auto n = own.terminals;
+    for (std::size_t j = 0; j < n; ++j) own.v[j] = x_[static_cast<std::size_t>(own.unknowns[j])];
+    own.looked = own.v;
+    own.limited = d.memory() > 0 && d.limit(own.looked, system_.memory_of(own.device, newton_.memory));
+    limited_ |= own.limited;
+    std::fill(own.stamp.begin(), own.stamp.end(), 0.0);
+    const std::span<double> all(own.stamp);
+    const Stamp stamp{all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)};
+    d.eval(own.looked, newton_.instant, stamp);
+    const auto places = system_.places(own.device);
+    for (std::size_t row = 0; row < n; ++row) {
+        for (std::size_t column = 0; column < n; ++column) {
+            const double slope = stamp.slope(row, column), c = stamp.capacitance(row, column);
+            if (own.limited)
+                stamp.f[row] += slope * (own.v[column] - own.looked[column]), stamp.q[row] += c * (own.v[column] - own.looked[column]);
+            J_[places[row * n + column]] += slope + a_ * c;
+        }
+        r_[static_cast<std::size_t>(own.unknowns[row])] += stamp.f[row] + a_ * stamp.q[row];
+    }
+}
+
+/// r and J at x.
+void StepEquations::look(std::span<const double> x) {
+    std::copy(x.begin(), x.end(), x_.begin());
+    J_ = J_0_, r_ = base_;
+    for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += J_0_[l.place] * x_[static_cast<std::size_t>(l.column)];
+    limited_ = false;
+    for (auto& own : own_) look_at_own(own);
+    for (auto& t : together_) {
+        const auto n = t.group.terminals, room = t.group.room, count = t.group.members.size();
+        double *const v = t.row(0), *const f = t.row(n), *const q = t.row(2 * n), *const df = t.row(3 * n),
+                      *const dq = t.row(3 * n + n * n);
+        const int* const unknowns = t.unknowns.data();
+        for (std::size_t k = 0; k < room; ++k)
+            for (std::size_t j = 0; j < n; ++j) v[j * room + k] = x_[static_cast<std::size_t>(unknowns[k * n + j])];
+        t.group.bank->eval(newton_.instant, {room, v, f, df, nullptr, q, dq});
+        const double a = a_;
+        for (std::size_t k = 0; k < n * room; ++k) f[k] += a * q[k];
+        for (std::size_t k = 0; k < n * n * room; ++k) df[k] += a * dq[k];
+        const auto* places = t.group.places.data();
+        for (std::size_t k = 0; k < count; ++k, places += n * n) {
+            for (std::size_t entry = 0; entry < n * n; ++entry) J_[places[entry]] += df[entry * room + k];
+            for (std::size_t row = 0; row < n; ++row) r_[static_cast<std::size_t>(unknowns[k * n + row])] += f[row * room + k];
+        }
+    }
+}
+
+double StepEquations::largest_step(std::span<const double> allowed, bool& clamped) {
+    double largest = 0;
+    for (std::size_t n = 0; n < allowed.size(); ++n) {
+        double& d = step_[n];
+        if (!std::isfinite(d)) return d;
+        if (voltage_[n] && !system_.linear() && std::abs(d) > 0.5) d = std::copysign(0.5, d), clamped = true;
+        if (allowed[n] > 0) largest = std::max(largest, std::abs(d) / allowed[n]);
+    }
+    return largest;
+}
+
+StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<const double> allowed) {
+    look(x);
+    ++iterations;
+    if (!newton_.solver.factor(std::span<const double>(J_).first(J_.size() - 1))) return Way::lost;
+    for (std::size_t n = 0; n < step_.size(); ++n) step_[n] = -r_[n];
+    newton_.solver.solve(step_);
+    bool clamped = false;
+    const double size = largest_step(allowed, clamped), before = std::exchange(before_, size);
+    if (!std::isfinite(size)) return Way::lost;
+    for (std::size_t n = 0; n < x.size(); ++n) x[n] += step_[n];
+    ++tries_;
+    if (system_.linear()) return Way::arrived;
+    if (limited_ || clamped) {
+        before_ = 0;
+        return tries_ < most_iterations ? Way::on : Way::lost;
+    }
+    if (before > 0.1) bend_ = std::max(0.7 * bend_, std::min(1.0, size / (before * before)));
+    if (bend_ * size * size <= near_enough && (size < 10 || before > 0)) return Way::arrived;
+    return tries_ >= most_iterations || (before > 0 && size > 2 * before && tries_ > 3) ? Way::lost : Way::on;
+}
+
+void StepEquations::charges(std::span<double> q) {
+    const auto count = q.size();
+    for (std::size_t n = 0; n < count; ++n) x_[n] += step_[n];  // where it was looked at last, and the step from there
+    std::fill(r_.begin(), r_.end(), 0.0);
+    for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += l.c * x_[static_cast<std::size_t>(l.column)];
+    const auto moved = [&](int u) { return static_cast<std::size_t>(u) < count ? step_[static_cast<std::size_t>(u)] : 0.0; };
+    for (const auto& own : own_) {
+        const auto n = own.terminals;
+        for (std::size_t row = 0; row < n; ++row) {
+            double sum = own.stamp[n + row];
+            for (std::size_t column = 0; column < n; ++column)
+                sum += own.stamp[2 * n + n * n + row * n + column] * moved(own.unknowns[column]);
+            r_[static_cast<std::size_t>(own.unknowns[row])] += sum;
+        }
+    }
+    for (auto& t : together_) {
+        const auto n = t.group.terminals, room = t.group.room, members = t.group.members.size();
+        double *const d = t.row(0), *const qs = t.row(2 * n), *const dq = t.row(3 * n + n * n);
+        for (std::size_t k = 0; k < room; ++k)
+            for (std::size_t j = 0; j < n; ++j) d[j * room + k] = moved(t.unknowns[k * n + j]);
+        for (std::size_t row = 0; row < n; ++row)
+            for (std::size_t column = 0; column < n; ++column)
+                for (std::size_t k = 0; k < room; ++k) qs[row * room + k] += dq[(row * n + column) * room + k] * d[column * room + k];
+        for (std::size_t k = 0; k < members; ++k)
+            for (std::size_t row = 0; row < n; ++row) r_[static_cast<std::size_t>(t.unknowns[k * n + row])] += qs[row * room + k];
+    }
+    std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(count), q.begin());
+}
+
+void StepEquations::at(double t, std::span<const double> x, std::span<double> f, std::span<double> q) {
+    prepare(t, 0, {});
+    look(x);
+    std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(f.size()), f.begin());
+    std::fill(step_.begin(), step_.end(), 0.0);
+    charges(q);
+}
+
+void StepEquations::settle() { newton_.solver.settle(std::span<const double>(J_).first(J_.size() - 1)); }
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,74 @@
+#pragma once
+// The equations of one step in time, f(x, t) + a q(x) + history = 0, and Newton's way to their answer.
+
+#include "circuit/solve/operating_point.hpp"
+
+namespace corpuscle::circuit {
+
+/// Linear devices are summed once and for all, sources once a step; of the others only what the matrix needs is put together, so that an
+/// iteration costs little more than its transistors and one elimination. The charges of the answer follow along their slopes: what a step
+/// leaves over the next one finds, and none is lost.
+class StepEquations {
+    const System& system_;
+    Newton& newton_;
+    struct Linear {
+        std::size_t place;
+        int row, column;
+        double g, c;
+    };
+    std::vector<Linear> linear_;
+    std::vector<double> still_;         // what linear devices leave at x = 0 that does not change with time
+    std::vector<std::size_t> varying_;  // sources on their course
+    struct Own {                        // of a device that is not linear and stands alone
+        std::size_t device, terminals;
+        std::vector<int> unknowns;
+        std::vector<double> v, looked, stamp;
+        bool limited = false;
+    };
+    std::vector<Own> own_;
+    struct alignas(64) Line {
+        double of[8];
+    };
+    struct Together {
+        const Group& group;
+        std::vector<int> unknowns;  // of ground: one beyond the others
+        std::vector<Line> lines;    // v, f, q [terminals][room]; df, dq [terminals^2][room]
+        double* row(std::size_t k) { return lines.data()->of + k * group.room; }
+    };
+    std::vector<Together> together_;
+    std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
+    std::vector<char> voltage_;
+    int tries_ = 0;
+    double before_ = 0;        // the last step's size; 0: it was cut short
+    double a_ = 0, bend_ = 1;  // bend: how much of a squared step is left after it, in allowed units
+    bool limited_ = false;
+
+    void look(std::span<const double> x);
+    void look_at_own(Own&);
+    double largest_step(std::span<const double> allowed, bool& clamped);
+
+public:
+    long iterations = 0;
+
+    StepEquations(const System&, Newton&);
+
+    /// For a step that ends at t, with dq/dt = a q + history.
+    void prepare(double t, double a, std::span<const double> history);
+    enum class Way { on, arrived, lost };
+    /// One of Newton's steps from x. Arrived: no unknown with allowed[n] > 0 is further from the answer than a small part of that.
+    Way iterate(std::vector<double>& x, std::span<const double> allowed);
+    /// The largest part of the last step, in allowed units.
+    double step_size() const { return before_; }
+    /// Of the answer.
+    void charges(std::span<double> q);
+    /// e with (G + a C) e = r, at the answer's slopes, in place: what a disturbance of the equations does to the unknowns.
+    void answer_to(std::span<double> r) const { newton_.solver.solve(r); }
+    /// f(x, t), for a = 0 and no history; q(x).
+    void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
+    /// The matrix's order of elimination is taken from here, for all that follow.
+    void settle();
+    double bend() const { return bend_; }
+    void set_bend(double bend) { bend_ = bend; }
+};
+
+}  // namespace corpuscle::circuit
