@@ -94,8 +94,9 @@ struct BankStamp {
     std::size_t room;
     const double* v;
     double *f, *df;
-    double* most;    ///< of each f, the largest of its slopes times its voltage: what its last digit is of; null: not asked
-    double *q, *dq;  ///< null: not asked
+    double* most;     ///< of each f, the largest of its slopes times its voltage: what its last digit is of; null: not asked
+    double *q, *dq;   ///< null: not asked
+    double rate = 0;  ///< 1/s: f and df are wanted with rate times q and dq added
 };
 
 /// Devices of one kind, side by side on lanes; `room` is a multiple of 8, and the last device fills what is over.

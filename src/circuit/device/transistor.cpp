@@ -37,7 +37,7 @@ public:
         const Uicm<double> model(constants_);
         double most[4];
         lanes::one_by_one.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), at.gmin, out.f.data(), out.df.data(), most,
-                                at.charges ? out.q.data() : nullptr, out.dq.data()});
+                                at.charges ? out.q.data() : nullptr, out.dq.data(), 0});
     }
 
     bool draw(const Draw* chip, std::uint32_t number) override {
@@ -99,7 +99,7 @@ public:
     }
 
     void eval(const Instant& at, const BankStamp& s) const override {
-        lanes_.eval({models_.data()->bytes, count_, s.room, s.v, at.gmin, s.f, s.df, s.most, s.q, s.dq});
+        lanes_.eval({models_.data()->bytes, count_, s.room, s.v, at.gmin, s.f, s.df, s.most, s.q, s.dq, s.rate});
     }
 };
 

@@ -20,6 +20,7 @@ struct TransistorCall {
     double *f, *df;           ///< [4][room], A; [4 * 4][room], S
     double* most;             ///< [4][room], A: the largest |df v| of each row; null: not asked
     double *q, *dq;           ///< charges and capacitances, the same; null: not asked
+    double rate;              ///< 1/s: f and df are given with rate times q and dq added
 };
 
 /// What one instruction set offers.

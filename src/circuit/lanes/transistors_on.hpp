@@ -46,7 +46,7 @@ template <class T, bool charges>
     using Of = Terminals;
     const std::size_t room = call.room;
     const auto* model = reinterpret_cast<const Uicm<T>*>(call.models);
-    const T gmin(call.gmin);
+    const T gmin(call.gmin), rate(call.rate);
     for (std::size_t k = 0; k < call.count; k += width<T>(), ++model) {
         const T v[4] = {loaded<T>(call.v + k), loaded<T>(call.v + room + k), loaded<T>(call.v + 2 * room + k),
                         loaded<T>(call.v + 3 * room + k)};
@@ -59,18 +59,23 @@ template <class T, bool charges>
             a.di[end][end] = a.di[end][end] + gmin;
             a.di[Of::B][end] = a.di[Of::B][end] - gmin, a.di[end][Of::B] = a.di[end][Of::B] - gmin;
         }
+        if constexpr (charges) {
+            for (std::size_t row = 0; row < 4; ++row) {
+                store(a.q[row], call.q + row * room + k);
+                a.i[row] = a.i[row] + rate * a.q[row];
+                for (std::size_t column = 0; column < 4; ++column) {
+                    store(a.dq[row][column], call.dq + (4 * row + column) * room + k);
+                    a.di[row][column] = a.di[row][column] + rate * a.dq[row][column];
+                }
+            }
+        }
         for (std::size_t row = 0; row < 4; ++row) {
             store(a.i[row], call.f + row * room + k);
+            for (std::size_t column = 0; column < 4; ++column) store(a.di[row][column], call.df + (4 * row + column) * room + k);
+            if (call.most == nullptr) continue;
             T most(0.0);
-            for (std::size_t column = 0; column < 4; ++column) {
-                store(a.di[row][column], call.df + (4 * row + column) * room + k);
-                most = num::max(most, num::abs(a.di[row][column] * v[column]));
-            }
-            if (call.most) store(most, call.most + row * room + k);
-            if constexpr (charges) {
-                store(a.q[row], call.q + row * room + k);
-                for (std::size_t column = 0; column < 4; ++column) store(a.dq[row][column], call.dq + (4 * row + column) * room + k);
-            }
+            for (std::size_t column = 0; column < 4; ++column) most = num::max(most, num::abs(a.di[row][column] * v[column]));
+            store(most, call.most + row * room + k);
         }
     }
 }

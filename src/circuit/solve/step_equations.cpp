@@ -43,12 +43,14 @@ StepEquations::StepEquations(const System& system, Newton& newton) : system_(sys
         if (sums[place].g != 0 || sums[place].c != 0) linear_.push_back(sums[place]), linear_.back().place = place;
     for (const auto& group : system.groups()) {
         const auto n = group.terminals;
-        auto& t = together_.emplace_back(Together{group, {}, std::vector<Line>((3 * n + 2 * n * n) * group.room / 8)});
-        for (std::size_t k = 0; k < group.room; ++k)
-            for (std::size_t j = 0; j < n; ++j) {
+        auto& t = together_.emplace_back(Together{group, {}, {}, std::vector<Line>((3 * n + 2 * n * n) * group.room / 8)});
+        for (std::size_t j = 0; j < n; ++j)
+            for (std::size_t k = 0; k < group.room; ++k) {
                 const int u = group.unknowns[std::min(k, group.members.size() - 1) * n + j];
                 t.unknowns.push_back(u < 0 ? static_cast<int>(count) : u);
             }
+        for (std::size_t entry = 0; entry < n * n; ++entry)
+            for (std::size_t k = 0; k < group.members.size(); ++k) t.places.push_back(static_cast<int>(group.places[k * n * n + entry]));
     }
 }
 
@@ -105,18 +107,13 @@ void StepEquations::look(std::span<const double> x) {
         const auto n = t.group.terminals, room = t.group.room, count = t.group.members.size();
         double *const v = t.row(0), *const f = t.row(n), *const q = t.row(2 * n), *const df = t.row(3 * n),
                       *const dq = t.row(3 * n + n * n);
-        const int* const unknowns = t.unknowns.data();
-        for (std::size_t k = 0; k < room; ++k)
-            for (std::size_t j = 0; j < n; ++j) v[j * room + k] = x_[static_cast<std::size_t>(unknowns[k * n + j])];
-        t.group.bank->eval(newton_.instant, {room, v, f, df, nullptr, q, dq});
-        const double a = a_;
-        for (std::size_t k = 0; k < n * room; ++k) f[k] += a * q[k];
-        for (std::size_t k = 0; k < n * n * room; ++k) df[k] += a * dq[k];
-        const auto* places = t.group.places.data();
-        for (std::size_t k = 0; k < count; ++k, places += n * n) {
-            for (std::size_t entry = 0; entry < n * n; ++entry) J_[places[entry]] += df[entry * room + k];
-            for (std::size_t row = 0; row < n; ++row) r_[static_cast<std::size_t>(unknowns[k * n + row])] += f[row * room + k];
-        }
+        for (std::size_t k = 0; k < n * room; ++k) v[k] = x_[static_cast<std::size_t>(t.unknowns[k])];
+        t.group.bank->eval(newton_.instant, {room, v, f, df, nullptr, q, dq, a_});
+        const int* place = t.places.data();
+        for (std::size_t entry = 0; entry < n * n; ++entry)
+            for (std::size_t k = 0; k < count; ++k) J_[static_cast<std::size_t>(*place++)] += df[entry * room + k];
+        for (std::size_t row = 0; row < n; ++row)
+            for (std::size_t k = 0; k < count; ++k) r_[static_cast<std::size_t>(t.unknowns[row * room + k])] += f[row * room + k];
     }
 }
 
@@ -170,13 +167,12 @@ void StepEquations::charges(std::span<double> q) {
     for (auto& t : together_) {
         const auto n = t.group.terminals, room = t.group.room, members = t.group.members.size();
         double *const d = t.row(0), *const qs = t.row(2 * n), *const dq = t.row(3 * n + n * n);
-        for (std::size_t k = 0; k < room; ++k)
-            for (std::size_t j = 0; j < n; ++j) d[j * room + k] = moved(t.unknowns[k * n + j]);
+        for (std::size_t k = 0; k < n * room; ++k) d[k] = moved(t.unknowns[k]);
         for (std::size_t row = 0; row < n; ++row)
             for (std::size_t column = 0; column < n; ++column)
                 for (std::size_t k = 0; k < room; ++k) qs[row * room + k] += dq[(row * n + column) * room + k] * d[column * room + k];
-        for (std::size_t k = 0; k < members; ++k)
-            for (std::size_t row = 0; row < n; ++row) r_[static_cast<std::size_t>(t.unknowns[k * n + row])] += qs[row * room + k];
+        for (std::size_t row = 0; row < n; ++row)
+            for (std::size_t k = 0; k < members; ++k) r_[static_cast<std::size_t>(t.unknowns[row * room + k])] += qs[row * room + k];
     }
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(count), q.begin());
 }

@@ -31,7 +31,8 @@ class StepEquations {
     };
     struct Together {
         const Group& group;
-        std::vector<int> unknowns;  // of ground: one beyond the others
+        std::vector<int> unknowns;  // [terminals][room]; of ground: one beyond the others
+        std::vector<int> places;    // [terminals^2][members]
         std::vector<Line> lines;    // v, f, q [terminals][room]; df, dq [terminals^2][room]
         double* row(std::size_t k) { return lines.data()->of + k * group.room; }
     };

@@ -46,7 +46,7 @@ void Transient::start_over() {
     past_.clear();
     past_.next() = std::move(now);
     past_.accept();
-    order_ = 1, at_this_order_ = 0, starting_ = true;
+    order_ = 1, since_choice_ = 0, starting_ = true;
 }
 
 void Transient::allow() {
@@ -116,7 +116,8 @@ void Transient::choose(double h, double error) {
     int best = order_;
     if (trapezoid()) {
         best = std::max(1, highest);
-    } else if (at_this_order_ > order_ || starting_) {
+    } else if (since_choice_ > order_ || starting_) {
+        since_choice_ = 0;
         const double lower = order_ > 1 ? 0.9 * growth(error_of(order_ - 1), order_ - 1) : 0;
         const bool can_rise = order_ < highest && past_.count() > order_ + 1;
         const double higher = can_rise ? 0.9 * growth(error_of(order_ + 1), order_ + 1) : 0;
@@ -127,7 +128,7 @@ void Transient::choose(double h, double error) {
         else if (starting_ && order_ < highest)
             best = order_ + 1;
     }
-    if (best != order_) order_ = best, at_this_order_ = 0;
+    order_ = best;
     const double limit = past_.count() < 3 ? 5 : longer;
     h_ = h * std::clamp(most, 0.3, limit);
 }
@@ -150,7 +151,7 @@ void Transient::take() {
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
     past_.accept();
     allow();
-    ++work_.steps, ++at_this_order_, failures_ = 0;
+    ++work_.steps, ++since_choice_, failures_ = 0;
 }
 
 Result<bool> Transient::step(double until) {

@@ -14,7 +14,7 @@ struct TransientPlan {
     double stop = 0, longest = 0;  ///< s: where it ends; the longest step
     Integration method = Integration::bdf;
     int order = 4;          ///< of BDF, at the most
-    double reltol = 5e-5;   ///< of a step's error, against the largest value so far
+    double reltol = 3e-5;   ///< of a step's error, against the largest value so far
     double vntol = 1e-6;    ///< V, beside it
     double abstol = 1e-12;  ///< A, of inductors' currents
 };
@@ -34,7 +34,7 @@ class Transient {
     TransientPlan plan_;
     StepEquations equations_;
     Past past_;
-    int order_ = 1, at_this_order_ = 0, failures_ = 0;
+    int order_ = 1, since_choice_ = 0, failures_ = 0;
     double h_ = 0, leading_ = 0;
     bool settled_ = false;  // the matrix's elimination
     bool starting_ = true;  // since the start every step has been of the highest order its points allow
