@@ -177,6 +177,45 @@ Result<bool> Transient::step(double until) {
     }
 }
 
+double Transient::between(double t, int unknown) const {
+    if (unknown < 0) return 0;
+    const int points = std::min(std::max(order_, 1) + 1, past_.count());
+    const auto w = past_.value(t, points);
+    double sum = 0;
+    for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k)] * past_[k].x[static_cast<std::size_t>(unknown)];
+    return sum;
+}
+
+std::optional<double> Transient::crossing(int plus, int minus, double level, bool upwards) const {
+    if (past_.count() < 2) return {};
+    const double sign = upwards ? 1 : -1;
+    const auto above = [&](double t) { return sign * (between(t, plus) - between(t, minus) - level); };
+    double from = past_[1].t, to = past_[0].t, low = above(from), high = above(to);
+    if (!(low <= 0 && high > 0)) return {};
+    for (int k = 0; k < 80 && from < to; ++k) {  // false position, halved where it does not move
+        const double guess = from - low * (to - from) / (high - low), t = k % 3 == 2 ? (from + to) / 2 : std::clamp(guess, from, to);
+        const double here = above(t);
+        if (here > 0 ? t == to : t == from) break;
+        here > 0 ? (to = t, high = here) : (from = t, low = here);
+    }
+    return to;
+}
+
+TransientState Transient::save() const {
+    TransientState s{{}, order_, since_choice_, failures_, starting_, h_, equations_.bend(), scale_, rate_, newton_.memory, work_};
+    for (int k = 0; k < past_.count(); ++k) s.past.push_back(past_[k]);
+    return s;
+}
+
+void Transient::restore(const TransientState& s) {
+    past_.clear();
+    for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
+    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, starting_ = s.starting, h_ = s.h;
+    equations_.set_bend(s.bend), equations_.iterations = s.work.iterations;
+    scale_ = s.scale, rate_ = s.rate, newton_.memory = s.memory, work_ = s.work;
+    allow();
+}
+
 Result<void> Transient::run(std::vector<double> x, const std::function<bool(double, std::span<const double>)>& each) {
     begin(std::move(x));
     bool more = each(time(), this->x());

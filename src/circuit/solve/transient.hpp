@@ -2,6 +2,7 @@
 // A circuit in time: f(x, t) + dq(x)/dt = 0, in steps as long as accuracy allows.
 
 #include <functional>
+#include <optional>
 
 #include "circuit/solve/past.hpp"
 #include "circuit/solve/step_equations.hpp"
@@ -22,6 +23,16 @@ struct TransientPlan {
 /// What was done.
 struct TransientWork {
     long steps = 0, rejected = 0, lost = 0, iterations = 0;  ///< lost: of the rejected, those where Newton's steps did not arrive
+};
+
+/// All that the next step depends on, with the same circuit begun from the same x.
+struct TransientState {
+    std::vector<Moment> past;  ///< newest first
+    int order = 1, since_choice = 0, failures = 0;
+    bool starting = true;
+    double h = 0, bend = 1;
+    std::vector<double> scale, rate, memory;
+    TransientWork work;
 };
 
 /// Steps of variable length and order: BDF with the coefficients of the points as they stand, or the trapezoidal rule. The polynomial
@@ -67,6 +78,14 @@ public:
     Result<bool> step(double until);
     double time() const { return past_[0].t; }
     std::span<const double> x() const { return past_[0].x; }
+    /// An unknown between the last two points (-1: ground), as the polynomial of the last steps has it.
+    double between(double t, int unknown) const;
+    /// The first time since the point before the last at which plus - minus (unknowns; -1: ground) crosses a level: upwards, or downwards.
+    std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
+
+    TransientState save() const;
+    /// After begin(), from the x that the one who saved began from.
+    void restore(const TransientState&);
 };
 
 }  // namespace corpuscle::circuit
