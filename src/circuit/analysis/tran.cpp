@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
+#include "circuit/analysis/beginning.hpp"
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/device/values.hpp"
 
@@ -37,23 +38,6 @@ Result<Times> times_of(const Command& given) {
     return out;
 }
 
-Springs held(const TestBench& bench) {
-    Springs out{std::vector<double>(static_cast<std::size_t>(bench.system.nodes())),
-                std::vector<double>(static_cast<std::size_t>(bench.system.size()))};
-    for (const auto& [node, v] : bench.circuit->ic)
-        out.g[static_cast<std::size_t>(node) - 1] = 1e3, out.to[static_cast<std::size_t>(node) - 1] = v;
-    return out;
-}
-
-/// Where it begins: the operating point, with the nodes of .ic held; with uic those alone, and all else at 0 V.
-Result<std::vector<double>> beginning(TestBench& bench, bool uic) {
-    const auto springs = held(bench);
-    if (uic) return springs.to;
-    const auto rest = bench.circuit->ic.empty() ? operating_point(bench.newton) : operating_point(bench.newton, {}, springs);
-    if (!rest) return rest.error();
-    return rest->x;
-}
-
 }  // namespace
 
 Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
@@ -68,8 +52,9 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     Plot plot = plot_of(bench.system, "Transient Analysis", "time", "time");
     Transient transient(bench.system, bench.newton, plan);
     bool stopped = false;
-    const auto x = beginning(bench, times->uic);
-    auto done = !x ? Result<void>(x.error()) : transient.run(*x, [&](double t, std::span<const double> at) {
+    auto from = beginning(bench, times->uic);
+    if (from && from->remark && !bench.brief) out.remarks.push_back(*from->remark);
+    auto done = !from ? Result<void>(from.error()) : transient.run(from->x, from->settled, [&](double t, std::span<const double> at) {
         if (t >= times->start) append(plot, t, at);
         stopped = bench.stopped(t / times->stop);
         return !stopped;

@@ -86,6 +86,7 @@ bool Solver<T>::factor(std::span<const T> values) {
         held_->by_list = held_->list && held_->list->factor(values);
         if (held_->by_list) return true;
         held_->strayed += held_->list.has_value();
+        if (held_->list) return held_->anew(numbers);  // and not along pivots that depend on which matrices went before
     }
     return (held_->numeric != nullptr && held_->again(numbers)) || held_->anew(numbers);
 }

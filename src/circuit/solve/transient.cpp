@@ -20,7 +20,7 @@ double growth(double error, int order) { return error > 0 ? std::min(safety * st
 
 }  // namespace
 
-void Transient::begin(std::vector<double> x) {
+Result<void> Transient::begin(std::vector<double> x, bool settled) {
     const auto count = x.size();
     for (auto* v : {&scale_, &allowed_, &history_, &rate_, &error_}) v->assign(count, 0);
     newton_.memory = system_.fresh_memory();
@@ -36,6 +36,31 @@ void Transient::begin(std::vector<double> x) {
     h_ = plan_.longest;
     start_over();
     allow();
+    if (settled) return {};
+    auto ok = settle();
+    start_over();
+    return ok;
+}
+
+/// A step so short that no charge moves: what no charge holds finds its place.
+Result<void> Transient::settle() {
+    const double at_once = 1e-15 * plan_.longest;
+    auto now = past_[0];
+    for (std::size_t n = 0; n < now.q.size(); ++n) history_[n] = -now.q[n] / at_once;
+    equations_.prepare(0, 1 / at_once, history_);
+    const auto allowed = std::exchange(allowed_, std::vector<double>(now.x.size(), plan_.vntol));
+    auto way = StepEquations::Way::on;
+    for (int k = 0; k < 100 && way != StepEquations::Way::arrived; ++k) {
+        if (k % 10 == 9) equations_.prepare(0, 1 / at_once, history_);  // where it goes on is a new beginning
+        way = equations_.iterate(now.x, allowed_);
+    }
+    allowed_ = allowed;
+    if (way != StepEquations::Way::arrived) return too_short(at_once);
+    past_.clear();
+    past_.next() = std::move(now);
+    past_.accept();
+    allow();
+    return {};
 }
 
 /// Only the newest point counts from now on; dq/dt there is what the currents leave.
@@ -138,12 +163,16 @@ Result<void> Transient::shorten(double h, double error) {
     ++work_.rejected, ++failures_;
     if (error == 0) ++work_.lost;
     h_ = h * (error > 0 ? std::clamp(growth(error, order_), past_.count() == 1 ? 1e-3 : 0.1, 0.8) : 0.125);
-    if (failures_ > 1 && past_.count() > 1) start_over();
+    if ((failures_ > 1 || bent_) && past_.count() > 1) start_over();
     if (h_ >= shortest_part * plan_.stop) return {};
-    return Error{Code::not_converged,
-                 fmt::format("at {} no step is short enough ({}); {}", format_quantity(time(), "s"), format_quantity(h_, "s"),
-                             newton_.distance(past_.next().x)),
-                 Place{system_.circuit().file}};
+    return too_short(h_);
+}
+
+Error Transient::too_short(double h) {
+    return {Code::not_converged,
+            fmt::format("at {} no step is short enough ({}); {}", format_quantity(time(), "s"), format_quantity(h, "s"),
+                        newton_.distance(past_.next().x)),
+            Place{system_.circuit().file}};
 }
 
 void Transient::take() {
@@ -173,6 +202,7 @@ Result<bool> Transient::step(double until) {
         choose(t - t0, error);
         if (last && t - t0 < wanted) h_ = std::max(h_, std::min(wanted, plan_.longest));
         take();
+        bent_ = last;
         return true;
     }
 }
@@ -202,7 +232,7 @@ std::optional<double> Transient::crossing(int plus, int minus, double level, boo
 }
 
 TransientState Transient::save() const {
-    TransientState s{{}, order_, since_choice_, failures_, starting_, h_, equations_.bend(), scale_, rate_, newton_.memory, work_};
+    TransientState s{{}, order_, since_choice_, failures_, starting_, bent_, h_, equations_.bend(), scale_, rate_, newton_.memory, work_};
     for (int k = 0; k < past_.count(); ++k) s.past.push_back(past_[k]);
     return s;
 }
@@ -210,14 +240,14 @@ TransientState Transient::save() const {
 void Transient::restore(const TransientState& s) {
     past_.clear();
     for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
-    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, starting_ = s.starting, h_ = s.h;
+    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, starting_ = s.starting, bent_ = s.bent, h_ = s.h;
     equations_.set_bend(s.bend), equations_.iterations = s.work.iterations;
     scale_ = s.scale, rate_ = s.rate, newton_.memory = s.memory, work_ = s.work;
     allow();
 }
 
-Result<void> Transient::run(std::vector<double> x, const std::function<bool(double, std::span<const double>)>& each) {
-    begin(std::move(x));
+Result<void> Transient::run(std::vector<double> x, bool settled, const std::function<bool(double, std::span<const double>)>& each) {
+    if (auto ok = begin(std::move(x), settled); !ok) return ok;
     bool more = each(time(), this->x());
     while (more && time() < plan_.stop) {
         const auto stepped = step(plan_.stop);

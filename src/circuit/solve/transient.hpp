@@ -29,7 +29,7 @@ struct TransientWork {
 struct TransientState {
     std::vector<Moment> past;  ///< newest first
     int order = 1, since_choice = 0, failures = 0;
-    bool starting = true;
+    bool starting = true, bent = false;
     double h = 0, bend = 1;
     std::vector<double> scale, rate, memory;
     TransientWork work;
@@ -48,6 +48,7 @@ class Transient {
     int order_ = 1, since_choice_ = 0, failures_ = 0;
     double h_ = 0, leading_ = 0;
     bool settled_ = false;  // the matrix's elimination
+    bool bent_ = false;     // the last point is a source's corner
     bool starting_ = true;  // since the start every step has been of the highest order its points allow
     std::vector<double> scale_, allowed_, history_, rate_, error_;
     std::vector<char> charged_;
@@ -55,6 +56,8 @@ class Transient {
 
     bool trapezoid() const { return plan_.method == Integration::trapezoidal; }
     void start_over();
+    Result<void> settle();
+    Error too_short(double h);
     bool attempt(double t, double& error);
     double error_of(int order);
     double worst_error();
@@ -67,13 +70,13 @@ public:
     Transient(System& system, Newton& newton, const TransientPlan& plan)
         : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
 
-    /// From x at t = 0 on; calls each(t, x) with every point, x at 0 first, until it returns false or the end is reached. An error says
+    /// See begin(); calls each(t, x) with every point, x at 0 first, until it returns false or the end is reached. An error says
     /// when no step was short enough, and where.
-    Result<void> run(std::vector<double> x, const std::function<bool(double, std::span<const double>)>& each);
+    Result<void> run(std::vector<double> x, bool settled, const std::function<bool(double, std::span<const double>)>& each);
     const TransientWork& work() const { return work_; }
 
-    /// At t = 0. x: consistent, or (uic) only where charge holds it.
-    void begin(std::vector<double> x);
+    /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them.
+    Result<void> begin(std::vector<double> x, bool settled = true);
     /// One step, not beyond `until`. False: it would go beyond, or its length depends on what comes there.
     Result<bool> step(double until);
     double time() const { return past_[0].t; }

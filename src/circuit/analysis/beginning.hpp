@@ -1,0 +1,18 @@
+#pragma once
+// Where a transient begins.
+
+#include "circuit/analysis/bench.hpp"
+
+namespace corpuscle::circuit {
+
+struct Beginning {
+    std::vector<double> x;
+    bool settled = true;            ///< false (uic): only charges are as they should be, the rest follows from them
+    std::optional<Error> remark{};  ///< a warning: it would have stayed where it rests
+};
+
+/// The operating point, with the nodes of .ic held there; with uic those alone, and all else at 0 V. A circuit without .ic that rests
+/// where the smallest disturbance would grow begins 10 mV beside, in the direction that grows most.
+Result<Beginning> beginning(TestBench&, bool uic);
+
+}  // namespace corpuscle::circuit
