@@ -30,6 +30,8 @@ public:
     bool done() const { return circuit_ != nullptr; }
     std::string title() const { return circuit_ ? circuit_->title : ""; }
     const std::vector<Expectation>& expectations() const { return outcome_.expectations; }
+    const std::vector<Error>& remarks() const { return outcome_.remarks; }
+    const std::vector<Analysed>& analyses() const { return outcome_.analyses; }
 
     /// A curve of the first plot that has it, of one analysis ("ac") if named; as .print names them, so v(a,b) and vdb(a) too.
     std::vector<std::complex<double>> complex(const std::string& name, const std::string& analysis = "") const {
@@ -60,6 +62,14 @@ inline Result<Netlist> parsed(const std::string& text) {
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
     return Netlist::parse(text, test::root() + "/process/test.cir", open);
+}
+
+inline std::shared_ptr<const Circuit> circuit_from(const std::string& text) {
+    const auto netlist = parsed(text);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
+    auto circuit = netlist->elaborate();
+    if (!circuit) return ADD_FAILURE() << circuit.error().text(), nullptr;
+    return std::make_shared<const Circuit>(std::move(*circuit));
 }
 
 inline Ran ran(Circuit circuit) {

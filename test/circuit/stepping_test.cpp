@@ -1,0 +1,156 @@
+// The steps of a transient: their polynomials, their order, what stops and resumes them, where they begin.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "circuit/analysis/beginning.hpp"
+#include "circuit/analysis/transient_plan.hpp"
+#include "circuit/netlist_runner.hpp"
+#include "circuit/oscillator.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+Past cubic_past() {
+    Past past;
+    for (const double t : {0.0, 0.5, 0.7, 1.5, 1.6}) {
+        auto& next = past.next();
+        next.t = t, next.x = {t * t * t - 2 * t + 1}, next.q = {0};
+        past.accept();
+    }
+    return past;
+}
+
+TEST(Past, FollowsAPolynomialOfItsDegree) {
+    const Past past = cubic_past();
+    double value = 0;
+    past.sum(past.value(2.5, 4), 4, &Moment::x, {&value, 1});
+    EXPECT_NEAR(value, 2.5 * 2.5 * 2.5 - 2 * 2.5 + 1, 1e-12);
+    double leading = 0, slope = 0;
+    const auto weights = past.slope(2.0, 3, leading);
+    past.sum(weights, 3, &Moment::x, {&slope, 1});
+    EXPECT_NEAR(slope + leading * 5.0, 3 * 4.0 - 2, 1e-12);
+}
+
+TEST(Past, KeepsTheNewestPoints) {
+    Past past;
+    for (int k = 0; k < 30; ++k) past.next().t = k, past.next().x = {0}, past.next().q = {0}, past.accept();
+    EXPECT_EQ(past.count(), Past::most);
+    for (int k = 0; k < past.count(); ++k) EXPECT_EQ(past[k].t, 29 - k);
+}
+
+/// One circuit, with all that a transient of it needs.
+struct Stepped {
+    std::unique_ptr<TestBench> bench;
+    TransientPlan plan;
+    Stepped(const std::string& netlist, double stop) {
+        auto made = TestBench::make(circuit_from(netlist));
+        EXPECT_TRUE(made) << made.error().text();
+        bench = std::move(*made);
+        plan.stop = stop, plan.longest = stop / 50;
+        bench->system.go(stop / 1000, stop);
+    }
+    std::unique_ptr<Transient> begun() {
+        auto out = std::make_unique<Transient>(bench->system, bench->newton, plan);
+        const auto from = beginning(*bench, false);
+        EXPECT_TRUE(from) << from.error().text();
+        EXPECT_TRUE(out->begin(from->x, from->settled));
+        return out;
+    }
+};
+
+const std::string membrane = oscillator_netlist("0.2");
+
+TEST(Transient, GoesOnFromAKeptStateAsIfItHadNeverStopped) {
+    Stepped one(membrane, 0.2), other(membrane, 0.2);
+    auto whole = one.begun();
+    std::optional<TransientState> kept;
+    for (int k = 0; k < 2000; ++k) {
+        ASSERT_TRUE(whole->step(0.2));
+        if (k == 700) kept = whole->save();
+    }
+    auto resumed = other.begun();
+    resumed->restore(*kept);
+    for (int k = 701; k < 2000; ++k) ASSERT_TRUE(resumed->step(0.2));
+    EXPECT_EQ(resumed->time(), whole->time());
+    for (std::size_t n = 0; n < whole->x().size(); ++n) EXPECT_EQ(resumed->x()[n], whole->x()[n]) << n;
+    EXPECT_EQ(resumed->work().iterations, whole->work().iterations);
+}
+
+TEST(Transient, TakesTheSameStepsHoweverFarItMayGoAtATime) {
+    Stepped one(membrane, 0.1), other(membrane, 0.1);
+    auto whole = one.begun(), pieces = other.begun();
+    std::vector<double> there, here;
+    while (whole->time() < 0.1) ASSERT_TRUE(whole->step(0.1)), there.push_back(whole->time());
+    for (double until = 0; pieces->time() < 0.1; until += 0.00037)
+        for (bool more = true; more && pieces->time() < 0.1;) {
+            const auto stepped = pieces->step(std::min(until, 0.1));
+            ASSERT_TRUE(stepped);
+            more = *stepped;
+            if (more) here.push_back(pieces->time());
+        }
+    EXPECT_EQ(here, there);
+}
+
+TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
+    Stepped sine("sine\nv1 a 0 sin(0 1 50)\nr1 a b 1k\nc1 b 0 1n\n.tran 1u 0.1\n", 0.1);
+    sine.plan.longest = 1e-3;
+    auto t = sine.begun();
+    const int node = sine.bench->system.unknown("v(a)");
+    std::vector<double> up, down;
+    while (t->time() < 0.1) {
+        ASSERT_TRUE(t->step(0.1));
+        if (const auto at = t->crossing(node, -1, 0.5, true)) up.push_back(*at);
+        if (const auto at = t->crossing(node, -1, 0.5, false)) down.push_back(*at);
+    }
+    ASSERT_EQ(up.size(), 5U);
+    ASSERT_EQ(down.size(), 5U);
+    for (std::size_t k = 0; k < 5; ++k) {
+        EXPECT_NEAR(up[k], (static_cast<double>(k) + 1.0 / 12) / 50, 2e-6);
+        EXPECT_NEAR(down[k], (static_cast<double>(k) + 5.0 / 12) / 50, 2e-6);
+    }
+}
+
+TEST(Transient, WithoutAnInitialConditionAnOscillatorIsKickedAndTold) {
+    auto free = membrane;
+    free.erase(free.find(".ic"), free.find('\n', free.find(".ic")) - free.find(".ic") + 1);
+    const auto found = ran(free);
+    const auto s = found.curve("v(s)");
+    EXPECT_GT(std::count_if(s.begin() + 1, s.end(), [](double v) { return v > 0.35; }), 100);
+    ASSERT_FALSE(found.remarks().empty());
+    EXPECT_NE(found.remarks().back().sentence.find("would not stay where it rests"), std::string::npos);
+}
+
+TEST(Transient, WhatRestsStaysWhereItRests) {
+    for (const char* netlist :
+         {"divider\nv1 a 0 1\nr1 a b 1k\nr2 b 0 1k\nc1 b 0 1u\nd1 b 0 d\n.model d d\n.tran 1m 1\n",
+          "inverter\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nm1 o i vdd vdd pch w=6u l=0.5u\nm2 o i 0 0 nch w=1.5u l=0.5u\n"
+          "vi i 0 0.3\n.tran 1m 1\n"}) {
+        const auto found = ran(netlist);
+        EXPECT_TRUE(found.remarks().empty()) << found.remarks()[0].text();
+        for (const auto& curve : found.analyses()[0].findings.plots[0].curves)
+            if (curve.name != "time") {
+                EXPECT_NEAR(std::abs(curve.values.front() - curve.values.back()), 0, 1e-9) << curve.name;
+            }
+    }
+}
+
+TEST(Transient, WithUicWhatNoChargeHoldsFollows) {
+    const auto found = ran("uic\nv1 a 0 1\nr1 a b 1k\nr2 b c 1k\nc1 c 0 1u\n.ic v(c)=0.4\n.tran 1u 10u uic\n");
+    EXPECT_NEAR(found.curve("v(a)")[0], 1, 1e-9);
+    EXPECT_NEAR(found.curve("v(b)")[0], 0.7, 1e-9);
+    EXPECT_NEAR(found.curve("v(c)")[0], 0.4, 1e-6);
+}
+
+TEST(TransientPlan, RefusesWhatItDoesNotKnow) {
+    for (const auto& [options, what] :
+         {std::pair{"accuracy=great", "rough, normal, fine, finest"}, {"method=euler", "gear, trap"}, {"maxord=7", "from 1 to 5"}}) {
+        const auto plan = transient_plan(*circuit_from(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));
+        ASSERT_FALSE(plan);
+        EXPECT_NE(plan.error().sentence.find(what), std::string::npos) << plan.error().sentence;
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
