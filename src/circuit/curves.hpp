@@ -4,12 +4,36 @@
 #include <optional>
 #include <string_view>
 
-#include "circuit/plot.hpp"
+#include "circuit/points.hpp"
 
 namespace corpuscle::circuit {
 
-/// The values along a plot of what is named: a curve, v(a,b), or a view of a complex one: vm (magnitude), vdb, vp (phase, radians, as
+/// What a name means in a plot, looked up once: a curve, v(a,b), or a view of a complex one: vm (magnitude), vdb, vp (phase, radians, as
 /// ngspice has it), vr, vi, and the same of currents: im, idb, ip ...
+class CurveView {
+    static constexpr int ground = -1;
+    int plus_ = ground, minus_ = ground;  // in the plot's curves
+    std::string_view view_{};             // "", or what seen_as() knows
+    bool plain_ = true;                   // v(a), i(x), v(a,b)
+
+    std::complex<double> seen(std::complex<double> difference) const;
+
+public:
+    /// Nothing: the plot has no such curve.
+    static std::optional<CurveView> of(const Plot&, std::string_view name);
+
+    std::complex<double> in(const PlotRow& row) const {
+        return seen((plus_ < 0 ? 0 : row[static_cast<std::size_t>(plus_)]) - (minus_ < 0 ? 0 : row[static_cast<std::size_t>(minus_)]));
+    }
+    /// As it is measured: of a complex curve its magnitude, as ngspice does, unless a view is named.
+    double measured(const PlotRow& row) const {
+        const auto x = in(row);
+        return row.is_complex && plain_ ? std::abs(x) : x.real();
+    }
+    std::vector<std::complex<double>> along(const Plot&) const;
+};
+
+/// The values along a plot of what is named.
 std::optional<std::vector<std::complex<double>>> values_of(const Plot&, std::string_view name);
 
 }  // namespace corpuscle::circuit
