@@ -12,8 +12,8 @@ namespace corpuscle::circuit {
 /// The .print lines of an analysis of this word, over a plot that is whole; "" if there are none.
 std::string printed(const Circuit&, std::string_view word, const Plot&);
 
-/// The .print lines of a .tran: at START and every STEP from there on, on straight lines between its points. (ngspice's batch mode
-/// prints every point, and these with `.options interp`.)
+/// The .print lines of a .tran: at START and every STEP from there on, on straight lines between its points; nothing before the first of
+/// them. (ngspice's batch mode prints every point, and these with `.options interp`.)
 class PrintedSteps {
     struct Table {
         const Command* command;

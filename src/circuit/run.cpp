@@ -173,7 +173,7 @@ Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
         if (analysis == nullptr) continue;
         if (auto ok = analyse(bench, *analysis, c, orders, measures, out); !ok) {
             auto error = ok.error();
-            if (error.place.line == 0) error.place = c.place;
+            if (error.place.line == 0 && (error.place.file.empty() || error.place.file == circuit->file)) error.place = c.place;
             return error;
         }
     }
