@@ -28,7 +28,44 @@ int index_of(const Plot& plot, std::string_view name) {
 
 std::complex<double> CurveView::seen(std::complex<double> difference) const { return seen_as(view_, difference); }
 
+double CurveView::worked_out(const PlotRow& row) const {
+    constexpr std::size_t few = 8;
+    double here[few];
+    std::vector<double> many(inputs_.size() > few ? inputs_.size() : 0);
+    const std::span<double> values = many.empty() ? std::span(here, inputs_.size()) : std::span(many);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = inputs_[k].in(row).real();
+    return formula_->value(values);
+}
+
+Result<Formula> par_formula(std::string_view name, const Place& place) {
+    FormulaScope scope;
+    scope.inputs = true;
+    scope.parameter = [](std::string_view) -> std::optional<double> { return {}; };
+    scope.function = [](std::string_view) -> const FormulaScope::Function* { return nullptr; };
+    name.remove_prefix(4), name.remove_suffix(name.ends_with(')'));  // par( ... )
+    if (name.size() >= 2 && (name[0] == '\'' || name[0] == '{')) name = name.substr(1, name.size() - 2);
+    return Formula::parse(name, place, scope);
+}
+
+std::optional<CurveView> CurveView::par(const Plot& plot, std::string_view name) {
+    auto formula = par_formula(name, {});
+    if (!formula || plot.is_complex) return {};
+    CurveView out;
+    for (const auto& input : formula->inputs()) {
+        const auto found = input.kind == FormulaInput::Kind::time ? of(plot, "time")
+                           : input.kind == FormulaInput::Kind::voltage
+                               ? of(plot, "v(" + input.name + "," + (input.minus.empty() ? "0" : input.minus) + ")")
+                           : input.kind == FormulaInput::Kind::current ? of(plot, "i(" + input.name + ")")
+                                                                       : std::nullopt;
+        if (!found) return {};
+        out.inputs_.push_back(*found);
+    }
+    out.formula_ = std::make_shared<const Formula>(std::move(*formula));
+    return out;
+}
+
 std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name) {
+    if (name.starts_with("par(")) return par(plot, name);
     CurveView out;
     const auto open = name.find('(');
     out.plain_ = open <= 1;
@@ -52,8 +89,18 @@ std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name) 
 
 std::vector<std::complex<double>> CurveView::along(const Plot& plot) const {
     std::vector<std::complex<double>> out(plot.points());
-    const auto value = [&](int curve, std::size_t k) { return curve < 0 ? 0 : plot.curves[static_cast<std::size_t>(curve)].values[k]; };
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = seen(value(plus_, k) - value(minus_, k));
+    if (!formula_) {
+        const auto value = [&](int curve, std::size_t k) { return curve < 0 ? 0 : plot.curves[static_cast<std::size_t>(curve)].values[k]; };
+        for (std::size_t k = 0; k < out.size(); ++k) out[k] = seen(value(plus_, k) - value(minus_, k));
+        return out;
+    }
+    std::vector<std::vector<std::complex<double>>> inputs;
+    for (const auto& input : inputs_) inputs.push_back(input.along(plot));
+    std::vector<double> values(inputs.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        for (std::size_t n = 0; n < values.size(); ++n) values[n] = inputs[n][k].real();
+        out[k] = formula_->value(values);
+    }
     return out;
 }
 

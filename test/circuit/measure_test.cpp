@@ -120,7 +120,8 @@ TEST(Measure, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(told("err v(a) v(a)"),
               "5:14: .meas: 'err' is not known; there are find, when, deriv, min, max, pp, avg, rms, integ, min_at, "
               "max_at, trig, count, param=");
-    EXPECT_EQ(told("find par('v(a)') at=1"), "5:19: .meas: par() is not known here; say param=");
+    EXPECT_EQ(told("find par('v(a)+q') at=1"), "5:19: .meas: unknown name 'q'");
+    EXPECT_EQ(told("find par('v(q)') at=1"), "5:19: .meas: there is no curve 'par('v(q)')' in 'Transient Analysis'");
 }
 
 /// A transient that is a closed form: v(out) of an RC behind a step at 1 ms.
@@ -143,6 +144,15 @@ TEST(Measure, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
     EXPECT_NEAR(found.number("slope"), 500, 2);
     EXPECT_EQ(found.number("times"), 1);
     EXPECT_DOUBLE_EQ(found.number("sum"), found.number("half") + found.number("later"));
+}
+
+TEST(Measure, TakesFormulasOfCurves) {
+    const auto found =
+        ran("t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
+            ".meas tran when_half when par('v(a)>=0.5 ? 1 : -1')=0\n.meas tran after trig par('v(a)^2') val=1 rise=1 targ "
+            "par('v(a)^2')=par('4*time') rise=1\n.print tran par('v(a)*time')\n");
+    EXPECT_NEAR(found.number("energy"), 2.0 / 3, 1e-6);
+    EXPECT_NEAR(found.number("when_half"), 0.25, 1e-3);
 }
 
 /// ngspice ends avg, min, max and pp at points, and has neither deriv nor count: short steps, and what both have.
@@ -172,11 +182,13 @@ c1 out 0 0.2u
 .meas tran effective rms v(out) from=1.1m to=4.4m
 .meas tran area integ v(out) from=1.1m to=4.4m
 .meas tran twice param='2*area'
+.meas tran power avg par('v(in)*i(v1)') from=1.1m to=4.4m
+.meas tran across find par('v(in)-v(out)') at=1.23m
 .end
 )");
     const auto log = ngspice(deck, "");
     const auto outcome = ours(deck);
-    EXPECT_EQ(outcome.numbers.size(), 17U);
+    EXPECT_EQ(outcome.numbers.size(), 19U);
     for (const auto& [what, value] : outcome.numbers) {
         const double theirs = number_of(log, what);
         EXPECT_NEAR(value, theirs, what == "when_most" ? 1e-6 : 1e-3 * std::abs(theirs)) << what << "\n" << log;

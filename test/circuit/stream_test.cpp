@@ -222,10 +222,24 @@ TEST(Stream, NgspiceReadsWhatAKilledRunLeft) {
     Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
     ASSERT_TRUE(appears(folder / "x.raw.part", 200'000));
     killed.end(SIGKILL);
+    const auto points = read_raw_file(folder / "x.raw.part")[0].points();
+    const auto head = read_file(folder / "x.raw.part").find("Binary:\n") + 8;
+    std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // it may have ended between a block and its count
     const auto deck =
         folder.write("load.cir", "load\n.control\nload " + (folder / "x.raw.part") + "\nprint length(time)\nquit\n.endc\n.end\n");
     const auto log = ngspice(deck, "");
-    EXPECT_EQ(number_of(log, "length(time)"), static_cast<double>(read_raw_file(folder / "x.raw.part")[0].points())) << log;
+    EXPECT_EQ(number_of(log, "length(time)"), static_cast<double>(points)) << log;
+}
+
+/// Killed between the points of a block and their count.
+TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
+    const Folder folder;
+    folder.write("x.cir", rc(1e-3));
+    EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
+    const auto whole = read_file(folder / "x.raw");
+    const auto points = read_raw(whole)[0].points();
+    folder.write("y.raw", whole + whole.substr(whole.size() - 1003));
+    EXPECT_EQ(read_raw_file(folder / "y.raw")[0].points(), points);
 }
 
 TEST(Stream, PrintsAtEveryStep) {

@@ -21,6 +21,12 @@ struct EdgeWord {
 };
 constexpr EdgeWord edge_words[] = {{"rise", Edges::Kind::rise}, {"fall", Edges::Kind::fall}, {"cross", Edges::Kind::cross}};
 
+/// Of CURVE=VALUE; not one inside par('...').
+std::size_t equals_in(const std::string& word) {
+    const bool formula = word.starts_with("par('");
+    return word.find('=', formula ? word.find('\'', 5) : 0);
+}
+
 class Reader {
     const Command& command_;
     const Plot& head_;
@@ -76,7 +82,9 @@ private:
 
     Result<CurveView> curve(std::string_view name) const {
         if (const auto view = CurveView::of(head_, name)) return *view;
-        if (name.starts_with("par(")) return wrong("par() is not known here; say param=");
+        if (name.starts_with("par(") && head_.is_complex) return wrong("par() is of real curves, not of .ac; say param=");
+        if (name.starts_with("par("))
+            if (const auto formula = par_formula(name, command_.place); !formula) return wrong(formula.error().sentence);
         return wrong(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
     }
 
@@ -149,7 +157,7 @@ private:
     /// CURVE=VALUE or CURVE=CURVE, and which.
     Result<Crossings> edge(bool counted = false) {
         const auto word = look();
-        const auto equals = word.find('=');
+        const auto equals = equals_in(word);
         if (equals == std::string::npos) return wrong(fmt::format("'{}' must be CURVE=VALUE", word));
         const auto left = curve(std::string_view(word).substr(0, equals));
         if (!left) return left.error();
@@ -204,7 +212,7 @@ private:
         if (!at) return at.error();
         if (*at) return Spot{**at, {}};
         const auto name = look();
-        if (name.find('=') != std::string::npos) {
+        if (equals_in(name) != std::string::npos) {
             auto crossings = edge();
             if (!crossings) return crossings.error();
             return Spot{nothing, std::move(*crossings)};
