@@ -67,7 +67,7 @@ Result<void> CurveFiles::point(std::span<const double> row) {
 Result<void> CurveFiles::write_out() {
     written_ = Clock::now();
     if (auto ok = file_->write(rows_); !ok) return ok;
-    rows_.clear();
+    rows_.clear(), written_to_ = time_;
     return csv_ ? Result<void>() : file_->rewrite(count_at_, raw_count(points_));
 }
 
@@ -87,7 +87,7 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
     if (files_.empty() || !(streamed_ || interrupted)) return std::string();
     const bool within = file_ != nullptr;
     const auto remark = fmt::format("{} ends early{}{}", within ? file_->path() : words_.out, label_.empty() ? "" : ", in " + label_,
-                                    within ? ", at " + format_quantity(time_, "s") : "");
+                                    within ? ", at " + format_quantity(written_to_, "s") : "");
     if (auto ok = finish(); !ok) return ok.error();
     return remark;
 }

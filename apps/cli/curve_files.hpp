@@ -24,7 +24,7 @@ class CurveFiles final : public circuit::CurveSink {
     OutputFile* file_ = nullptr;
     std::string rows_;  // not written yet
     std::size_t points_ = 0, count_at_ = 0;
-    double time_ = 0;  // of the newest point
+    double time_ = 0, written_to_ = 0;  // of the newest point; of the last that is in the file
     Clock::time_point written_;
     bool streamed_ = false;  // there is one
 

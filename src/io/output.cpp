@@ -94,9 +94,16 @@ Result<OutputFile> OutputFile::growing(const std::string& path) {
 }
 
 Result<void> OutputFile::write(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) return broken();
-    size_ += text.size();
-    return {};
+    if (std::fwrite(text.data(), 1, text.size(), file_) == text.size()) {
+        size_ += text.size();
+        return {};
+    }
+    const auto error = broken();
+    if (grows_ && ::ftruncate(::fileno(file_), static_cast<off_t>(size_)) == 0) {  // what was written before is whole
+        std::clearerr(file_);
+        std::fseek(file_, 0, SEEK_END);
+    }
+    return error;
 }
 
 Result<void> OutputFile::rewrite(std::size_t at, std::string_view text) {

@@ -33,6 +33,7 @@ public:
     /// One that can be read while it grows: every write() is on disk at once, and a killed program leaves it, as path.part. The next that
     /// writes this path takes that over; while one does, another is refused.
     static Result<OutputFile> growing(const std::string& path);
+    /// All of it, or an error; one that grows is then as it was before.
     Result<void> write(std::string_view text);
     /// Over what stands there; of one that grows.
     Result<void> rewrite(std::size_t at, std::string_view text);

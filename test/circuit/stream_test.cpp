@@ -80,24 +80,60 @@ void expect_whole(const Plot& plot, std::size_t at_least) {
     }
 }
 
+/// A table of the same, whose last line may be broken.
+void expect_rows(const std::string& text) {
+    std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "time,v(out),\"v(in,out)\"");
+    while (std::getline(lines, line)) {
+        double t = 0, out = 0, drop = 0;
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &t, &out, &drop), 3) << line;
+        ASSERT_NEAR(out + drop, std::sin(2 * M_PI * 1e3 * t), 1e-6) << line;
+    }
+}
+
 TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
     std::mt19937 random(7);
     for (int k = 0; k < 20; ++k) {
         SCOPED_TRACE(k);
         const Folder folder;
         folder.write("x.cir", endless_deck);
-        const bool ascii = k % 4 == 3;
-        std::vector<std::string> words{"run", "x.cir", "-o", "x.raw"};
+        const bool ascii = k % 4 == 3, table = k % 4 == 1;
+        const std::string name = table ? "x.csv" : "x.raw";
+        std::vector<std::string> words{"run", "x.cir", "-o", name};
         if (ascii) words.emplace_back("--ascii");
         Started run(folder, words);
-        ASSERT_TRUE(appears(folder / "x.raw.part", 60'000)) << read_file(folder / ".err");
+        ASSERT_TRUE(appears(folder / (name + ".part"), 60'000)) << read_file(folder / ".err");
         std::this_thread::sleep_for(std::chrono::microseconds(random() % 100'000));
         run.end(SIGKILL);
-        EXPECT_FALSE(std::filesystem::exists(folder / "x.raw"));
-        const auto plots = read_raw_file(folder / "x.raw.part");
+        EXPECT_FALSE(std::filesystem::exists(folder / name));
+        const auto text = read_file(folder / (name + ".part"));
+        if (table) {
+            expect_rows(text);
+            continue;
+        }
+        const auto plots = read_raw(text);
         ASSERT_EQ(plots.size(), 1U);
         expect_whole(plots[0], 0);
-        EXPECT_GE(plots[0].points() * 24 + 100'000, std::filesystem::file_size(folder / "x.raw.part") / (ascii ? 4 : 1));
+        EXPECT_GE(plots[0].points() * (ascii ? 75 : 24) + 100'000, text.size()) << "at most a block is left out";
+    }
+}
+
+/// As when a disk is full.
+TEST(Stream, AFileThatCannotGrowEndsEarly) {
+    for (const std::string name : {"x.raw", "x.csv"}) {
+        const Folder folder;
+        folder.write("x.cir", endless_deck);
+        const auto line =
+            fmt::format("cd '{}' && trap '' XFSZ && ulimit -f 1000 && '{}' run x.cir -o {} 2>.err", folder.path(), program(), name);
+        EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1);
+        const auto err = read_file(folder / ".err");
+        EXPECT_NE(err.find(name + ": cannot be written to the end: File too large"), std::string::npos) << err;
+        EXPECT_NE(err.find(name + " ends early, at "), std::string::npos) << err;
+        const auto text = read_file(folder / name);
+        EXPECT_GT(text.size(), 400'000U);
+        name == "x.csv" ? expect_rows(text) : expect_whole(read_raw(text)[0], 10'000);
     }
 }
 
