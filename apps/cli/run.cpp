@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "circuit/raw.hpp"
+#include "circuit/analyses.hpp"
 #include "circuit/run.hpp"
 #include "circuit/variants.hpp"
-#include "io/output.hpp"
+#include "curve_files.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -28,71 +28,46 @@ Json column(const Plot& plot, const Curve& curve) {
     return out;
 }
 
-Json document_of(const Circuit& c, const RunOutcome& outcome) {
-    Json plots = Json::array(), numbers = Json::object(), expectations = Json::array(), remarks = Json::array();
-    for (const auto& plot : outcome.plots()) {
+/// What is saved, for the document; where a file takes it, nothing is held.
+class Gathered final : public CurveSink {
+    KeptPlot kept_;
+
+public:
+    std::vector<Plot> plots;
+    Result<void> whole(std::span<const Plot> more) override { return plots.insert(plots.end(), more.begin(), more.end()), Result<void>(); }
+    Result<void> begin(const Plot& head) override { return kept_.begin(head); }
+    Result<void> point(std::span<const double> row) override { return kept_.point(row); }
+    Result<void> end() override { return plots.push_back(std::move(kept_.plot)), Result<void>(); }
+};
+
+/// One of the circuits that a netlist asks for, and what was found.
+struct Done {
+    Variant variant;
+    RunOutcome outcome;
+    std::vector<Plot> plots;  ///< for the document: all that is saved, or but for what went into a file point by point
+};
+
+Json document_of(const Done& done) {
+    const auto& outcome = done.outcome;
+    Json plots = Json::array(), analyses = Json::array(), numbers = Json::object(), expectations = Json::array(), remarks = Json::array();
+    for (const auto& plot : done.plots) {
         Json curves = Json::object();
         for (const auto& curve : plot.curves) curves[curve.name] = column(plot, curve);
         plots.push_back({{"plot", plot.name}, {"complex", plot.is_complex}, {"curves", curves}});
+    }
+    for (const auto& a : outcome.analyses) {
+        Json one = {{"analysis", a.command->name}, {"points", a.points}};
+        for (const auto& [what, count] : a.findings.work) one[what] = static_cast<std::int64_t>(count);
+        analyses.push_back(one);
     }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = number(value);
     for (const auto& e : outcome.expectations)
         expectations.push_back(
             {{"what", e.what}, {"found", number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
     for (const auto& r : outcome.remarks) remarks.push_back(r.text());
-    return {{"title", c.title}, {"plots", plots}, {"numbers", numbers}, {"expectations", expectations}, {"warnings", remarks}};
+    return {{"title", done.variant.circuit->title}, {"plots", plots},     {"analyses", analyses}, {"numbers", numbers},
+            {"expectations", expectations},         {"warnings", remarks}};
 }
-
-/// One of the circuits that a netlist asks for, and what was found.
-struct Done {
-    Variant variant;
-    RunOutcome outcome;
-};
-
-/// Where plots go as they come: a .raw file of all, or a table for each analysis, x.csv or x-1.csv, x-2.csv ..., whose rows begin with
-/// the step they belong to, if there are several.
-class PlotFiles {
-    const RunWords& words_;
-    bool several_;
-    std::vector<OutputFile> files_;
-
-public:
-    PlotFiles(const RunWords& words, bool several) : words_(words), several_(several) {}
-
-    Result<void> add(const Done& done) {
-        if (words_.out.empty()) return {};
-        auto plots = done.outcome.plots();
-        if (words_.out.ends_with(".csv")) return tables(plots, done.variant.label);
-        for (auto& plot : plots)
-            if (!done.variant.label.empty()) plot.name += fmt::format(" ({})", done.variant.label);
-        if (auto ok = open(1, 0, {}); !ok) return ok;
-        return files_[0].write(raw_text(done.variant.circuit->title, plots, !words_.ascii));
-    }
-    Result<void> finish() {
-        for (auto& file : files_)
-            if (auto ok = file.commit(); !ok) return ok;
-        return {};
-    }
-
-private:
-    Result<void> tables(std::span<const Plot> plots, const std::string& label) {
-        for (std::size_t k = 0; k < plots.size(); ++k) {
-            if (auto ok = open(plots.size(), k, (several_ ? "step," : "") + csv_header(plots[k])); !ok) return ok;
-            if (auto ok = files_[k].write(csv_rows(plots[k], several_ ? label + "," : "")); !ok) return ok;
-        }
-        return {};
-    }
-    /// File k of `count`, made at its first use with `head` in it.
-    Result<void> open(std::size_t count, std::size_t k, const std::string& head) {
-        if (k < files_.size()) return {};
-        auto path = words_.out;
-        if (count > 1) path.insert(path.size() - 4, fmt::format("-{}", k + 1));
-        auto file = OutputFile::create(path);
-        if (!file) return file.error();
-        files_.push_back(std::move(*file));
-        return files_.back().write(head);
-    }
-};
 
 void print_numbers(const RunOutcome& outcome) {
     for (const auto& [name, value] : outcome.numbers)
@@ -104,9 +79,8 @@ void print_numbers(const RunOutcome& outcome) {
 
 void print(const Done& done) {
     for (const auto& a : done.outcome.analyses) {
-        const std::size_t points = a.findings.plots.empty() ? 0 : a.findings.plots[0].points();
-        fmt::print("{}.{}: {} point{}\n", &a == &done.outcome.analyses[0] ? "" : "\n", a.command->name, points, points == 1 ? "" : "s");
-        fmt::print("{}{}", a.findings.table, printed(*done.variant.circuit, a));
+        fmt::print("{}.{}: {} point{}\n", &a == &done.outcome.analyses[0] ? "" : "\n", a.command->name, a.points, a.points == 1 ? "" : "s");
+        fmt::print("{}{}", a.findings.table, a.printed);
     }
     if (!done.outcome.numbers.empty() || !done.outcome.expectations.empty()) fmt::print("\n");
     print_numbers(done.outcome);
@@ -117,7 +91,7 @@ void print_line(const Done& done) {
     fmt::print("{}:", done.variant.label);
     for (const auto& [name, value] : done.outcome.numbers) fmt::print("  {} = {:.6e}", name, value);
     fmt::print("\n");
-    for (const auto& a : done.outcome.analyses) fmt::print("{}", printed(*done.variant.circuit, a));
+    for (const auto& a : done.outcome.analyses) fmt::print("{}", a.printed);
 }
 
 /// How a number is spread over the chips of a .mc.
@@ -157,7 +131,7 @@ public:
                               e.place);
         spread(done.outcome.numbers);
         if (common_.json) {
-            auto document = document_of(*done.variant.circuit, done.outcome);
+            auto document = document_of(done);
             if (several_) document["step"] = done.variant.label;
             put(document);
         } else if (!common_.quiet) {
@@ -194,24 +168,54 @@ private:
     }
 };
 
-Result<void> run_all(Variants& variants, const Common& common, Report& report, PlotFiles& files) {
+/// How far a variant is: where it has transients, these alone count, for they take the time.
+class Share {
+    std::size_t all_ = 0, transients_ = 0, done_ = 0;
+    double last_ = 0;
+
+public:
+    explicit Share(const Circuit& circuit) {
+        for (const auto& c : circuit.commands) all_ += analysis_of(c.name) != nullptr, transients_ += c.name == "tran";
+    }
+    double of(std::string_view word, double share) {
+        if (transients_ > 0 && word != "tran") return static_cast<double>(done_) / static_cast<double>(transients_);
+        if (share < last_) ++done_;
+        last_ = share;
+        return (static_cast<double>(done_) + share) / static_cast<double>(transients_ > 0 ? transients_ : std::max<std::size_t>(all_, 1));
+    }
+};
+
+/// Makes the bench of a variant, if the last one's does not serve.
+Result<void> prepare(std::unique_ptr<TestBench>& bench, const Variant& variant, bool first) {
+    if (!bench || bench->circuit != variant.circuit) {
+        auto made = TestBench::make(variant.circuit);
+        if (!made) return made.error();
+        bench = std::move(*made);
+    }
+    bench->brief = !first || variant.draw;
+    if (variant.draw) bench->draw(*variant.draw);
+    return {};
+}
+
+Result<void> run_all(Variants& variants, const RunWords& words, const Common& common, Report& report, CurveFiles& files) {
     const auto count = variants.count();
     Progress progress(common.quiet);
     std::unique_ptr<TestBench> bench;
     for (std::size_t k = 0; k < count; ++k) {
         auto variant = variants.at(k);
         if (!variant) return variant.error();
-        if (!bench || bench->circuit != variant->circuit) {
-            auto made = TestBench::make(variant->circuit);
-            if (!made) return made.error();
-            bench = std::move(*made);
-        }
-        bench->brief = k > 0 || variant->draw;
-        if (variant->draw) bench->draw(*variant->draw);
-        auto found = circuit::run(*bench, [&](std::string_view, double share) {
-            progress.at((static_cast<double>(k) + share) / static_cast<double>(count));
+        if (auto ok = prepare(bench, *variant, k == 0); !ok) return ok;
+        Share variant_share(*variant->circuit);
+        Gathered gathered;
+        RunOrders orders;
+        orders.keep = false, orders.print = !common.json && !common.quiet;
+        if (common.json) orders.curves = &gathered;
+        if (!words.out.empty()) orders.curves = &files, files.next(*variant);
+        orders.stop = [&](std::string_view word, double share) {
+            progress.at((static_cast<double>(k) + variant_share.of(word, share)) / static_cast<double>(count));
             return interrupted();
-        });
+        };
+        auto found = circuit::run(*bench, orders);
         if (interrupted()) return Error{Code::interrupted, "interrupted"};
         progress.at(static_cast<double>(k + 1) / static_cast<double>(count));
         if (!found && found.error().code == Code::not_converged && count > 1) {
@@ -223,11 +227,19 @@ Result<void> run_all(Variants& variants, const Common& common, Report& report, P
             if (!variant->label.empty()) error.sentence = fmt::format("{}: {}", variant->label, error.sentence);
             return error;
         }
-        const Done done{std::move(*variant), std::move(*found)};
-        report.add(done);
-        if (auto ok = files.add(done); !ok) return ok;
+        auto plots = words.out.empty() ? std::move(gathered.plots) : found->plots();
+        report.add({std::move(*variant), std::move(*found), std::move(plots)});
     }
     return {};
+}
+
+/// What a run that was broken off leaves behind.
+void keep_what_there_is(CurveFiles& files) {
+    const auto remark = files.finish_early(interrupted());
+    if (!remark)
+        fail(remark.error());
+    else if (!remark->empty())
+        fmt::print(stderr, "corpuscle: warning: {}\n", *remark);
 }
 
 Result<void> run_netlist(const RunWords& words, const Common& common) {
@@ -237,10 +249,10 @@ Result<void> run_netlist(const RunWords& words, const Common& common) {
     if (!variants) return variants.error();
     const bool several = variants->count() > 1;
     Report report(common, several, variants->draws());
-    PlotFiles files(words, several);
-    const auto done = run_all(*variants, common, report, files);
+    CurveFiles files(words, several);
+    const auto done = run_all(*variants, words, common, report, files);
     report.finish();
-    if (!done) return done;
+    if (!done) return keep_what_there_is(files), done;
     if (auto ok = files.finish(); !ok) return ok;
     if (!report.failures.empty()) {
         auto error = report.failures[0];

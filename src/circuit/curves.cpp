@@ -1,49 +1,113 @@
 #include "circuit/curves.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace corpuscle::circuit {
 namespace {
 
+constexpr std::string_view views[] = {"", "m", "db", "p", "r", "i"};
+
 /// What the letters between v or i and the parenthesis make of a value.
-std::optional<std::complex<double>> seen_as(std::string_view view, std::complex<double> x) {
-    if (view.empty()) return x;
+std::complex<double> seen_as(std::string_view view, std::complex<double> x) {
     if (view == "m") return std::abs(x);
     if (view == "db") return 20 * std::log10(std::abs(x));
     if (view == "p") return std::arg(x);
     if (view == "r") return x.real();
     if (view == "i") return x.imag();
-    return {};
+    return x;
 }
 
-const std::vector<std::complex<double>>* plain(const Plot& plot, char kind, std::string_view of) {
-    const auto* curve = plot.curve(std::string(1, kind) + "(" + std::string(of) + ")");
-    return curve == nullptr ? nullptr : &curve->values;
+int index_of(const Plot& plot, std::string_view name) {
+    for (std::size_t k = 0; k < plot.curves.size(); ++k)
+        if (plot.curves[k].name == name) return static_cast<int>(k);
+    return -1;
 }
 
 }  // namespace
 
-std::optional<std::vector<std::complex<double>>> values_of(const Plot& plot, std::string_view name) {
-    if (const auto* curve = plot.curve(name)) return curve->values;
-    const auto open = name.find('(');
-    if (open == std::string_view::npos || !name.ends_with(')') || (name[0] != 'v' && name[0] != 'i')) return {};
-    const auto view = name.substr(1, open - 1), inside = name.substr(open + 1, name.size() - open - 2);
-    const auto comma = inside.find(',');
-    const auto* plus = plain(plot, name[0], inside.substr(0, comma));
-    const auto ground = [](std::string_view n) { return n == "0" || n == "gnd"; };
-    if (plus == nullptr && !ground(inside.substr(0, comma))) return {};
-    std::vector<std::complex<double>> out = plus != nullptr ? *plus : std::vector<std::complex<double>>(plot.points());
-    if (comma != std::string_view::npos && !ground(inside.substr(comma + 1))) {
-        const auto* minus = plain(plot, name[0], inside.substr(comma + 1));
-        if (minus == nullptr) return {};
-        for (std::size_t k = 0; k < out.size(); ++k) out[k] -= (*minus)[k];
+std::complex<double> CurveView::seen(std::complex<double> difference) const { return seen_as(view_, difference); }
+
+double CurveView::worked_out(const PlotRow& row) const {
+    constexpr std::size_t few = 8;
+    double here[few];
+    std::vector<double> many(inputs_.size() > few ? inputs_.size() : 0);
+    const std::span<double> values = many.empty() ? std::span(here, inputs_.size()) : std::span(many);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = inputs_[k].in(row).real();
+    return formula_->value(values);
+}
+
+Result<Formula> par_formula(std::string_view name, const Place& place) {
+    FormulaScope scope;
+    scope.inputs = true;
+    scope.parameter = [](std::string_view) -> std::optional<double> { return {}; };
+    scope.function = [](std::string_view) -> const FormulaScope::Function* { return nullptr; };
+    name.remove_prefix(4), name.remove_suffix(name.ends_with(')'));  // par( ... )
+    if (name.size() >= 2 && (name[0] == '\'' || name[0] == '{')) name = name.substr(1, name.size() - 2);
+    return Formula::parse(name, place, scope);
+}
+
+std::optional<CurveView> CurveView::par(const Plot& plot, std::string_view name) {
+    auto formula = par_formula(name, {});
+    if (!formula || plot.is_complex) return {};
+    CurveView out;
+    for (const auto& input : formula->inputs()) {
+        const auto found = input.kind == FormulaInput::Kind::time ? of(plot, "time")
+                           : input.kind == FormulaInput::Kind::voltage
+                               ? of(plot, "v(" + input.name + "," + (input.minus.empty() ? "0" : input.minus) + ")")
+                           : input.kind == FormulaInput::Kind::current ? of(plot, "i(" + input.name + ")")
+                                                                       : std::nullopt;
+        if (!found) return {};
+        out.inputs_.push_back(*found);
     }
-    for (auto& x : out) {
-        const auto seen = seen_as(view, x);
-        if (!seen) return {};
-        x = *seen;
+    out.formula_ = std::make_shared<const Formula>(std::move(*formula));
+    return out;
+}
+
+std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name) {
+    if (name.starts_with("par(")) return par(plot, name);
+    CurveView out;
+    const auto open = name.find('(');
+    out.plain_ = open <= 1;
+    out.plus_ = index_of(plot, name);
+    if (out.plus_ >= 0) return out;
+    if (open == std::string_view::npos || !name.ends_with(')') || (name[0] != 'v' && name[0] != 'i')) return {};
+    const auto* view = std::find(std::begin(views), std::end(views), name.substr(1, open - 1));
+    if (view == std::end(views)) return {};
+    out.view_ = *view;
+    const auto inside = name.substr(open + 1, name.size() - open - 2);
+    const auto comma = inside.find(',');
+    const auto found = [&](std::string_view node, int& index) {
+        if (node == "0" || node == "gnd") return true;
+        index = index_of(plot, std::string(1, name[0]) + "(" + std::string(node) + ")");
+        return index >= 0;
+    };
+    if (!found(inside.substr(0, comma), out.plus_)) return {};
+    if (comma != std::string_view::npos && !found(inside.substr(comma + 1), out.minus_)) return {};
+    return out;
+}
+
+std::vector<std::complex<double>> CurveView::along(const Plot& plot) const {
+    std::vector<std::complex<double>> out(plot.points());
+    if (!formula_) {
+        const auto value = [&](int curve, std::size_t k) { return curve < 0 ? 0 : plot.curves[static_cast<std::size_t>(curve)].values[k]; };
+        for (std::size_t k = 0; k < out.size(); ++k) out[k] = seen(value(plus_, k) - value(minus_, k));
+        return out;
+    }
+    std::vector<std::vector<std::complex<double>>> inputs;
+    for (const auto& input : inputs_) inputs.push_back(input.along(plot));
+    std::vector<double> values(inputs.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        for (std::size_t n = 0; n < values.size(); ++n) values[n] = inputs[n][k].real();
+        out[k] = formula_->value(values);
     }
     return out;
+}
+
+std::optional<std::vector<std::complex<double>>> values_of(const Plot& plot, std::string_view name) {
+    const auto view = CurveView::of(plot, name);
+    if (!view) return {};
+    return view->along(plot);
 }
 
 }  // namespace corpuscle::circuit

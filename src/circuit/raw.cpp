@@ -14,30 +14,50 @@ void append_bytes(std::string& out, double x) {
 }
 
 void append_plot(std::string& out, std::string_view title, const Plot& plot, bool binary) {
-    const auto to = std::back_inserter(out);
-    fmt::format_to(to, "Title: {}\nPlotname: {}\nFlags: {}\nNo. Variables: {}\nNo. Points: {}\nVariables:\n", title, plot.name,
-                   plot.is_complex ? "complex" : "real", plot.curves.size(), plot.points());
-    for (std::size_t k = 0; k < plot.curves.size(); ++k) fmt::format_to(to, "\t{}\t{}\t{}\n", k, plot.curves[k].name, plot.curves[k].type);
-    out += binary ? "Binary:\n" : "Values:\n";
+    auto head = raw_head(title, plot, binary);
+    const auto count = raw_count(plot.points());
+    out += head.text.replace(head.count_at, count.size(), count);
+    std::vector<std::complex<double>> row(plot.curves.size());
     for (std::size_t point = 0; point < plot.points(); ++point) {
-        for (std::size_t k = 0; k < plot.curves.size(); ++k) {
-            const auto x = plot.curves[k].values[point];
-            if (binary) {
-                append_bytes(out, x.real());
-                if (plot.is_complex) append_bytes(out, x.imag());
-                continue;
-            }
-            if (k == 0) fmt::format_to(to, " {}", point);
-            if (plot.is_complex)
-                fmt::format_to(to, "\t{:.15e},{:.15e}\n", x.real(), x.imag());
-            else
-                fmt::format_to(to, "\t{:.15e}\n", x.real());
-        }
+        for (std::size_t k = 0; k < row.size(); ++k) row[k] = plot.curves[k].values[point];
+        append_raw_point(out, point, {row, plot.is_complex}, binary);
     }
-    if (!binary) out += '\n';
+    out += raw_tail(binary);
 }
 
 }  // namespace
+
+std::string raw_count(std::size_t points) { return fmt::format("{:<20}", points); }
+
+RawHead raw_head(std::string_view title, const Plot& plot, bool binary) {
+    RawHead out;
+    out.text = fmt::format("Title: {}\nPlotname: {}\nFlags: {}\nNo. Variables: {}\nNo. Points: ", title, plot.name,
+                           plot.is_complex ? "complex" : "real", plot.curves.size());
+    out.count_at = out.text.size();
+    out.text += raw_count(0) + "\nVariables:\n";
+    for (std::size_t k = 0; k < plot.curves.size(); ++k)
+        out.text += fmt::format("\t{}\t{}\t{}\n", k, plot.curves[k].name, plot.curves[k].type);
+    out.text += binary ? "Binary:\n" : "Values:\n";
+    return out;
+}
+
+void append_raw_point(std::string& out, std::size_t number, const PlotRow& row, bool binary) {
+    const auto to = std::back_inserter(out);
+    if (!binary) fmt::format_to(to, " {}", number);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        const auto x = row[k];
+        if (binary) {
+            append_bytes(out, x.real());
+            if (row.is_complex) append_bytes(out, x.imag());
+        } else if (row.is_complex) {
+            fmt::format_to(to, "\t{:.15e},{:.15e}\n", x.real(), x.imag());
+        } else {
+            fmt::format_to(to, "\t{:.15e}\n", x.real());
+        }
+    }
+}
+
+std::string_view raw_tail(bool binary) { return binary ? "" : "\n"; }
 
 std::string raw_text(std::string_view title, std::span<const Plot> plots, bool binary) {
     std::string out;
@@ -72,6 +92,11 @@ std::string csv_rows(const Plot& plot, std::string_view before) {
         out += '\n';
     }
     return out;
+}
+
+void append_csv_row(std::string& out, std::span<const double> row) {
+    for (const double& x : row) fmt::format_to(std::back_inserter(out), "{}{}", &x == row.data() ? "" : ",", x);
+    out += '\n';
 }
 
 }  // namespace corpuscle::circuit

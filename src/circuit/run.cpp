@@ -8,6 +8,8 @@
 #include "circuit/curves.hpp"
 #include "circuit/measure.hpp"
 #include "circuit/netlist/number.hpp"
+#include "circuit/print.hpp"
+#include "circuit/save.hpp"
 #include "circuit/solve/topology.hpp"
 #include "signal/field.hpp"
 
@@ -36,9 +38,15 @@ Result<Expectation> expectation_of(const Command& c) {
 std::optional<double> number_named(const RunOutcome& out, std::string_view name) {
     for (const auto& [known, value] : out.numbers)
         if (known == name) return value;
-    for (const auto& a : out.analyses)
+    const auto last = [&](const Plot& plot) -> std::optional<double> {
+        const auto values = values_of(plot, name);
+        return values && !values->empty() ? std::optional(values->back().real()) : std::nullopt;
+    };
+    for (const auto& a : out.analyses) {
+        if (const auto value = last(a.last)) return value;
         for (const auto& plot : a.findings.plots)
-            if (const auto values = values_of(plot, name); values && !values->empty()) return values->back().real();
+            if (const auto value = last(plot)) return value;
+    }
     return {};
 }
 
@@ -59,49 +67,97 @@ Result<void> expect(const Circuit& circuit, RunOutcome& out) {
     return {};
 }
 
-/// What .save names; "out" is v(out), and "all" is everything.
-Result<std::vector<std::string>> saved_of(const System& system, const Circuit& circuit) {
-    std::vector<std::string> out;
-    bool all = false;
-    for (const auto& c : circuit.commands) {
-        if (c.name != "save") continue;
-        for (std::size_t k = 0; k < c.words.size(); ++k) {
-            const auto& word = c.words[k];
-            if (word == "all") {
-                all = true;
-                continue;
-            }
-            auto named = c;
-            named.words[k] = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
-            if (const auto known = wanted_of(system, named, k); !known) return known.error();
-            out.push_back(named.words[k]);
-        }
-    }
-    return all ? std::vector<std::string>{} : out;
-}
+/// .tran STEP STOP [START ...], as the analysis has read it.
+double word_of(const Command& c, std::size_t word) { return number_of(c, word, "a number") ? *number_of(c, word, "a number") : 0; }
 
-/// The plot with the curves named, where it has one of them; a plot of another kind (noise, transfer function) as it is.
-Plot narrowed(const Plot& plot, const std::vector<std::string>& names) {
-    Plot out{plot.name, plot.is_complex, plot.swept, {}};
-    if (plot.swept && !plot.curves.empty()) out.curves.push_back(plot.curves[0]);
-    bool any = false;
-    for (const auto& name : names)
-        if (auto values = values_of(plot, name)) {
-            any = true;
-            out.curves.push_back({name, name[0] == 'v' ? "voltage" : "current", std::move(*values)});
-        }
-    return any ? out : plot;
+/// A transient's points on their way: to the measures, to .print, to who takes what is saved, into memory. None of it grows but the last.
+class Passing final : public PointSink {
+    const RunOrders& orders_;
+    RunOutcome& out_;
+    Measures& measures_;
+    Analysed& analysed_;
+    std::optional<PrintedSteps> printed_;
+    Narrow narrow_;
+    std::optional<KeptPlot> kept_;
+    std::vector<double> last_;
+    bool begun_ = false;
+
+public:
+    Passing(const Circuit& circuit, const RunOrders& orders, RunOutcome& out, Measures& measures, Analysed& analysed)
+        : orders_(orders), out_(out), measures_(measures), analysed_(analysed) {
+        const auto& c = *analysed.command;
+        if (orders.print && c.name == "tran") printed_.emplace(circuit, word_of(c, 2), word_of(c, 0), word_of(c, 1));
+        if (orders.keep) kept_.emplace();
+    }
+    bool begun() const { return begun_; }
+
+    Result<void> begin(const Plot& head) override {
+        analysed_.last = head;
+        if (auto ok = measures_.begin(analysed_.command->name, head); !ok) return ok;
+        if (printed_)
+            if (auto ok = printed_->begin(head); !ok) return ok;
+        if (kept_)
+            if (auto ok = kept_->begin(head); !ok) return ok;
+        begun_ = true;
+        const auto narrow = narrow_.begin(head, out_.saved);
+        return orders_.curves ? orders_.curves->begin(narrow) : Result<void>();
+    }
+    Result<void> point(std::span<const double> row) override {
+        ++analysed_.points;
+        last_.assign(row.begin(), row.end());
+        measures_.point(row[0], row);
+        if (printed_) printed_->point(row);
+        if (kept_)
+            if (auto ok = kept_->point(row); !ok) return ok;
+        return orders_.curves ? orders_.curves->point(narrow_.point(row)) : Result<void>();
+    }
+    Result<void> end() override {
+        for (std::size_t k = 0; k < last_.size(); ++k) analysed_.last.curves[k].values = {last_[k]};
+        if (printed_) analysed_.printed = printed_->end();
+        return orders_.curves ? orders_.curves->end() : Result<void>();
+    }
+    /// Into what the analysis found.
+    void put_into(Findings& found) {
+        if (kept_) found.plots.insert(found.plots.begin(), std::move(kept_->plot));
+    }
+};
+
+/// One analysis, its plots measured, printed and handed on.
+Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& c, const RunOrders& orders, Measures& measures,
+                     RunOutcome& out) {
+    Analysed now{&c, {}, 0, {}, {}};
+    Passing passing(*bench.circuit, orders, out, measures, now);
+    if (orders.stop) bench.stop = [&](double share) { return orders.stop(c.name, share); };
+    bench.points = &passing;
+    auto found = analysis.run(bench, c);
+    bench.points = nullptr, bench.stop = {};
+    if (!found) return found.error();
+    now.findings = std::move(*found);
+    for (const auto& number : now.findings.numbers) out.numbers.push_back(number);
+    for (const auto& remark : now.findings.remarks) out.remarks.push_back(remark);
+    if (passing.begun()) {
+        passing.put_into(now.findings);
+    } else if (!now.findings.plots.empty()) {
+        const auto& plot = now.findings.plots[0];
+        now.points = plot.points();
+        if (auto ok = measures.see(c.name, plot); !ok) return ok;
+        if (orders.print) now.printed = printed(*bench.circuit, c.name, plot);
+        if (orders.curves)
+            if (auto ok = orders.curves->whole(out.plots(now)); !ok) return ok;
+    }
+    out.analyses.push_back(std::move(now));
+    return {};
 }
 
 }  // namespace
 
-Result<RunOutcome> run(std::shared_ptr<const Circuit> circuit, const RunStop& stop) {
+Result<RunOutcome> run(std::shared_ptr<const Circuit> circuit, const RunOrders& orders) {
     auto bench = TestBench::make(std::move(circuit));
     if (!bench) return bench.error();
-    return run(**bench, stop);
+    return run(**bench, orders);
 }
 
-Result<RunOutcome> run(TestBench& bench, const RunStop& stop) {
+Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
     const Circuit* const circuit = bench.circuit.get();
     RunOutcome out;
     if (!bench.brief) {
@@ -111,61 +167,36 @@ Result<RunOutcome> run(TestBench& bench, const RunStop& stop) {
     auto saved = saved_of(bench.system, *circuit);
     if (!saved) return saved.error();
     out.saved = std::move(*saved);
-    bool any = false;
+    Measures measures(*circuit);
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);
         if (analysis == nullptr) continue;
-        any = true;
-        if (stop) bench.stop = [&](double share) { return stop(c.name, share); };
-        auto found = analysis->run(bench, c);
-        bench.stop = {};
-        if (!found) {
-            auto error = found.error();
-            if (error.place.line == 0) error.place = c.place;
+        if (auto ok = analyse(bench, *analysis, c, orders, measures, out); !ok) {
+            auto error = ok.error();
+            if (error.place.line == 0 && (error.place.file.empty() || error.place.file == circuit->file)) error.place = c.place;
             return error;
         }
-        for (const auto& number : found->numbers) out.numbers.push_back(number);
-        for (const auto& remark : found->remarks) out.remarks.push_back(remark);
-        out.analyses.push_back({&c, std::move(*found)});
     }
-    if (!any) {
+    if (out.analyses.empty()) {
         std::string known;
         for (const auto& a : analyses) known += fmt::format("\n  {}", a.usage);
         return bad_input("the netlist asks for no analysis; there are" + known, Place{circuit->file});
     }
-    if (auto ok = measure(*circuit, out); !ok) return ok.error();
+    if (auto ok = measures.finish(out.numbers, out.remarks); !ok) return ok.error();
     if (auto ok = expect(*circuit, out); !ok) return ok.error();
+    return out;
+}
+
+std::vector<Plot> RunOutcome::plots(const Analysed& a) const {
+    std::vector<Plot> out;
+    for (const auto& plot : a.findings.plots) out.push_back(narrowed(plot, saved));
     return out;
 }
 
 std::vector<Plot> RunOutcome::plots() const {
     std::vector<Plot> out;
     for (const auto& a : analyses)
-        for (const auto& plot : a.findings.plots) out.push_back(narrowed(plot, saved));
-    return out;
-}
-
-std::string printed(const Circuit& circuit, const Analysed& a) {
-    std::string out;
-    for (const auto& c : circuit.commands) {
-        if (c.name != "print" || a.findings.plots.empty()) continue;
-        const bool named = !c.words.empty() && analysis_of(c.words[0]) != nullptr;
-        if (named && c.words[0] != a.command->name) continue;
-        const Plot& plot = a.findings.plots[0];
-        std::vector<std::pair<std::string, std::vector<std::complex<double>>>> columns;
-        if (plot.swept) columns.emplace_back(plot.curves[0].name, plot.curves[0].values);
-        for (std::size_t w = named ? 1 : 0; w < c.words.size(); ++w)
-            if (auto values = values_of(plot, c.words[w])) columns.emplace_back(c.words[w], std::move(*values));
-        if (columns.size() < (plot.swept ? 2U : 1U)) continue;
-        for (const auto& [name, values] : columns) out += fmt::format("{:>16}", name);
-        out += '\n';
-        for (std::size_t point = 0; point < plot.points(); ++point) {
-            for (const auto& [name, values] : columns)
-                out += values[point].imag() == 0 ? fmt::format("{:16.7e}", values[point].real())
-                                                 : fmt::format(" {:.7e},{:.7e}", values[point].real(), values[point].imag());
-            out += '\n';
-        }
-    }
+        for (auto& plot : plots(a)) out.push_back(std::move(plot));
     return out;
 }
 

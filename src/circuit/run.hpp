@@ -1,6 +1,8 @@
 #pragma once
 // A netlist's own orders, carried out: its analyses, in the order in which they stand, then its measures and what it expects.
 
+#include <functional>
+
 #include "circuit/analysis/bench.hpp"
 
 namespace corpuscle::circuit {
@@ -9,6 +11,9 @@ namespace corpuscle::circuit {
 struct Analysed {
     const Command* command;  ///< of the circuit
     Findings findings;
+    std::size_t points = 0;  ///< of its first plot
+    std::string printed;     ///< what .print asks of it, as columns for people
+    Plot last;               ///< of a transient, whose points may not have been kept: its last one
 };
 
 /// One .expect: held or not.
@@ -27,15 +32,24 @@ struct RunOutcome {
 
     std::vector<std::string> saved;  ///< by .save: v(a), v(a,b), i(v1) ...; empty: everything
 
-    std::vector<Plot> plots() const;  ///< of all analyses, with what is swept and what is saved
+    std::vector<Plot> plots(const Analysed&) const;  ///< with what is swept and what is saved
+    std::vector<Plot> plots() const;                 ///< of all analyses
 };
 
-/// `stop` is asked now and then, told what is at work and how far it is.
-using RunStop = std::function<bool(std::string_view word, double share)>;
-Result<RunOutcome> run(TestBench&, const RunStop& stop = {});
-Result<RunOutcome> run(std::shared_ptr<const Circuit>, const RunStop& stop = {});
+/// Takes what is saved of each analysis, as it is found: of a transient its points as they come, of others their plots.
+class CurveSink : public PointSink {
+public:
+    virtual Result<void> whole(std::span<const Plot>) = 0;
+};
 
-/// .print lines of an analysis, as columns for people; "" if there are none.
-std::string printed(const Circuit&, const Analysed&);
+/// How a run is wanted.
+struct RunOrders {
+    std::function<bool(std::string_view word, double share)> stop{};  ///< asked now and then, told what is at work and how far it is
+    CurveSink* curves = nullptr;
+    bool keep = true;   ///< a transient's points stay in memory, as a plot of its findings
+    bool print = true;  ///< columns are made for .print
+};
+Result<RunOutcome> run(TestBench&, const RunOrders& = {});
+Result<RunOutcome> run(std::shared_ptr<const Circuit>, const RunOrders& = {});
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,6 @@
 #pragma once
-// Files are written beside their place and put there when they are whole: nothing half-written is left behind.
+// Files are written beside their place and put there when they are whole: nothing half-written is left behind, but for those that
+// grow so slowly that half of one is worth having.
 
 #include <cstdio>
 #include <memory>
@@ -15,6 +16,11 @@ class OutputFile {
     std::string path_, part_;
     std::vector<std::string> made_;  // directories that were not there before
     std::FILE* file_ = nullptr;
+    std::size_t size_ = 0;
+    bool grows_ = false;
+
+    static Result<OutputFile> prepare(const std::string& path);
+    Error broken() const;
 
 public:
     OutputFile() = default;
@@ -24,7 +30,14 @@ public:
 
     /// Makes the directories above it, too.
     static Result<OutputFile> create(const std::string& path);
+    /// One that can be read while it grows: every write() is on disk at once, and a killed program leaves it, as path.part. The next that
+    /// writes this path takes that over; while one does, another is refused.
+    static Result<OutputFile> growing(const std::string& path);
+    /// All of it, or an error; one that grows is then as it was before.
     Result<void> write(std::string_view text);
+    /// Over what stands there; of one that grows.
+    Result<void> rewrite(std::size_t at, std::string_view text);
+    std::size_t size() const { return size_; }  ///< what was written
     /// Puts the file in its place; refuses if a byte could not be written.
     Result<void> commit();
     const std::string& path() const { return path_; }

@@ -82,7 +82,10 @@ TEST(Transient, TakesTheSameStepsHoweverFarItMayGoAtATime) {
     Stepped one(membrane, 0.1), other(membrane, 0.1);
     auto whole = one.begun(), pieces = other.begun();
     std::vector<double> there, here;
-    while (whole->time() < 0.1) ASSERT_TRUE(whole->step(0.1)), there.push_back(whole->time());
+    while (whole->time() < 0.1) {
+        ASSERT_TRUE(whole->step(0.1));
+        there.push_back(whole->time());
+    }
     for (double until = 0; pieces->time() < 0.1; until += 0.00037)
         for (bool more = true; more && pieces->time() < 0.1;) {
             const auto stepped = pieces->step(std::min(until, 0.1));
@@ -90,6 +93,7 @@ TEST(Transient, TakesTheSameStepsHoweverFarItMayGoAtATime) {
             more = *stepped;
             if (more) here.push_back(pieces->time());
         }
+    EXPECT_GT(there.size(), 500U);
     EXPECT_EQ(here, there);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "circuit/plot.hpp"
+#include "circuit/points.hpp"
 #include "circuit/solve/operating_point.hpp"
 
 namespace corpuscle::circuit {
@@ -16,6 +16,7 @@ namespace corpuscle::circuit {
 struct Findings {
     std::vector<Plot> plots;
     std::vector<std::pair<std::string, double>> numbers;  ///< printed as "name = value"
+    std::vector<std::pair<std::string, double>> work;     ///< what it took: steps, iterations ...
     std::string table;                                    ///< for people
     std::vector<Error> remarks;
 };
@@ -35,6 +36,7 @@ public:
     Tolerances tolerances;
     Newton newton;
     std::function<bool(double share)> stop{};  ///< asked now and then, told how far the work is; true: stop
+    PointSink* points = nullptr;               ///< takes what is too long to be kept; null: it is kept
     bool brief = false;                        ///< one of many: tables for people and warnings are not wanted
 
     static Result<std::unique_ptr<TestBench>> make(std::shared_ptr<const Circuit>);

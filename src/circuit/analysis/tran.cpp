@@ -47,24 +47,37 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     if (!asked) return asked.error();
     TransientPlan& plan = *asked;
     plan.stop = times->stop, plan.longest = times->longest;
+    KeptPlot kept;
+    PointSink& points = bench.points ? *bench.points : kept;
+    if (auto ok = points.begin(plot_of(bench.system, "Transient Analysis", "time", "time")); !ok) return ok.error();
     bench.system.go(times->step, times->stop);
     Findings out;
-    Plot plot = plot_of(bench.system, "Transient Analysis", "time", "time");
     Transient transient(bench.system, bench.newton, plan);
     bool stopped = false;
+    Result<void> taken;
+    std::vector<double> row(1);
     auto from = beginning(bench, times->uic);
     if (from && from->remark && !bench.brief) out.remarks.push_back(*from->remark);
     auto done = !from ? Result<void>(from.error()) : transient.run(from->x, from->settled, [&](double t, std::span<const double> at) {
-        if (t >= times->start) append(plot, t, at);
+        if (t >= times->start) {
+            row.assign(1, t), row.insert(row.end(), at.begin(), at.end());
+            taken = points.point(row);
+        }
         stopped = bench.stopped(t / times->stop);
-        return !stopped;
+        return !stopped && taken;
     });
+    const auto ended = points.end();
     bench.system.go(0, 0);
     if (!done) return done.error();
+    if (!taken) return taken.error();
+    if (!ended) return ended.error();
     if (stopped) return interruption();
     const auto& work = transient.work();
     out.table = fmt::format("{} steps, {} rejected, {} Newton iterations\n", work.steps, work.rejected, work.iterations);
-    out.plots.push_back(std::move(plot));
+    out.work = {{"steps", static_cast<double>(work.steps)},
+                {"rejected", static_cast<double>(work.rejected)},
+                {"iterations", static_cast<double>(work.iterations)}};
+    if (!bench.points) out.plots.push_back(std::move(kept.plot));
     return out;
 }
 

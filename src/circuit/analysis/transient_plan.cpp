@@ -31,6 +31,7 @@ Result<TransientPlan> transient_plan(const Circuit& c) {
     }
     plan.reltol = value_or(c.options, "reltol", plan.reltol);
     plan.vntol = value_or(c.options, "vntol", plan.vntol);
+    plan.abstol = value_or(c.options, "abstol", plan.abstol);
     if (const auto said = c.option_words.find("method"); said != c.option_words.end()) {
         const std::string_view word = said->second;
         if (word != "gear" && word != "bdf" && !word.starts_with("trap")) return refused(c, "method", word, "gear, trap");

@@ -57,9 +57,8 @@ double Course::pulse(double t) const {
 /// vo va freq td theta phase
 double Course::sine(double t) const {
     const double in = t - number(3, 0), turn = number(5, 0) / 360;
-    const double frequency = number(2, 0) > 0 ? number(2, 0) : 1 / stop_;
     if (in < 0) return number(0, 0) + number(1, 0) * num::sin_turns(turn);
-    const double turns = frequency * in + turn;
+    const double turns = frequency() * in + turn;
     return number(0, 0) + number(1, 0) * num::sin_turns(turns - std::floor(turns)) * num::exp(-in * number(4, 0));
 }
 
@@ -81,6 +80,8 @@ double Course::points(double t) const {
     const double t0 = x[2 * after - 2], v0 = x[2 * after - 1], t1 = x[2 * after], v1 = x[2 * after + 1];
     return v0 + (v1 - v0) * ((t - t0) / (t1 - t0));
 }
+
+double Course::pace() const { return wave_.shape == Shape::sine ? 0.1 / frequency() : never; }
 
 double Course::next_corner(double t) const {
     if (wave_.shape != Shape::pulse) {

@@ -17,6 +17,7 @@ class Course {
     double number(std::size_t k, double otherwise) const { return k < wave_.numbers.size() ? wave_.numbers[k] : otherwise; }
     double pulse(double t) const;
     double sine(double t) const;
+    double frequency() const { return number(2, 0) > 0 ? number(2, 0) : 1 / stop_; }
     double exponential(double t) const;
     double points(double t) const;
 
@@ -26,6 +27,8 @@ public:
     double at(double t) const;
     /// The first time after t at which it bends or jumps; infinity: none.
     double next_corner(double t) const;
+    /// A part of a sine's period; infinity: corners are all there is.
+    double pace() const;
 };
 
 }  // namespace corpuscle::circuit

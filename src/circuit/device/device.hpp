@@ -77,6 +77,8 @@ public:
     virtual void go(double, double) {}
     /// The first time after t at which it bends or jumps, s.
     virtual double next_corner(double) const { return std::numeric_limits<double>::infinity(); }
+    /// The longest step, s, that does not overlook what it does between its corners.
+    virtual double pace() const { return std::numeric_limits<double>::infinity(); }
     /// Of a linear device: whether its currents change with time at all.
     virtual bool varies() const { return false; }
 
@@ -94,7 +96,7 @@ struct BankStamp {
     std::size_t room;
     const double* v;
     double *f, *df;
-    double* most;     ///< of each f, the largest of its slopes times its voltage: what its last digit is of; null: not asked
+    double* most;     ///< of each f, what its last digit is of; null: not asked
     double *q, *dq;   ///< null: not asked
     double rate = 0;  ///< 1/s: f and df are wanted with rate times q and dq added
 };

@@ -46,6 +46,7 @@ public:
         course_.reset();
         if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) course_.emplace(wave_, step, stop);
     }
+    double pace() const override { return course_ ? course_->pace() : Device::pace(); }
     bool varies() const override { return course_.has_value(); }
     double next_corner(double t) const override { return course_ ? course_->next_corner(t) : Device::next_corner(t); }
 };

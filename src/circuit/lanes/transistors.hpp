@@ -18,7 +18,7 @@ struct TransistorCall {
     const double* v;          ///< [4][room], V
     double gmin;              ///< S, beside every junction
     double *f, *df;           ///< [4][room], A; [4 * 4][room], S
-    double* most;             ///< [4][room], A: the largest |df v| of each row; null: not asked
+    double* most;             ///< [4][room], A: the largest slope of each row times its voltage, or phi_t if that is more; null: not asked
     double *q, *dq;           ///< charges and capacitances, the same; null: not asked
     double rate;              ///< 1/s: f and df are given with rate times q and dq added
 };

@@ -41,6 +41,8 @@ void build(std::byte* at, const UicmConstants* of) {
     });
 }
 
+constexpr double phi_t = 0.026;  // V: rounding is of what exponents hold, and they hold no less
+
 template <class T, bool charges>
 [[gnu::always_inline]] inline void eval_as(const TransistorCall& call) {
     using Of = Terminals;
@@ -74,7 +76,8 @@ template <class T, bool charges>
             for (std::size_t column = 0; column < 4; ++column) store(a.di[row][column], call.df + (4 * row + column) * room + k);
             if (call.most == nullptr) continue;
             T most(0.0);
-            for (std::size_t column = 0; column < 4; ++column) most = num::max(most, num::abs(a.di[row][column] * v[column]));
+            for (std::size_t column = 0; column < 4; ++column)
+                most = num::max(most, num::abs(a.di[row][column]) * num::max(num::abs(v[column]), T(phi_t)));
             store(most, call.most + row * room + k);
         }
     }

@@ -185,6 +185,10 @@ void StepEquations::at(double t, std::span<const double> x, std::span<double> f,
     charges(q);
 }
 
-void StepEquations::settle() { newton_.solver.settle(std::span<const double>(J_).first(J_.size() - 1)); }
+void StepEquations::settle(std::span<const double> x, double a) {
+    prepare(newton_.instant.time, a, {});
+    look(x);
+    newton_.solver.settle(std::span<const double>(J_).first(J_.size() - 1));
+}
 
 }  // namespace corpuscle::circuit

@@ -66,8 +66,8 @@ public:
     void answer_to(std::span<double> r) const { newton_.solver.solve(r); }
     /// f(x, t), for a = 0 and no history; q(x).
     void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
-    /// The matrix's order of elimination is taken from here, for all that follow.
-    void settle();
+    /// The matrix's order of elimination, for all that follow, is taken from the one at x with dq/dt = a q.
+    void settle(std::span<const double> x, double a);
     double bend() const { return bend_; }
     void set_bend(double bend) { bend_ = bend; }
 };

@@ -99,6 +99,12 @@ void System::go(double step, double stop) {
     for (const auto& d : devices_) d->go(step, stop);
 }
 
+double System::pace() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& d : devices_) least = std::min(least, d->pace());
+    return least;
+}
+
 double System::next_corner(double t) const {
     double first = std::numeric_limits<double>::infinity();
     for (const auto& d : devices_) first = std::min(first, d->next_corner(t));

@@ -21,6 +21,7 @@ double growth(double error, int order) { return error > 0 ? std::min(safety * st
 }  // namespace
 
 Result<void> Transient::begin(std::vector<double> x, bool settled) {
+    plan_.longest = std::min(plan_.longest, system_.pace());
     const auto count = x.size();
     for (auto* v : {&scale_, &allowed_, &history_, &rate_, &error_}) v->assign(count, 0);
     newton_.memory = system_.fresh_memory();
@@ -36,6 +37,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled) {
     h_ = plan_.longest;
     start_over();
     allow();
+    equations_.settle(past_[0].x, 1e3 / plan_.longest);
     if (settled) return {};
     auto ok = settle();
     start_over();
@@ -100,7 +102,6 @@ bool Transient::attempt(double t, double& error) {
     for (;;) {
         using Way = StepEquations::Way;
         const auto way = equations_.iterate(next.x, allowed_);
-        if (!settled_) equations_.settle(), settled_ = true;
         if (way == Way::lost) return false;
         const bool far = way == Way::on && equations_.step_size() > far_off;  // is it worth to go on?
         if (way == Way::on && !far) continue;
@@ -163,7 +164,7 @@ Result<void> Transient::shorten(double h, double error) {
     ++work_.rejected, ++failures_;
     if (error == 0) ++work_.lost;
     h_ = h * (error > 0 ? std::clamp(growth(error, order_), past_.count() == 1 ? 1e-3 : 0.1, 0.8) : 0.125);
-    if ((failures_ > 1 || bent_) && past_.count() > 1) start_over();
+    if (past_.count() > 1 && (failures_ > 1 || h_ < 0.1 * (past_[0].t - past_[1].t))) start_over();
     if (h_ >= shortest_part * plan_.stop) return {};
     return too_short(h_);
 }
@@ -202,37 +203,58 @@ Result<bool> Transient::step(double until) {
         choose(t - t0, error);
         if (last && t - t0 < wanted) h_ = std::max(h_, std::min(wanted, plan_.longest));
         take();
-        bent_ = last;
+        if (last) start_over();
         return true;
     }
 }
 
 double Transient::between(double t, int unknown) const {
     if (unknown < 0) return 0;
-    const int points = std::min(std::max(order_, 1) + 1, past_.count());
+    const int points = points_between();
     const auto w = past_.value(t, points);
     double sum = 0;
     for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k)] * past_[k].x[static_cast<std::size_t>(unknown)];
     return sum;
 }
 
+void Transient::between(double t, std::span<double> x) const {
+    const int points = points_between();
+    past_.sum(past_.value(t, points), points, &Moment::x, x);
+}
+
+/// The last step, in so many parts that straight lines between them will do.
+bool Transient::tell(const Each& each) {
+    constexpr double straight = 3;  // allowed units
+    const double t0 = past_[1].t, t1 = past_[0].t;
+    auto& x = error_;
+    between((t0 + t1) / 2, x);
+    double bulge = 0;
+    for (std::size_t n = 0; n < x.size(); ++n)
+        if (allowed_[n] > 0) bulge = std::max(bulge, std::abs(x[n] - (past_[0].x[n] + past_[1].x[n]) / 2) / allowed_[n]);
+    const int parts = static_cast<int>(std::min(std::ceil(std::sqrt(bulge / straight)), 1000.0));
+    for (int k = 1; k < parts; ++k) {
+        const double t = t0 + (t1 - t0) * k / parts;
+        between(t, x);
+        if (!each(t, x)) return false;
+    }
+    return each(t1, past_[0].x);
+}
+
 std::optional<double> Transient::crossing(int plus, int minus, double level, bool upwards) const {
     if (past_.count() < 2) return {};
     const double sign = upwards ? 1 : -1;
     const auto above = [&](double t) { return sign * (between(t, plus) - between(t, minus) - level); };
-    double from = past_[1].t, to = past_[0].t, low = above(from), high = above(to);
-    if (!(low <= 0 && high > 0)) return {};
-    for (int k = 0; k < 80 && from < to; ++k) {  // false position, halved where it does not move
-        const double guess = from - low * (to - from) / (high - low), t = k % 3 == 2 ? (from + to) / 2 : std::clamp(guess, from, to);
-        const double here = above(t);
-        if (here > 0 ? t == to : t == from) break;
-        here > 0 ? (to = t, high = here) : (from = t, low = here);
+    double from = past_[1].t, to = past_[0].t;
+    if (!(above(from) <= 0 && above(to) > 0)) return {};
+    for (int k = 0; k < 50; ++k) {
+        const double half = from + (to - from) / 2;
+        above(half) > 0 ? to = half : from = half;
     }
     return to;
 }
 
 TransientState Transient::save() const {
-    TransientState s{{}, order_, since_choice_, failures_, starting_, bent_, h_, equations_.bend(), scale_, rate_, newton_.memory, work_};
+    TransientState s{{}, order_, since_choice_, failures_, starting_, h_, equations_.bend(), scale_, rate_, newton_.memory, work_};
     for (int k = 0; k < past_.count(); ++k) s.past.push_back(past_[k]);
     return s;
 }
@@ -240,25 +262,22 @@ TransientState Transient::save() const {
 void Transient::restore(const TransientState& s) {
     past_.clear();
     for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
-    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, starting_ = s.starting, bent_ = s.bent, h_ = s.h;
+    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, starting_ = s.starting, h_ = s.h;
     equations_.set_bend(s.bend), equations_.iterations = s.work.iterations;
     scale_ = s.scale, rate_ = s.rate, newton_.memory = s.memory, work_ = s.work;
     allow();
 }
 
-Result<void> Transient::run(std::vector<double> x, bool settled, const std::function<bool(double, std::span<const double>)>& each) {
-    if (auto ok = begin(std::move(x), settled); !ok) return ok;
-    bool more = each(time(), this->x());
+Result<void> Transient::run(std::vector<double> x, bool settled, const Each& each) {
+    auto done = begin(std::move(x), settled);
+    bool more = done && each(time(), this->x());
     while (more && time() < plan_.stop) {
         const auto stepped = step(plan_.stop);
-        if (!stepped) {
-            newton_.instant.charges = false;
-            return stepped.error();
-        }
-        more = each(time(), this->x());
+        if (!stepped) done = stepped.error();
+        more = stepped && tell(each);
     }
     newton_.instant.charges = false;
-    return {};
+    return done;
 }
 
 }  // namespace corpuscle::circuit

@@ -1,6 +1,7 @@
 #pragma once
 // A circuit in time: f(x, t) + dq(x)/dt = 0, in steps as long as accuracy allows.
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 
@@ -17,7 +18,7 @@ struct TransientPlan {
     int order = 4;          ///< of BDF, at the most
     double reltol = 3e-5;   ///< of a step's error, against the largest value so far
     double vntol = 1e-6;    ///< V, beside it
-    double abstol = 1e-12;  ///< A, of inductors' currents
+    double abstol = 1e-16;  ///< A, of inductors' currents
 };
 
 /// What was done.
@@ -29,7 +30,7 @@ struct TransientWork {
 struct TransientState {
     std::vector<Moment> past;  ///< newest first
     int order = 1, since_choice = 0, failures = 0;
-    bool starting = true, bent = false;
+    bool starting = true;
     double h = 0, bend = 1;
     std::vector<double> scale, rate, memory;
     TransientWork work;
@@ -40,6 +41,10 @@ struct TransientState {
 /// the matrix turns that into the error of each voltage, which decides whether a step counts, how long the next one is, and of what order.
 /// Right after the beginning, and where a source's corner proves too sharp for the points before, all begins again with order 1.
 class Transient {
+public:
+    using Each = std::function<bool(double t, std::span<const double> x)>;
+
+private:
     System& system_;
     Newton& newton_;
     TransientPlan plan_;
@@ -47,14 +52,13 @@ class Transient {
     Past past_;
     int order_ = 1, since_choice_ = 0, failures_ = 0;
     double h_ = 0, leading_ = 0;
-    bool settled_ = false;  // the matrix's elimination
-    bool bent_ = false;     // the last point is a source's corner
     bool starting_ = true;  // since the start every step has been of the highest order its points allow
     std::vector<double> scale_, allowed_, history_, rate_, error_;
     std::vector<char> charged_;
     TransientWork work_;
 
     bool trapezoid() const { return plan_.method == Integration::trapezoidal; }
+    int points_between() const { return std::min(std::max(order_ + 1, 4), past_.count()); }
     void start_over();
     Result<void> settle();
     Error too_short(double h);
@@ -65,14 +69,15 @@ class Transient {
     void choose(double h, double error);
     Result<void> shorten(double h, double error);
     void take();
+    bool tell(const Each& each);
 
 public:
     Transient(System& system, Newton& newton, const TransientPlan& plan)
         : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
 
-    /// See begin(); calls each(t, x) with every point, x at 0 first, until it returns false or the end is reached. An error says
-    /// when no step was short enough, and where.
-    Result<void> run(std::vector<double> x, bool settled, const std::function<bool(double, std::span<const double>)>& each);
+    /// See begin(); calls each(t, x) from t = 0 on until it returns false or the end is reached: at every step, and between them where a
+    /// straight line would be off by more than a few times the allowed error. An error says when no step was short enough, and where.
+    Result<void> run(std::vector<double> x, bool settled, const Each& each);
     const TransientWork& work() const { return work_; }
 
     /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them.
@@ -83,6 +88,7 @@ public:
     std::span<const double> x() const { return past_[0].x; }
     /// An unknown between the last two points (-1: ground), as the polynomial of the last steps has it.
     double between(double t, int unknown) const;
+    void between(double t, std::span<double> x) const;
     /// The first time since the point before the last at which plus - minus (unknowns; -1: ground) crosses a level: upwards, or downwards.
     std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
 

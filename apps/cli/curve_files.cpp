@@ -1,0 +1,107 @@
+#include "curve_files.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "circuit/analyses.hpp"
+#include "signal/quantity.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t block = 1 << 16;                         // bytes
+constexpr auto longest_wait = std::chrono::milliseconds(500);  // with a point in hand
+
+}  // namespace
+
+using namespace circuit;
+
+void CurveFiles::next(const Variant& variant) {
+    title_ = variant.circuit->title, label_ = variant.label;
+    plots_ = 0, file_ = nullptr;
+    analyses_ = static_cast<std::size_t>(std::count_if(variant.circuit->commands.begin(), variant.circuit->commands.end(),
+                                                       [](const Command& c) { return analysis_of(c.name) != nullptr; }));
+}
+
+Result<void> CurveFiles::whole(std::span<const Plot> plots) {
+    if (csv_) {
+        for (const auto& plot : plots)
+            if (auto ok = table(plot, plots.size()); !ok) return ok;
+        return {};
+    }
+    const auto file = open(1, 0, {});
+    if (!file) return file.error();
+    std::vector<Plot> named(plots.begin(), plots.end());
+    for (auto& plot : named)
+        if (!label_.empty()) plot.name += fmt::format(" ({})", label_);
+    return (*file)->write(raw_text(title_, named, !words_.ascii));
+}
+
+Result<void> CurveFiles::table(const Plot& plot, std::size_t count) {
+    const auto file = open(analyses_ + count - 1, plots_++, (several_ ? "step," : "") + csv_header(plot));
+    if (!file) return file.error();
+    return (*file)->write(csv_rows(plot, several_ ? label_ + "," : ""));
+}
+
+Result<void> CurveFiles::begin(const Plot& head) {
+    const auto file = csv_ ? open(analyses_, plots_++, (several_ ? "step," : "") + csv_header(head)) : open(1, 0, {});
+    if (!file) return file.error();
+    file_ = *file;
+    rows_.clear(), points_ = 0, written_ = Clock::now();
+    if (csv_) return {};
+    Plot named = head;
+    if (!label_.empty()) named.name += fmt::format(" ({})", label_);
+    const auto text = raw_head(title_, named, !words_.ascii);
+    count_at_ = file_->size() + text.count_at;
+    return file_->write(text.text);
+}
+
+Result<void> CurveFiles::point(std::span<const double> row) {
+    if (csv_ && several_) rows_ += label_ + ",";
+    csv_ ? append_csv_row(rows_, row) : append_raw_point(rows_, points_, row, !words_.ascii);
+    ++points_, time_ = row[0], streamed_ = true;
+    return rows_.size() >= block || Clock::now() - written_ > longest_wait ? write_out() : Result<void>();
+}
+
+/// The points first, then how many they are: the count in the file never speaks of more than is there.
+Result<void> CurveFiles::write_out() {
+    written_ = Clock::now();
+    if (auto ok = file_->write(rows_); !ok) return ok;
+    rows_.clear(), written_to_ = time_;
+    return csv_ ? Result<void>() : file_->rewrite(count_at_, raw_count(points_));
+}
+
+Result<void> CurveFiles::end() {
+    if (auto ok = write_out(); !ok || csv_) return ok;
+    return file_->write(raw_tail(!words_.ascii));
+}
+
+Result<void> CurveFiles::finish() {
+    for (auto& file : files_)
+        if (auto ok = file.commit(); !ok) return ok;
+    files_.clear();
+    return {};
+}
+
+Result<std::string> CurveFiles::finish_early(bool interrupted) {
+    if (files_.empty() || !(streamed_ || interrupted)) return std::string();
+    const bool within = file_ != nullptr;
+    const auto remark = fmt::format("{} ends early{}{}", within ? file_->path() : words_.out, label_.empty() ? "" : ", in " + label_,
+                                    within ? ", at " + format_quantity(written_to_, "s") : "");
+    if (auto ok = finish(); !ok) return ok.error();
+    return remark;
+}
+
+/// File k of `count`, made at its first use with `head` in it.
+Result<OutputFile*> CurveFiles::open(std::size_t count, std::size_t k, const std::string& head) {
+    if (k < files_.size()) return &files_[k];
+    auto path = words_.out;
+    if (count > 1) path.insert(path.size() - 4, fmt::format("-{}", k + 1));
+    auto file = OutputFile::growing(path);
+    if (!file) return file.error();
+    files_.push_back(std::move(*file));
+    if (auto ok = files_.back().write(head); !ok) return ok.error();
+    return &files_.back();
+}
+
+}  // namespace corpuscle

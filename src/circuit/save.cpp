@@ -1,0 +1,74 @@
+#include "circuit/save.hpp"
+
+#include <fmt/format.h>
+
+namespace corpuscle::circuit {
+namespace {
+
+struct Chosen {
+    std::string name;
+    CurveView view;
+};
+
+std::vector<Chosen> chosen(const Plot& plot, const std::vector<std::string>& names) {
+    std::vector<Chosen> out;
+    for (const auto& name : names)
+        if (const auto view = CurveView::of(plot, name)) out.push_back({name, *view});
+    return out;
+}
+
+/// Without values.
+Plot head_of(const Plot& plot, const std::vector<Chosen>& curves) {
+    Plot out{plot.name, plot.is_complex, plot.swept, {}};
+    if (plot.swept && !plot.curves.empty()) out.curves.push_back({plot.curves[0].name, plot.curves[0].type, {}});
+    for (const auto& c : curves) out.curves.push_back({c.name, c.name[0] == 'v' ? "voltage" : "current", {}});
+    return out;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> saved_of(const System& system, const Circuit& circuit) {
+    std::vector<std::string> out;
+    bool all = false;
+    for (const auto& c : circuit.commands) {
+        if (c.name != "save") continue;
+        for (std::size_t k = 0; k < c.words.size(); ++k) {
+            const auto& word = c.words[k];
+            if (word == "all") {
+                all = true;
+                continue;
+            }
+            auto named = c;
+            named.words[k] = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
+            if (const auto known = wanted_of(system, named, k); !known) return known.error();
+            out.push_back(named.words[k]);
+        }
+    }
+    return all ? std::vector<std::string>{} : out;
+}
+
+Plot narrowed(const Plot& plot, const std::vector<std::string>& names) {
+    const auto curves = chosen(plot, names);
+    if (curves.empty()) return plot;
+    Plot out = head_of(plot, curves);
+    if (plot.swept) out.curves[0].values = plot.curves[0].values;
+    for (std::size_t k = 0; k < curves.size(); ++k) out.curves[k + plot.swept].values = curves[k].view.along(plot);
+    return out;
+}
+
+Plot Narrow::begin(const Plot& head, const std::vector<std::string>& names) {
+    const auto curves = chosen(head, names);
+    all_ = curves.empty();
+    views_.clear();
+    for (const auto& c : curves) views_.push_back(c.view);
+    return all_ ? head : head_of(head, curves);
+}
+
+std::span<const double> Narrow::point(std::span<const double> row) {
+    if (all_) return row;
+    row_.assign(1, row[0]);
+    for (const auto& view : views_) row_.push_back(view.in(PlotRow(row)).real());
+    return row_;
+}
+
+}  // namespace corpuscle::circuit

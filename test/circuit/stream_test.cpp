@@ -1,0 +1,343 @@
+// What a transient leaves behind: files that read at any moment, whatever ends the program; memory that does not grow.
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "support/ngspice.hpp"
+#include "support/program.hpp"
+
+namespace corpuscle::circuit::test {
+using namespace corpuscle::test;
+namespace {
+
+/// Takes minutes unless it is ended.
+constexpr const char* endless_deck =
+    "long\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n.save v(out) v(in,out)\n.tran 10u 10000 0 10u\n";
+
+std::string rc(double stop) { return fmt::format("rc\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u {:g} 0 10u\n", stop); }
+
+/// The program at work, in a folder.
+class Started {
+    pid_t id_;
+
+public:
+    Started(const Folder& folder, std::vector<std::string> words) {
+        id_ = fork();
+        if (id_ != 0) return;
+        words.insert(words.begin(), program());
+        std::vector<char*> arguments;
+        for (auto& w : words) arguments.push_back(w.data());
+        arguments.push_back(nullptr);
+        const int err = open((folder / ".err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), out = open("/dev/null", O_WRONLY);
+        if (chdir(folder.path().c_str()) != 0 || dup2(err, 2) < 0 || dup2(out, 1) < 0) _exit(99);
+        execv(arguments[0], arguments.data());
+        _exit(99);
+    }
+    /// Its wait status; and what it took.
+    int end(int signal, struct rusage* used = nullptr) {
+        if (signal != 0) kill(id_, signal);
+        int status = 0;
+        struct rusage unused{};
+        wait4(id_, &status, 0, used ? used : &unused);
+        return status;
+    }
+};
+
+/// Until there are bytes in a file.
+bool appears(const std::string& path, std::uintmax_t bytes = 1) {
+    for (int k = 0; k < 1000; ++k, std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
+        std::error_code none;
+        if (const auto size = std::filesystem::file_size(path, none); !none && size >= bytes) return true;
+    }
+    return false;
+}
+
+/// Points in order, of the circuit above.
+void expect_whole(const Plot& plot, std::size_t at_least) {
+    ASSERT_EQ(plot.curves.size(), 3U);
+    EXPECT_EQ(plot.curves[2].name, "v(in,out)");
+    ASSERT_GE(plot.points(), at_least);
+    double before = -1;
+    for (std::size_t k = 0; k < plot.points(); ++k) {
+        const double t = plot.curves[0].values[k].real(), out = plot.curves[1].values[k].real(), drop = plot.curves[2].values[k].real();
+        ASSERT_GT(t, before) << k;
+        ASSERT_LE(t, 10000);
+        ASSERT_NEAR(out + drop, std::sin(2 * M_PI * 1e3 * t), 1e-4) << k;
+        before = t;
+    }
+}
+
+/// A table of the same, whose last line may be broken.
+void expect_rows(const std::string& text) {
+    std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "time,v(out),\"v(in,out)\"");
+    while (std::getline(lines, line)) {
+        double t = 0, out = 0, drop = 0;
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &t, &out, &drop), 3) << line;
+        ASSERT_NEAR(out + drop, std::sin(2 * M_PI * 1e3 * t), 1e-4) << line;
+    }
+}
+
+TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
+    std::mt19937 random(7);
+    for (int k = 0; k < 20; ++k) {
+        SCOPED_TRACE(k);
+        const Folder folder;
+        folder.write("x.cir", endless_deck);
+        const bool ascii = k % 4 == 3, table = k % 4 == 1;
+        const std::string name = table ? "x.csv" : "x.raw";
+        std::vector<std::string> words{"run", "x.cir", "-o", name};
+        if (ascii) words.emplace_back("--ascii");
+        Started run(folder, words);
+        ASSERT_TRUE(appears(folder / (name + ".part"), 60'000)) << read_file(folder / ".err");
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 100'000));
+        run.end(SIGKILL);
+        EXPECT_FALSE(std::filesystem::exists(folder / name));
+        const auto text = read_file(folder / (name + ".part"));
+        if (table) {
+            expect_rows(text);
+            continue;
+        }
+        const auto plots = read_raw(text);
+        ASSERT_EQ(plots.size(), 1U);
+        expect_whole(plots[0], 0);
+        EXPECT_GE(plots[0].points() * (ascii ? 75 : 24) + 100'000, text.size()) << "at most a block is left out";
+    }
+}
+
+/// As when a disk is full.
+TEST(Stream, AFileThatCannotGrowEndsEarly) {
+    for (const std::string name : {"x.raw", "x.csv"}) {
+        const Folder folder;
+        folder.write("x.cir", endless_deck);
+        const auto line =
+            fmt::format("cd '{}' && trap '' XFSZ && ulimit -f 1000 && '{}' run x.cir -o {} 2>.err", folder.path(), program(), name);
+        EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1);
+        const auto err = read_file(folder / ".err");
+        EXPECT_NE(err.find(name + ": cannot be written to the end: File too large"), std::string::npos) << err;
+        EXPECT_NE(err.find(name + " ends early, at "), std::string::npos) << err;
+        const auto text = read_file(folder / name);
+        EXPECT_GT(text.size(), 400'000U);
+        name == "x.csv" ? expect_rows(text) : expect_whole(read_raw(text)[0], 10'000);
+    }
+}
+
+TEST(Stream, TheNextRunTakesOverWhatAKilledOneLeft) {
+    const Folder folder;
+    folder.write("x.cir", endless_deck);
+    folder.write("short.cir", rc(1e-3));
+    Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
+    ASSERT_TRUE(appears(folder / "x.raw.part", 60'000));
+    killed.end(SIGKILL);
+    EXPECT_EQ(run(folder, "run short.cir -o x.raw").status, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"short.cir", "x.cir", "x.raw"}));
+    EXPECT_NEAR(read_raw_file(folder / "x.raw")[0].curves[0].values.back().real(), 1e-3, 1e-15);
+}
+
+TEST(Stream, TwoAtOnceDoNotWriteOneFile) {
+    const Folder folder;
+    folder.write("x.cir", endless_deck);
+    folder.write("short.cir", rc(1e-3));
+    Started first(folder, {"run", "x.cir", "-o", "x.raw"});
+    ASSERT_TRUE(appears(folder / "x.raw.part", 60'000));
+    const auto second = run(folder, "run short.cir -o x.raw");
+    EXPECT_EQ(second.status, 1);
+    EXPECT_NE(second.err.find("x.raw: another program is writing this file"), std::string::npos) << second.err;
+    first.end(SIGINT);
+    expect_whole(read_raw_file(folder / "x.raw")[0], 1000);
+}
+
+TEST(Stream, AnInterruptedRunLeavesItsFileUnderItsNameAndSaysThatItEndsEarly) {
+    for (const std::string name : {"x.raw", "x.csv"}) {
+        const Folder folder;
+        folder.write("x.cir", endless_deck);
+        Started run(folder, {"run", "x.cir", "-o", name});
+        ASSERT_TRUE(appears(folder / (name + ".part"), 60'000));
+        const int status = run.end(SIGINT);
+        ASSERT_TRUE(WIFEXITED(status));
+        EXPECT_EQ(WEXITSTATUS(status), 130);
+        EXPECT_NE(read_file(folder / ".err").find("warning: " + name + " ends early, at "), std::string::npos)
+            << read_file(folder / ".err");
+        EXPECT_FALSE(std::filesystem::exists(folder / (name + ".part")));
+        if (name == "x.raw") expect_whole(read_raw_file(folder / name)[0], 1000);
+        const auto text = read_file(folder / name);
+        if (name == "x.csv") {
+            EXPECT_TRUE(text.starts_with("time,v(out),\"v(in,out)\"\n0,"));
+            EXPECT_EQ(text.back(), '\n');
+        }
+    }
+}
+
+/// dv/dt = -1e12 (v^2 + 1 - c): where c falls below 1, after 1 ms, v leaves for minus infinity in no time.
+TEST(Stream, WhatDidNotConvergeIsKeptUpToThere) {
+    const Folder folder;
+    folder.write("x.cir", "t\nv1 c 0 pwl(0 2 2m 0)\nr1 c 0 1\nb1 a 0 i=(v(a)*v(a)+1-v(c))*1e3\nc1 a 0 1n\n.nodeset v(a)=1\n.tran 1u 2m\n");
+    const auto ran = run(folder, "run x.cir -o x.raw");
+    EXPECT_EQ(ran.status, 3) << ran.err;
+    EXPECT_NE(ran.err.find("x.raw ends early, at 1"), std::string::npos) << ran.err;
+    ASSERT_TRUE(std::filesystem::exists(folder / "x.raw"));
+    EXPECT_NEAR(read_raw_file(folder / "x.raw")[0].curves[0].values.back().real(), 1e-3, 1e-4);
+}
+
+TEST(Stream, MemoryDoesNotGrowWithTime) {
+    const auto most = [](double stop, const std::string& out) {
+        const Folder folder;
+        folder.write("x.cir", rc(stop) + ".meas tran n count v(out)=0 rise\n.meas tran e rms v(out)\n");
+        Started run(folder, out.empty() ? std::vector<std::string>{"run", "x.cir"} : std::vector<std::string>{"run", "x.cir", "-o", out});
+        struct rusage used{};
+        EXPECT_EQ(run.end(0, &used), 0);
+        return used.ru_maxrss;  // kB
+    };
+    for (const std::string out : {"", "x.raw", "x.csv"}) {
+        const auto few = most(0.1, out), many = most(4, out);  // 400,000 points, of 5 curves: 32 MB as complex numbers
+        EXPECT_LT(many, few + 2000) << out;
+    }
+}
+
+TEST(Stream, WhatIsStreamedIsWhatIsKept) {
+    const Folder folder;
+    folder.write("x.cir", rc(20e-3) + ".op\n.save v(out) i(v1)\n");
+    EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
+    EXPECT_EQ(run(folder, "run x.cir -o y.raw --ascii").status, 0);
+    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
+    const auto document = nlohmann::json::parse(run(folder, "run x.cir --json").out);
+    const auto binary = read_raw_file(folder / "x.raw"), letters = read_raw_file(folder / "y.raw");
+    const auto kept = ours(folder / "x.cir").plots();
+    ASSERT_EQ(binary.size(), 2U);
+    ASSERT_EQ(letters.size(), 2U);
+    ASSERT_EQ(kept.size(), 2U);
+    for (std::size_t p = 0; p < 2; ++p) {
+        EXPECT_EQ(binary[p].name, kept[p].name);
+        ASSERT_EQ(binary[p].points(), kept[p].points());
+        for (std::size_t c = 0; c < kept[p].curves.size(); ++c) {
+            const auto& curve = kept[p].curves[c];
+            EXPECT_EQ(binary[p].curves[c].name, curve.name);
+            for (std::size_t k = 0; k < kept[p].points(); ++k) {
+                EXPECT_EQ(binary[p].curves[c].values[k], curve.values[k]);
+                EXPECT_NEAR(letters[p].curves[c].values[k].real(), curve.values[k].real(), 1e-15 * std::abs(curve.values[k].real()));
+                EXPECT_EQ(document["plots"][p]["curves"][curve.name][k].get<double>(), curve.values[k].real());
+            }
+        }
+    }
+    const auto table = read_file(folder / "x-1.csv");
+    EXPECT_TRUE(table.starts_with("time,v(out),i(v1)\n0,0,"));
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<long>(kept[0].points()) + 1);
+}
+
+TEST(Stream, StepsFollowEachOtherInOneTable) {
+    const Folder folder;
+    folder.write("x.cir", rc(1e-4) + ".step param q list 1 2\n.param q=1\n");
+    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
+    EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
+    const auto table = read_file(folder / "x.csv");
+    EXPECT_TRUE(table.starts_with("step,time,v(in),v(out),i(v1)\nq=1,0,")) << table.substr(0, 100);
+    EXPECT_NE(table.find("\nq=2,0,"), std::string::npos);
+    const auto plots = read_raw_file(folder / "x.raw");
+    ASSERT_EQ(plots.size(), 2U);
+    EXPECT_EQ(plots[1].name, "Transient Analysis (q=2)");
+}
+
+TEST(Stream, NgspiceReadsWhatAKilledRunLeft) {
+    const Folder folder;
+    folder.write("x.cir", endless_deck);
+    Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
+    ASSERT_TRUE(appears(folder / "x.raw.part", 200'000));
+    killed.end(SIGKILL);
+    const auto points = read_raw_file(folder / "x.raw.part")[0].points();
+    const auto head = read_file(folder / "x.raw.part").find("Binary:\n") + 8;
+    std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // it may have ended between a block and its count
+    const auto deck =
+        folder.write("load.cir", "load\n.control\nload " + (folder / "x.raw.part") + "\nprint length(time)\nquit\n.endc\n.end\n");
+    const auto log = ngspice(deck, "");
+    EXPECT_EQ(number_of(log, "length(time)"), static_cast<double>(points)) << log;
+}
+
+/// Killed between the points of a block and their count.
+TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
+    const Folder folder;
+    folder.write("x.cir", rc(1e-3));
+    EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
+    const auto whole = read_file(folder / "x.raw");
+    const auto points = read_raw(whole)[0].points();
+    folder.write("y.raw", whole + whole.substr(whole.size() - 1003));
+    EXPECT_EQ(read_raw_file(folder / "y.raw")[0].points(), points);
+}
+
+TEST(Stream, PrintsAtEveryStep) {
+    const Folder folder;
+    const std::string text = "t\nv1 a 0 pwl(0 0 1m 1 3m 0)\nr1 a 0 1\n.print tran v(a)\n.print tran i(v1)\n";
+    folder.write("x.cir", text + ".tran 0.5m 2m\n");
+    folder.write("z.cir", text + ".tran 0.5m 2m 0.75m\n");
+    const auto out = run(folder, "run x.cir").out, later = run(folder, "run z.cir").out;
+    EXPECT_NE(out.find("            time            v(a)\n   0.0000000e+00   0.0000000e+00\n   5.0000000e-04   5.0000000e-01\n"
+                       "   1.0000000e-03   1.0000000e+00\n   1.5000000e-03   7.5000000e-01\n   2.0000000e-03   5.0000000e-01\n"
+                       "            time           i(v1)\n"),
+              std::string::npos)
+        << out;
+    EXPECT_NE(later.find("            time            v(a)\n   1.2500000e-03   8.7500000e-01\n   1.7500000e-03   6.2500000e-01\n  "),
+              std::string::npos)
+        << later;
+    folder.write("y.cir", "t\nv1 a 0 1\nr1 a 0 1\n.tran 1n 1\n.print tran v(a)\n");
+    const auto refused = run(folder, "run y.cir");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("y.cir:5:1: .print tran: 1e+09 rows"), std::string::npos) << refused.err;
+}
+
+TEST(Stream, TheDocumentTellsTheWork) {
+    const Folder folder;
+    folder.write("x.cir", rc(1e-3) + ".op\n");
+    const auto plain = nlohmann::json::parse(run(folder, "run x.cir --json").out);
+    ASSERT_EQ(plain["analyses"].size(), 2U);
+    const auto& tran = plain["analyses"][0];
+    EXPECT_EQ(tran["analysis"], "tran");
+    EXPECT_GE(tran["points"].get<long>(), tran["steps"].get<long>() + 1);
+    EXPECT_GE(tran["iterations"].get<long>(), tran["steps"].get<long>());
+    EXPECT_GE(tran["rejected"].get<long>(), 0);
+    EXPECT_EQ(plain["plots"].size(), 2U);
+    const auto written = nlohmann::json::parse(run(folder, "run x.cir --json -o x.raw").out);
+    EXPECT_EQ(written["analyses"], plain["analyses"]);
+    EXPECT_EQ(written["plots"].size(), 1U) << "the curves of the transient are in the file";
+}
+
+/// On a terminal of its own.
+TEST(Stream, ATerminalShowsHowMuchTimeIsLeft) {
+    const Folder folder;
+    folder.write("x.cir", std::string(endless_deck) + ".op\n");
+    int terminal = -1;
+    const pid_t id = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (id == 0) {
+        if (chdir(folder.path().c_str()) != 0) _exit(99);
+        execl(program().c_str(), "corpuscle", "run", "x.cir", "-o", "x.raw", nullptr);
+        _exit(99);
+    }
+    std::string shown;
+    char buffer[4096];
+    for (ssize_t n = 0; shown.find(" left") == std::string::npos && (n = read(terminal, buffer, sizeof buffer)) > 0;)
+        shown.append(buffer, static_cast<std::size_t>(n));
+    kill(id, SIGINT);
+    while (read(terminal, buffer, sizeof buffer) > 0) {
+    }
+    int status = 0;
+    waitpid(id, &status, 0);
+    close(terminal);
+    EXPECT_NE(shown.find(" %  "), std::string::npos) << shown;
+    EXPECT_NE(shown.find(" left"), std::string::npos) << shown;
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit::test
