@@ -114,7 +114,9 @@ class Run {
     IdaAnswer out_;
 
     bool done(int flag, const char* what) {
-        if (flag < 0) out_.wrong = fmt::format("{} at {:.9g} s: {}", what, t_, std::unique_ptr<char, Freed<void, free>>(IDAGetReturnFlagName(flag)).get());
+        if (flag < 0)
+            out_.wrong =
+                fmt::format("{} at {:.9g} s: {}", what, t_, std::unique_ptr<char, Freed<void, free>>(IDAGetReturnFlagName(flag)).get());
         return flag >= 0;
     }
     void floors();

@@ -11,12 +11,12 @@ namespace corpuscle::circuit {
 
 /// What is asked of IDA. Crossings: when this unknown rises through this level.
 struct IdaQuestion {
-    double step = 0, stop = 0;          ///< s: of the analysis, as sources take them
-    std::vector<double> times{};        ///< s, in order: where x is wanted
-    int watched = -1;                   ///< an unknown; -1: none
-    double level = 0;                   ///< V
-    double reltol = 1e-9, vntol = 1e-9; ///< V; charges alike, as their node's capacitance times this
-    long most = 20'000'000;             ///< steps
+    double step = 0, stop = 0;           ///< s: of the analysis, as sources take them
+    std::vector<double> times{};         ///< s, in order: where x is wanted
+    int watched = -1;                    ///< an unknown; -1: none
+    double level = 0;                    ///< V
+    double reltol = 1e-9, vntol = 1e-9;  ///< V; charges alike, as their node's capacitance times this
+    long most = 20'000'000;              ///< steps
 };
 
 struct IdaAnswer {

@@ -111,7 +111,9 @@ public:
         q.step = step_, q.stop = stop_;
         return ask_ida(bench_->system, bench_->newton.instant.gmin, start_, q);
     }
-    std::vector<double> spikes(const Points& p, const std::string& name, double level) const { return crossings(p.t, p.of(unknown(name)), level); }
+    std::vector<double> spikes(const Points& p, const std::string& name, double level) const {
+        return crossings(p.t, p.of(unknown(name)), level);
+    }
 };
 
 }  // namespace corpuscle::circuit
