@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "circuit/analyses.hpp"
 #include "circuit/analysis/bench.hpp"
 #include "circuit/ida.hpp"
 #include "circuit/netlist_runner.hpp"
@@ -106,6 +107,14 @@ public:
         if (!done) out.wrong = done.error().text();
         out.work = transient.work();
         return out;
+    }
+    /// What its .ac gives first.
+    std::complex<double> ac(const std::string& name) const {
+        for (const auto& c : bench_->circuit->commands)
+            if (c.name == "ac")
+                if (const auto found = analyse_ac(*bench_, c))
+                    if (const auto* curve = found->plots[0].curve(name)) return curve->values[0];
+        return std::nan("");
     }
     IdaAnswer ida(IdaQuestion q) const {
         q.step = step_, q.stop = stop_;
