@@ -213,7 +213,8 @@ bool Run::go_to(double corner) {
 IdaAnswer Run::whole() {
     for (; next_ < asked_.times.size() && asked_.times[next_] <= 0; ++next_) out_.x.emplace_back(of(y_), of(y_) + n_);
     while (t_ < asked_.stop) {
-        const double corner = std::min(asked_.stop, looked_.system().next_corner(t_));
+        double corner = looked_.system().next_corner(t_ + 1e-12 * asked_.stop);  // the same corner, rounded otherwise, is none
+        if (corner > asked_.stop * (1 - 1e-12)) corner = asked_.stop;
         if (!settle(std::min(1e-12 * asked_.stop, 1e-6 * (corner - t_)))) {
             out_.wrong = fmt::format("nothing settles at {:.9g} s", t_);
             break;

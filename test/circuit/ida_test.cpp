@@ -14,19 +14,7 @@ const std::string loops = test::root() + "/test/circuit/loops/";
 
 /// The thesis's high-pass filters with another course of force at their input, for so long.
 InTime high_pass(const std::string& course, const std::string& stop) {
-    const std::string path = test::root() + "/circuits/high_pass.cir";
-    std::ifstream file(path);
-    std::string out;
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("vf ")) line = "vf vf 0 " + course;
-        if (line.starts_with(".ac")) line = ".tran 1u " + stop;
-        if (!line.starts_with(".meas") && !line.starts_with(".expect")) out += line + "\n";
-    }
-    const auto open = [](const std::string& name) -> Result<std::string> {
-        std::ifstream in(name);
-        return std::string(std::istreambuf_iterator<char>(in), {});
-    };
-    return InTime(Netlist::parse(out, path, open));
+    return InTime::file(test::root() + "/circuits/high_pass.cir", {{"vf ", "vf vf 0 " + course}, {".ac", ".tran 1u " + stop}});
 }
 
 /// Of each run the largest distance of an unknown from IDA's, V, at its own points.

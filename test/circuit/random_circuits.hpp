@@ -13,6 +13,7 @@ namespace corpuscle::circuit {
 struct RandomCircuit {
     std::string text;               ///< a netlist with .tran; stands in process/
     double low = -1e9, high = 1e9;  ///< V: no node may leave these
+    TransientPlan plan{};           ///< the default, but where 10 uV a step are too many
     /// What is wrong with a finished run, in words; empty: nothing.
     std::function<std::string(const InTime&, const Points&)> judge = [](const InTime&, const Points&) { return std::string(); };
 };

@@ -10,6 +10,7 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double most_off = 5e-3;  // V of a swing of 1 V: fifty steps, 1e-4 each, all to one side
 
 /// The largest distance of v(out) from a closed form must stay below `allowed`, V.
 auto follows(std::function<double(double)> exact, double allowed) {
@@ -99,7 +100,7 @@ RandomCircuit draw_first_order(Dice& dice) {
     const double stop = corners.back().first;
     out.text = fmt::format("first order, tau {:.3g} s\nv1 in 0 {}\n{}.tran {:.6g} {:.9g}\n", tau, course, parts, tau / 1000, stop);
     out.low = -1.001, out.high = 1.001;
-    out.judge = follows([=](double t) { return lagged(corners, tau, t); }, 2e-3);
+    out.judge = follows([=](double t) { return lagged(corners, tau, t); }, most_off);
     return out;
 }
 
@@ -111,7 +112,8 @@ RandomCircuit draw_sine_first_order(Dice& dice) {
     out.text = fmt::format("first order under a sine, tau {:.3g} s\nv1 in 0 sin(0 1 {:.12g})\n{}.tran {:.6g} {:.9g}\n", tau, f, parts,
                            0.001 / f, 5 / f);
     out.low = -1.01, out.high = 1.01;
-    out.judge = follows([=](double t) { return (std::sin(w * t - lag) + std::sin(lag) * std::exp(-t / tau)) / std::hypot(1.0, x); }, 2e-3);
+    out.judge =
+        follows([=](double t) { return (std::sin(w * t - lag) + std::sin(lag) * std::exp(-t / tau)) / std::hypot(1.0, x); }, most_off);
     return out;
 }
 
@@ -123,7 +125,8 @@ RandomCircuit draw_tank(Dice& dice) {
                            1 / (natural * natural * C), C, R) +
                fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * two_pi / omega);
     out.low = -1.01, out.high = 1.01;
-    out.judge = follows([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); }, 1e-2);
+    out.judge =
+        follows([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); }, 4 * most_off);
     return out;
 }
 
@@ -140,6 +143,7 @@ RandomCircuit draw_gm_c(Dice& dice) {
                fmt::format("vin in 0 dc 0.45 ac 1 sin(0.45 5m {:.9g})\n", f) + "mb gb gb 0 0" + n(4) + "mt t gb 0 0" + n(4) +
                "m1 x in t 0" + n(1) + "m2 out out t 0" + n(1) + "m3 x x vdd vdd" + p(1) + "m4 out x vdd vdd" + p(1) +
                fmt::format("co out 0 {:.6g}\n", C) + fmt::format(".ac lin 1 {:.9g} {:.9g}\n.tran {:.6g} {:.9g}\n", f, f, 0.001 / f, stop);
+    out.plan.reltol = 1e-5, out.plan.vntol = 1e-7;
     out.low = -0.1, out.high = 0.8;
     out.judge = [f](const InTime& c, const Points& run) -> std::string {
         const auto expected = c.ac("v(out)");
@@ -160,10 +164,15 @@ RandomCircuit draw_rectifier(Dice& dice) {
                            0.001 / f, 10 / f);
     out.low = -1.01, out.high = 1.01;
     out.judge = [](const InTime& c, const Points& p) -> std::string {
-        const auto v = p.of(c.unknown("v(out)"));
-        const double least = *std::min_element(v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-        const double most = *std::max_element(v.begin(), v.end());
-        return most < 0.2 || least < -0.1 ? fmt::format("v(out) from {:.3g} to {:.3g} V is not rectified", least, most) : "";
+        IdaQuestion asked;
+        asked.times = p.t, asked.reltol = asked.vntol = 1e-7;
+        const auto truth = c.ida(asked);
+        if (!truth.wrong.empty()) return "IDA: " + truth.wrong;
+        const auto v = static_cast<std::size_t>(c.unknown("v(out)"));
+        double most = 0, when = 0;
+        for (std::size_t k = 1; k < p.t.size() && k < truth.x.size(); ++k)
+            if (const double off = std::abs(p.x[k][v] - truth.x[k][v]); off > most) most = off, when = p.t[k];
+        return most > most_off ? fmt::format("{:.3g} V off IDA's at {:.6g} s, {:.3g} V are allowed", most, when, most_off) : "";
     };
     return out;
 }

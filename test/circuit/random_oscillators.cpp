@@ -37,7 +37,7 @@ RandomCircuit draw_relaxation(Dice& dice) {
                fmt::format(".ic v(u)=0.6\n.tran {:.6g} {:.6g}\n", T / 1000, 8 * T);
     out.low = -0.3, out.high = 1.0;
     // below some picoamperes what leaks into the membrane holds it up
-    out.judge = [strong = I >= 5e-12 * k](const InTime& c, const Points& run) { return steady(c, run, "v(s)", 0.35, strong); };
+    out.judge = [strong = I >= 20e-12](const InTime& c, const Points& run) { return steady(c, run, "v(s)", 0.35, strong); };
     return out;
 }
 

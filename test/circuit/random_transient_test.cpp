@@ -16,7 +16,7 @@ namespace {
 std::string complaint(const RandomCircuit& drawn) {
     try {
         const auto circuit = InTime::text(drawn.text);
-        const auto points = circuit.run({});
+        const auto points = circuit.run(drawn.plan);
         if (!points.wrong.empty()) {
             static const std::regex true_words(R"(at .*s .*[vi]\(.+\))");
             return (std::regex_search(points.wrong, true_words) ? "gave up: " : "gave up and does not say when and where: ") + points.wrong;
