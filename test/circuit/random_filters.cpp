@@ -40,12 +40,12 @@ double lagged(const Corners& corners, double tau, double t) {
 
 /// in to out, of this time constant.
 std::string first_order(Dice& dice, double& tau) {
-    const double R = 1 / dice.decades(1e-15, 1e-3);
     if (dice.one_of(3) > 0) {
-        const double C = dice.decades(1e-15, 1e-3);
+        const double R = 1 / dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3);
         tau = R * C;
         return fmt::format("r1 in out {:.9g}\nc1 out 0 {:.9g}\n", R, C);
     }
+    const double R = 1 / dice.decades(1e-11, 1e-3);  // no coil carries less
     tau = dice.decades(1e-9, 1e3);
     return fmt::format("l1 in out {:.9g}\nr1 out 0 {:.9g}\n", R * tau, R);
 }
