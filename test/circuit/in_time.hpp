@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "circuit/analyses.hpp"
+#include "circuit/analysis/beginning.hpp"
 #include "circuit/analysis/bench.hpp"
 #include "circuit/ida.hpp"
 #include "circuit/netlist_runner.hpp"
@@ -62,10 +63,11 @@ inline std::vector<double> crossings(const std::vector<double>& t, const std::ve
 class InTime {
     std::unique_ptr<TestBench> bench_;
     std::vector<double> start_;
+    bool settled_ = true;
     double step_ = 0, stop_ = 0;
 
 public:
-    /// Its .tran says how long; it begins where .tran begins: at the operating point with the nodes of .ic held, or with uic at those.
+    /// Its .tran says how long; it begins where .tran begins.
     explicit InTime(Result<Netlist> netlist) {
         if (!netlist) throw std::runtime_error(netlist.error().text());
         auto circuit = netlist->elaborate({});
@@ -76,15 +78,11 @@ public:
         bool uic = false;
         for (const auto& c : bench_->circuit->commands)
             if (c.name == "tran") step_ = *number_of(c, 0, "step"), stop_ = *number_of(c, 1, "stop"), uic = c.words.back() == "uic";
-        const auto nodes = static_cast<std::size_t>(system().nodes());
-        Springs held{std::vector<double>(nodes), std::vector<double>(static_cast<std::size_t>(system().size()))};
-        for (const auto& [node, v] : bench_->circuit->ic)
-            held.g[static_cast<std::size_t>(node) - 1] = 1e3, held.to[static_cast<std::size_t>(node) - 1] = v;
-        start_ = held.to;
-        if (uic) return;
-        const auto rest = operating_point(bench_->newton, {}, bench_->circuit->ic.empty() ? Springs{} : held);
-        if (!rest) throw std::runtime_error(rest.error().text());
-        start_ = rest->x;
+        system().go(step_, stop_);
+        const auto from = beginning(*bench_, uic);
+        system().go(0, 0);
+        if (!from) throw std::runtime_error(from.error().text());
+        start_ = from->x, settled_ = from->settled;
     }
     static InTime file(const std::string& path) { return InTime(Netlist::read(path)); }
     /// Lines that begin so read otherwise; .meas and .expect are left out.
@@ -112,7 +110,7 @@ public:
         system().go(step_, stop_);
         Transient transient(bench_->system, bench_->newton, plan);
         Points out;
-        const auto done = transient.run(start_, [&](double t, std::span<const double> x) {
+        const auto done = transient.run(start_, settled_, [&](double t, std::span<const double> x) {
             out.t.push_back(t), out.x.emplace_back(x.begin(), x.end());
             return true;
         });
