@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "circuit/in_time.hpp"
+#include "circuit/oscillator.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -109,7 +110,7 @@ TEST(Ida, AnswersTheClosedFormOfAChargingCapacitor) {
 }
 
 TEST(Ida, IsSureOfAnOscillatorsSpikes) {
-    const auto oscillator = InTime::file(loops + "oscillator.cir");
+    const auto oscillator = InTime::text(oscillator_netlist("1"));
     IdaQuestion asked;
     asked.watched = oscillator.unknown("v(s)"), asked.level = 0.35;
     asked.reltol = asked.vntol = 1e-8;
@@ -145,7 +146,7 @@ TEST(InTimeOrder, ErrorsOfAFilterFallWithHalfTheStepAsTheOrderSays) {
 }
 
 TEST(InTimeOrder, AnOscillatorsSpikesComeNearerWithTheTolerance) {
-    auto oscillator = InTime::file(loops + "oscillator.cir");
+    auto oscillator = InTime::text(oscillator_netlist("1"));
     oscillator.stop_at(0.4);
     const auto truth = true_spikes(oscillator, "v(s)", 0.35);
     ASSERT_GT(truth.size(), 8U);
@@ -176,7 +177,7 @@ TEST(InTimeOrder, ARingsTimeComesFourTimesNearerWithHalfTheStep) {
 }
 
 TEST(InTimeDefaults, AnOscillatorKeepsItsTimeForASecond) {
-    const auto oscillator = InTime::file(loops + "oscillator.cir");
+    const auto oscillator = InTime::text(oscillator_netlist("1"));
     const auto truth = true_spikes(oscillator, "v(s)", 0.35);
     const auto spikes = oscillator.spikes(oscillator.run({}), "v(s)", 0.35);
     ASSERT_EQ(spikes.size(), truth.size());

@@ -21,7 +21,7 @@ std::string steady(const InTime& circuit, const Points& points, const std::strin
 
 }  // namespace
 
-/// As loops/oscillator.cir, all its transistors as many times as wide as the current asks for.
+/// As oscillator.hpp has it, all its transistors as many times as wide as the current asks for.
 RandomCircuit draw_relaxation(Dice& dice) {
     const double I = dice.decades(1e-15, 1e-3), k = std::max(1.0, std::round(I / 10e-9));
     const double least = std::max(0.1e-12 * k, 20e-6 * I / 0.27), most = std::min(1e-3, 1e6 * I / 0.27);
