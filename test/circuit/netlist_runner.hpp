@@ -55,14 +55,13 @@ public:
     }
 };
 
-inline Result<Netlist> parsed(const std::string& text) {
-    const auto open = [](const std::string& path) -> Result<std::string> {
-        std::ifstream file(path);
-        if (!file) return bad_input(path + " cannot be opened");
-        return std::string(std::istreambuf_iterator<char>(file), {});
-    };
-    return Netlist::parse(text, test::root() + "/process/test.cir", open);
+inline Result<std::string> text_of(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) return bad_input(path + " cannot be opened");
+    return std::string(std::istreambuf_iterator<char>(file), {});
 }
+
+inline Result<Netlist> parsed(const std::string& text) { return Netlist::parse(text, test::root() + "/process/test.cir", text_of); }
 
 inline std::shared_ptr<const Circuit> circuit_from(const std::string& text) {
     const auto netlist = parsed(text);

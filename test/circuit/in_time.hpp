@@ -1,0 +1,139 @@
+#pragma once
+// A netlist for runs in time under several plans, all from the same start, and the same once more by IDA.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "circuit/analyses.hpp"
+#include "circuit/analysis/beginning.hpp"
+#include "circuit/analysis/bench.hpp"
+#include "circuit/ida.hpp"
+#include "circuit/netlist_runner.hpp"
+#include "circuit/solve/transient.hpp"
+
+namespace corpuscle::circuit {
+
+/// What a run left: all points.
+struct Points {
+    std::vector<double> t;
+    std::vector<std::vector<double>> x;
+    TransientWork work;
+    std::string wrong;  ///< why it ended early; empty: it did not
+
+    std::vector<double> of(int unknown) const {
+        std::vector<double> out;
+        for (const auto& at : x) out.push_back(at[static_cast<std::size_t>(unknown)]);
+        return out;
+    }
+};
+
+/// Where the cubic through four points crosses a level upward; near the ends of the points a straight line.
+inline std::vector<double> crossings(const std::vector<double>& t, const std::vector<double>& v, double level) {
+    std::vector<double> out;
+    for (std::size_t k = 1; k < t.size(); ++k) {
+        if (!(v[k - 1] < level && v[k] >= level)) continue;
+        const bool cubic = k >= 2 && k + 1 < t.size();
+        const auto at = [&](double s) {
+            if (!cubic) return v[k - 1] + (v[k] - v[k - 1]) * (s - t[k - 1]) / (t[k] - t[k - 1]);
+            double sum = 0;
+            for (std::size_t i = k - 2; i < k + 2; ++i) {
+                double term = v[i];
+                for (std::size_t j = k - 2; j < k + 2; ++j)
+                    if (j != i) term *= (s - t[j]) / (t[i] - t[j]);
+                sum += term;
+            }
+            return sum;
+        };
+        double low = t[k - 1], high = t[k];
+        for (int halving = 0; halving < 60; ++halving) {
+            const double middle = (low + high) / 2;
+            (at(middle) < level ? low : high) = middle;
+        }
+        out.push_back(high);
+    }
+    return out;
+}
+
+class InTime {
+    std::unique_ptr<TestBench> bench_;
+    std::vector<double> start_;
+    bool settled_ = true;
+    double step_ = 0, stop_ = 0;
+
+public:
+    /// Its .tran says how long; it begins where .tran begins.
+    explicit InTime(Result<Netlist> netlist) {
+        if (!netlist) throw std::runtime_error(netlist.error().text());
+        auto circuit = netlist->elaborate({});
+        if (!circuit) throw std::runtime_error(circuit.error().text());
+        auto made = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+        if (!made) throw std::runtime_error(made.error().text());
+        bench_ = std::move(*made);
+        bool uic = false;
+        for (const auto& c : bench_->circuit->commands)
+            if (c.name == "tran") step_ = *number_of(c, 0, "step"), stop_ = *number_of(c, 1, "stop"), uic = c.words.back() == "uic";
+        system().go(step_, stop_);
+        const auto from = beginning(*bench_, uic);
+        system().go(0, 0);
+        if (!from) throw std::runtime_error(from.error().text());
+        start_ = from->x, settled_ = from->settled;
+    }
+    static InTime file(const std::string& path) { return InTime(Netlist::read(path)); }
+    /// Lines that begin so read otherwise; .meas and .expect are left out.
+    static InTime file(const std::string& path, const std::vector<std::pair<std::string, std::string>>& changed) {
+        const auto all = text_of(path);
+        std::istringstream in(all ? *all : "");
+        std::string text;
+        for (std::string line; std::getline(in, line);) {
+            for (const auto& [beginning, other] : changed)
+                if (line.starts_with(beginning)) line = other;
+            if (!line.starts_with(".meas") && !line.starts_with(".expect")) text += line + "\n";
+        }
+        return InTime(Netlist::parse(text, path, text_of));
+    }
+    static InTime text(const std::string& text) { return InTime(parsed(text)); }
+
+    System& system() const { return bench_->system; }
+    double stop() const { return stop_; }
+    void stop_at(double t) { stop_ = t; }
+    int unknown(const std::string& name) const { return system().unknown(name); }
+
+    Points run(TransientPlan plan) const {
+        plan.stop = stop_;
+        if (plan.longest == 0) plan.longest = stop_ / 50;
+        system().go(step_, stop_);
+        Transient transient(bench_->system, bench_->newton, plan);
+        Points out;
+        const auto done = transient.run(start_, settled_, [&](double t, std::span<const double> x) {
+            out.t.push_back(t), out.x.emplace_back(x.begin(), x.end());
+            return true;
+        });
+        system().go(0, 0);
+        if (!done) out.wrong = done.error().text();
+        out.work = transient.work();
+        return out;
+    }
+    /// What its .ac gives first.
+    std::complex<double> ac(const std::string& name) const {
+        for (const auto& c : bench_->circuit->commands)
+            if (c.name == "ac")
+                if (const auto found = analyse_ac(*bench_, c))
+                    if (const auto* curve = found->plots[0].curve(name)) return curve->values[0];
+        return std::nan("");
+    }
+    IdaAnswer ida(IdaQuestion q) const {
+        q.step = step_, q.stop = stop_;
+        return ask_ida(bench_->system, bench_->newton.instant.gmin, start_, q);
+    }
+    std::vector<double> spikes(const Points& p, const std::string& name, double level) const {
+        return crossings(p.t, p.of(unknown(name)), level);
+    }
+};
+
+}  // namespace corpuscle::circuit

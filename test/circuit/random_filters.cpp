@@ -1,0 +1,180 @@
+// Drawn filters: they must follow their closed forms, or their own spectrum.
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "circuit/random_kinds.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double most_off = 5e-3;  // V of a swing of 1 V: fifty steps, 1e-4 each, all to one side
+
+/// The largest distance of v(out) from a closed form must stay below `allowed`, V.
+auto follows(std::function<double(double)> exact, double allowed) {
+    return [exact = std::move(exact), allowed](const InTime& c, const Points& p) {
+        const auto v = p.of(c.unknown("v(out)"));
+        double most = 0, when = 0;
+        for (std::size_t k = 0; k < v.size(); ++k)
+            if (const double off = std::abs(v[k] - exact(p.t[k])); off > most) most = off, when = p.t[k];
+        return most > allowed ? fmt::format("{:.3g} V off its closed form at {:.6g} s, {:.3g} V are allowed", most, when, allowed) : "";
+    };
+}
+
+using Corners = std::vector<std::pair<double, double>>;
+
+/// tau dv/dt = u - v, u a polygon from (0, u0) on, v = u0 at first.
+double lagged(const Corners& corners, double tau, double t) {
+    double v = corners.front().second;
+    for (std::size_t k = 0; k < corners.size() && corners[k].first < t; ++k) {
+        const auto [t0, u0] = corners[k];
+        const bool last = k + 1 == corners.size();
+        const double slope = last ? 0 : (corners[k + 1].second - u0) / (corners[k + 1].first - t0);
+        const double in = std::min(t, last ? t : corners[k + 1].first) - t0;
+        v = u0 + slope * (in - tau) + (v - u0 + slope * tau) * std::exp(-in / tau);
+    }
+    return v;
+}
+
+/// in to out, of this time constant.
+std::string first_order(Dice& dice, double& tau) {
+    if (dice.one_of(3) > 0) {
+        const double R = 1 / dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3);
+        tau = R * C;
+        return fmt::format("r1 in out {:.9g}\nc1 out 0 {:.9g}\n", R, C);
+    }
+    const double R = 1 / dice.decades(1e-11, 1e-3);  // no coil carries less
+    tau = dice.decades(1e-9, 1e3);
+    return fmt::format("l1 in out {:.9g}\nr1 out 0 {:.9g}\n", R * tau, R);
+}
+
+/// Amplitude and phase of what is left at frequency f in the last two periods, by least squares with the second harmonic beside it.
+std::complex<double> swing(const Points& p, int unknown, double f) {
+    constexpr int count = 5;
+    double A[count][count + 1] = {};
+    const double from = p.t.back() - 2 / f;
+    for (std::size_t k = 1; k < p.t.size(); ++k) {
+        if (p.t[k] < from) continue;
+        const double a = two_pi * f * p.t[k], w = p.t[k] - p.t[k - 1];
+        const double row[count + 1] = {
+            1, std::sin(a), std::cos(a), std::sin(2 * a), std::cos(2 * a), p.x[k][static_cast<std::size_t>(unknown)]};
+        for (int i = 0; i < count; ++i)
+            for (int j = 0; j <= count; ++j) A[i][j] += w * row[i] * row[j];
+    }
+    for (int i = 0; i < count; ++i)
+        for (int below = 0; below < count; ++below) {
+            if (below == i) continue;
+            const double part = A[below][i] / A[i][i];
+            for (int j = 0; j <= count; ++j) A[below][j] -= part * A[i][j];
+        }
+    return {A[1][count] / A[1][1], A[2][count] / A[2][2]};
+}
+
+}  // namespace
+
+RandomCircuit draw_first_order(Dice& dice) {
+    RandomCircuit out;
+    double tau = 0;
+    const auto parts = first_order(dice, tau);
+    Corners corners = {{0, 0}};
+    std::string course;
+    if (dice.one_of(2) == 0) {
+        const double delay = dice.between(0.1, 1) * tau, rise = tau * dice.decades(1e-4, 1), width = dice.between(0.5, 3) * tau;
+        const double pause = dice.between(0.5, 3) * tau, period = 2 * rise + width + pause;
+        course = fmt::format("pulse(0 1 {:.9g} {:.9g} {:.9g} {:.9g} {:.9g})", delay, rise, rise, width, period);
+        for (int round = 0; round < 3; ++round) {
+            const double at = delay + round * period;
+            corners.insert(corners.end(), {{at, 0}, {at + rise, 1}, {at + rise + width, 1}, {at + 2 * rise + width, 0}});
+        }
+        corners.emplace_back(delay + 3 * period, 0);
+    } else {
+        course = "pwl(0 0";
+        for (int k = 0; k < 6; ++k) {
+            corners.emplace_back(corners.back().first + tau * dice.decades(1e-3, 3), dice.between(-1, 1));
+            course += fmt::format(" {:.12g} {:.9g}", corners.back().first, corners.back().second);
+        }
+        course += ")";
+    }
+    const double stop = corners.back().first;
+    out.text = fmt::format("first order, tau {:.3g} s\nv1 in 0 {}\n{}.tran {:.6g} {:.9g}\n", tau, course, parts, tau / 1000, stop);
+    out.low = -1.001, out.high = 1.001;
+    out.judge = follows([=](double t) { return lagged(corners, tau, t); }, most_off);
+    return out;
+}
+
+RandomCircuit draw_sine_first_order(Dice& dice) {
+    RandomCircuit out;
+    double tau = 0;
+    const auto parts = first_order(dice, tau);
+    const double f = dice.decades(0.1, 10) / (two_pi * tau), w = two_pi * f, x = w * tau, lag = std::atan(x);
+    out.text = fmt::format("first order under a sine, tau {:.3g} s\nv1 in 0 sin(0 1 {:.12g})\n{}.tran {:.6g} {:.9g}\n", tau, f, parts,
+                           0.001 / f, 5 / f);
+    out.low = -1.01, out.high = 1.01;
+    out.judge =
+        follows([=](double t) { return (std::sin(w * t - lag) + std::sin(lag) * std::exp(-t / tau)) / std::hypot(1.0, x); }, most_off);
+    return out;
+}
+
+RandomCircuit draw_tank(Dice& dice) {
+    const double R = 1 / dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3), Q = dice.decades(0.7, 30);
+    const double natural = Q / (R * C), alpha = 1 / (2 * R * C), omega = std::sqrt(natural * natural - alpha * alpha);
+    RandomCircuit out;
+    out.text = fmt::format("tank, {:.3g} F and Q = {:.3g}\nl1 out 0 {:.9g}\nc1 out 0 {:.9g}\nr1 out 0 {:.9g}\n.ic v(out)=1\n", C, Q,
+                           1 / (natural * natural * C), C, R) +
+               fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * two_pi / omega);
+    out.low = -1.01, out.high = 1.01;
+    out.judge =
+        follows([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); }, 4 * most_off);
+    return out;
+}
+
+/// A pair that follows its input as fast as its current allows, 5 mV of sine at it; .ac says what is left of them.
+RandomCircuit draw_gm_c(Dice& dice) {
+    const double I = dice.decades(1e-15, 1e-3), k = std::max(1.0, std::round(I / 100e-9)),
+                 C = dice.decades(std::max(1e-15, k * 1e-15), 1e-3);
+    const double corner = I / (2 * 0.033) / (two_pi * (C + k * 100e-15)), f = corner * dice.decades(0.1, 3);
+    const double stop = std::ceil(f / corner) / f + 4 / f;
+    RandomCircuit out;
+    const auto p = [&](int stack) { return fmt::format(" pch w=6u l=0.5u m={:.0f} stack={}\n", 2 * k, stack); };
+    const auto n = [&](int stack) { return fmt::format(" nch w=1.5u l=0.5u m={:.0f} stack={}\n", 2 * k, stack); };
+    out.text = fmt::format("gm-C follower, {:.3g} A and {:.3g} F\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nib vdd gb {:.6g}\n", I, C, I) +
+               fmt::format("vin in 0 dc 0.45 ac 1 sin(0.45 5m {:.9g})\n", f) + "mb gb gb 0 0" + n(4) + "mt t gb 0 0" + n(4) +
+               "m1 x in t 0" + n(1) + "m2 out out t 0" + n(1) + "m3 x x vdd vdd" + p(1) + "m4 out x vdd vdd" + p(1) +
+               fmt::format("co out 0 {:.6g}\n", C) + fmt::format(".ac lin 1 {:.9g} {:.9g}\n.tran {:.6g} {:.9g}\n", f, f, 0.001 / f, stop);
+    out.plan.reltol = 1e-5, out.plan.vntol = 1e-7;
+    out.low = -0.1, out.high = 0.8;
+    out.judge = [f](const InTime& c, const Points& run) -> std::string {
+        const auto expected = c.ac("v(out)");
+        const auto s = swing(run, c.unknown("v(out)"), f) / 5e-3;
+        if (std::abs(s - expected) < 0.02 * std::abs(expected) + 1e-3) return "";
+        return fmt::format("v(out) swings {:.4f} {:+.4f}i of its input, .ac says {:.4f} {:+.4f}i", s.real(), s.imag(), expected.real(),
+                           expected.imag());
+    };
+    return out;
+}
+
+RandomCircuit draw_rectifier(Dice& dice) {
+    const double I = dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3), f = I / C * dice.decades(0.1, 100);
+    RandomCircuit out;
+    out.text = fmt::format("rectifier, {:.3g} A and {:.3g} F\n.model d1 d(is={:.3g} n={:.3g} cjo={:.3g})\n", I, C,
+                           I * dice.decades(1e-9, 1e-3), dice.between(1, 2), C * dice.decades(1e-6, 1e-2)) +
+               fmt::format("v1 in 0 sin(0 1 {:.9g})\ndx in out d1\nc1 out 0 {:.9g}\nr1 out 0 {:.9g}\n.tran {:.6g} {:.9g}\n", f, C, 1 / I,
+                           0.001 / f, 10 / f);
+    out.low = -1.01, out.high = 1.01;
+    out.judge = [](const InTime& c, const Points& p) -> std::string {
+        IdaQuestion asked;
+        asked.times = p.t, asked.reltol = asked.vntol = 1e-7;
+        const auto truth = c.ida(asked);
+        if (!truth.wrong.empty()) return "IDA: " + truth.wrong;
+        const auto v = static_cast<std::size_t>(c.unknown("v(out)"));
+        double most = 0, when = 0;
+        for (std::size_t k = 1; k < p.t.size() && k < truth.x.size(); ++k)
+            if (const double off = std::abs(p.x[k][v] - truth.x[k][v]); off > most) most = off, when = p.t[k];
+        return most > most_off ? fmt::format("{:.3g} V off IDA's at {:.6g} s, {:.3g} V are allowed", most, when, most_off) : "";
+    };
+    return out;
+}
+
+}  // namespace corpuscle::circuit
