@@ -18,22 +18,9 @@ namespace {
 
 constexpr double share_of_interval = 1e-3;
 
-/// A curve between its points: Akima's cubics, which follow a smooth wave and do not swing at a corner.
+/// A curve between its points: of the two parabolas through three of them, the one that bends less, so that corners stay corners.
 class Wave {
-    std::vector<double> t_, v_, slope_;
-
-    double secant(std::ptrdiff_t k) const {  // beyond the ends as Akima has it: straight on
-        const auto last = static_cast<std::ptrdiff_t>(t_.size()) - 2;
-        if (k < 0) return 2 * secant(k + 1) - secant(k + 2);
-        if (k > last) return 2 * secant(k - 1) - secant(k - 2);
-        const auto at = static_cast<std::size_t>(k);
-        return (v_[at + 1] - v_[at]) / (t_[at + 1] - t_[at]);
-    }
-    double slope(std::ptrdiff_t k) const {
-        const double before = std::abs(secant(k - 1) - secant(k - 2)), after = std::abs(secant(k + 1) - secant(k));
-        if (before + after == 0) return (secant(k - 1) + secant(k)) / 2;
-        return (after * secant(k - 1) + before * secant(k)) / (before + after);
-    }
+    std::vector<double> t_, v_, bend_;  // bend_: of the three points around one, the second divided difference
 
 public:
     Wave(const Curve& time, const Curve& curve) {
@@ -42,17 +29,21 @@ public:
             if (!t_.empty() && !(t > t_.back())) continue;
             t_.push_back(t), v_.push_back(curve.values[k].real());
         }
-        if (t_.size() < 4) return;
-        for (std::size_t k = 0; k < t_.size(); ++k) slope_.push_back(slope(static_cast<std::ptrdiff_t>(k)));
+        if (t_.size() < 3) return;
+        const auto secant = [&](std::size_t k) { return (v_[k + 1] - v_[k]) / (t_[k + 1] - t_[k]); };
+        bend_.resize(t_.size());
+        for (std::size_t k = 1; k + 1 < t_.size(); ++k) bend_[k] = (secant(k) - secant(k - 1)) / (t_[k + 1] - t_[k - 1]);
+        bend_.front() = bend_[1], bend_.back() = bend_[t_.size() - 2];
     }
     const std::vector<double>& times() const { return t_; }
-    bool drawn() const { return !slope_.empty(); }
+    bool drawn() const { return !bend_.empty(); }
 
     double at(double t) const {
+        t = std::clamp(t, t_.front(), t_.back());
         const auto after = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
         const auto k = static_cast<std::size_t>(after - t_.begin()) - 1;
-        const double h = t_[k + 1] - t_[k], x = std::clamp((t - t_[k]) / h, 0.0, 1.0), y = 1 - x;
-        return y * y * ((1 + 2 * x) * v_[k] + h * x * slope_[k]) + x * x * ((1 + 2 * y) * v_[k + 1] - h * y * slope_[k + 1]);
+        const double bend = std::abs(bend_[k]) < std::abs(bend_[k + 1]) ? bend_[k] : bend_[k + 1], from = t - t_[k];
+        return v_[k] + (v_[k + 1] - v_[k]) * from / (t_[k + 1] - t_[k]) + bend * from * (t - t_[k + 1]);
     }
     /// How far v is from all that the wave is within `early_or_late` of t.
     double distance(double t, double v, double early_or_late) const {
