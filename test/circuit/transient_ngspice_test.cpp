@@ -18,7 +18,8 @@ namespace {
 
 constexpr double share_of_interval = 1e-3;
 
-/// A curve between its points: of the two parabolas through three of them, the one that bends less, so that corners stay corners.
+/// A curve between its points: of the two parabolas through three of them, the one that bends less, so that corners stay corners;
+/// straight in the first step and the last.
 class Wave {
     std::vector<double> t_, v_, bend_;  // bend_: of the three points around one, the second divided difference
 
@@ -33,7 +34,6 @@ public:
         const auto secant = [&](std::size_t k) { return (v_[k + 1] - v_[k]) / (t_[k + 1] - t_[k]); };
         bend_.resize(t_.size());
         for (std::size_t k = 1; k + 1 < t_.size(); ++k) bend_[k] = (secant(k) - secant(k - 1)) / (t_[k + 1] - t_[k - 1]);
-        bend_.front() = bend_[1], bend_.back() = bend_[t_.size() - 2];
     }
     const std::vector<double>& times() const { return t_; }
     bool drawn() const { return !bend_.empty(); }
