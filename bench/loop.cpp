@@ -40,7 +40,8 @@ double median(std::vector<double> times) {
 struct Second {
     std::vector<double> times;  // of each round
     TransientWork work;
-    int spikes = 0;
+    double reltol = 0;
+    std::vector<double> spikes;  // s
     std::vector<std::vector<double>> points;
     std::vector<double> at;
 };
@@ -62,17 +63,18 @@ Result<Second> second_of(TestBench& bench, int rounds, bool quiet) {
         if (auto* force = bench.system.device("if"); quiet && force != nullptr) force->go(0, 0), force->set(quiet_force);
         const auto rest = operating_point(bench.newton, {}, held(bench));
         if (!rest) return rest.error();
-        out.spikes = 0, out.points.clear(), out.at.clear();
-        double before = rest->x[s];
+        out.spikes.clear(), out.points.clear(), out.at.clear();
+        double before = rest->x[s], t_before = 0;
         TransientPlan plan;
         plan.stop = seconds, plan.longest = longest;
+        out.reltol = plan.reltol;
         Transient transient(bench.system, bench.newton, plan);
         long count = 0;
         const long apart = std::max(1L, out.work.steps / static_cast<long>(points_kept));
         const double start = now();
         const auto done = transient.run(rest->x, [&](double t, std::span<const double> x) {
-            out.spikes += before < level && x[s] >= level;
-            before = x[s];
+            if (before < level && x[s] >= level) out.spikes.push_back(t_before + (t - t_before) * (level - before) / (x[s] - before));
+            before = x[s], t_before = t;
             if (count++ % apart == 0 && round > 0) out.points.emplace_back(x.begin(), x.end()), out.at.push_back(t);
             return true;
         });
@@ -131,16 +133,18 @@ Parts parts_of(const TestBench& bench, const Second& run, int rounds) {
 
 void report(const TestBench& bench, const Second& whole, const Second& quiet, const Parts& parts) {
     const auto row = [](const char* what, const Second& s) {
-        std::printf("%s: %ld steps, %ld rejected, %ld Newton iterations, %d spikes\n", what, s.work.steps, s.work.rejected,
-                    s.work.iterations, s.spikes);
+        std::printf("%s, to %g a step: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", what, s.reltol, s.work.steps,
+                    s.work.rejected, s.work.iterations, s.spikes.size());
+        if (!s.spikes.empty()) std::printf(", from %.6f to %.6f s", s.spikes.front(), s.spikes.back());
+        std::printf("\n");
         say("whole", s.times, 1, "s");
         say("an iteration", s.times, 1e6 / static_cast<double>(s.work.iterations), "us");
     };
     row("a second of touch", whole);
-    if (whole.spikes > 0) say("a spike, all in all", whole.times, 1e3 / whole.spikes, "ms");
+    const double spikes = static_cast<double>(whole.spikes.size()), beyond = spikes - static_cast<double>(quiet.spikes.size());
+    if (spikes > 0) say("a spike, all in all", whole.times, 1e3 / spikes, "ms");
     row("a quiet second", quiet);
-    if (whole.spikes > quiet.spikes)
-        std::printf("  a spike beyond it %27.3f ms\n", (median(whole.times) - median(quiet.times)) * 1e3 / (whole.spikes - quiet.spikes));
+    if (beyond > 0) std::printf("  a spike beyond it %27.3f ms\n", (median(whole.times) - median(quiet.times)) * 1e3 / beyond);
     std::printf("an iteration: %d unknowns, %zu devices, %zu entries\n", bench.system.size(), bench.system.devices().size(),
                 bench.system.pattern().entries());
     say("devices", parts.devices, 1e6, "us");
