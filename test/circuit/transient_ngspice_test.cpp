@@ -92,12 +92,20 @@ Asked asked_of(const std::string& deck) {
 }
 
 std::string transient_deck(const std::string& name) { return deck_path("tran/" + name); }
+
+constexpr std::string_view by_formulas = "formulas.inc", native = "native.inc";
+
 std::vector<std::string> transient_decks() { return decks("tran"); }
+std::vector<std::string> transistor_decks() {
+    auto out = transient_decks();
+    std::erase_if(out, [](const std::string& name) { return read_file(transient_deck(name)).find(by_formulas) == std::string::npos; });
+    return out;
+}
 
 /// A deck with our transistors in place of the formulas.
 RunOutcome native_run(const std::string& path) {
     std::string text = read_file(path);
-    if (const auto at = text.find("formulas.inc"); at != std::string::npos) text.replace(at, 12, "native.inc");
+    if (const auto at = text.find(by_formulas); at != std::string::npos) text.replace(at, by_formulas.size(), native);
     return ours(Netlist::parse(text, path, [](const std::string& file) -> Result<std::string> { return read_file(file); }));
 }
 
@@ -121,48 +129,65 @@ Lateness lateness(const std::vector<double>& mine, const std::vector<double>& th
     return out;
 }
 
-class TransientDeck : public testing::TestWithParam<std::string> {};
+void hold_spikes(const std::string& name, const Wave& mine, const Wave& theirs, double level) {
+    const auto here = mine.rises(level), there = theirs.rises(level);
+    EXPECT_EQ(here.size(), there.size()) << name;
+    EXPECT_GE(there.size(), 2U) << name;
+    if (here.size() != there.size() || here.empty()) return;
+    const auto late = lateness(here, there);
+    std::printf("; %zu spikes, intervals to %.2g, the last to %.2g", here.size(), late.interval, late.last);
+    EXPECT_LE(late.interval, share_of_interval) << name;
+    EXPECT_LE(late.last, share_of_interval) << name << ": the last at " << here.back() << " here, " << there.back() << " there";
+}
 
-TEST_P(TransientDeck, GoesAsInNgspice) {
-    const auto path = transient_deck(GetParam());
-    const auto asked = asked_of(read_file(path));
-    const Folder folder;
-    const auto log = ngspice(path, folder / "theirs.raw");
-    const auto peers = read_raw_file(folder / "theirs.raw");
-    ASSERT_EQ(peers.size(), 1U) << log;
-    const auto outcome = native_run(path);
-    const auto plots = outcome.plots();
-    ASSERT_EQ(plots.size(), 1U);
-    std::printf("%s: %zu points here, %zu there", GetParam().c_str(), plots[0].points(), peers[0].points());
+/// Every voltage that both give.
+void hold(const Plot& mine, const Plot& theirs, const Asked& asked) {
+    std::printf("%zu points here, %zu there", mine.points(), theirs.points());
     int held = 0;
-    for (const auto& curve : peers[0].curves) {
-        const auto* own = plots[0].curve(plain(curve.name));
+    for (const auto& curve : theirs.curves) {
+        const auto* own = mine.curve(plain(curve.name));
         if (curve.type != "voltage" || own == nullptr) continue;
         ++held;
-        const Wave mine(plots[0].curves[0], *own), theirs(peers[0].curves[0], curve);
-        ASSERT_TRUE(mine.drawn() && theirs.drawn()) << log;
+        const Wave here(mine.curves[0], *own), there(theirs.curves[0], curve);
+        ASSERT_TRUE(here.drawn() && there.drawn());
         if (asked.volts > 0) {
             double when = 0;
-            const double off = furthest(mine, theirs, asked, when);
+            const double off = furthest(here, there, asked, when);
             std::printf("; %s %.2g V", own->name.c_str(), off);
-            EXPECT_LE(off, asked.volts) << own->name << " at " << when << " s: " << mine.at(when) << " here, " << theirs.at(when)
+            EXPECT_LE(off, asked.volts) << own->name << " at " << when << " s: " << here.at(when) << " here, " << there.at(when)
                                         << " there";
         }
-        if (own->name != asked.spikes) continue;
-        const auto here = mine.rises(asked.level), there = theirs.rises(asked.level);
-        EXPECT_EQ(here.size(), there.size());
-        EXPECT_GE(there.size(), 2U);
-        if (here.size() != there.size() || here.empty()) continue;
-        const auto late = lateness(here, there);
-        std::printf("; %zu spikes, intervals to %.2g, the last to %.2g", here.size(), late.interval, late.last);
-        EXPECT_LE(late.interval, share_of_interval) << own->name;
-        EXPECT_LE(late.last, share_of_interval) << own->name << ": the last at " << here.back() << " here, " << there.back() << " there";
+        if (own->name == asked.spikes) hold_spikes(own->name, here, there, asked.level);
     }
     std::printf("\n");
     EXPECT_GE(held, 1);
 }
 
+class TransientDeck : public testing::TestWithParam<std::string> {};
+
+TEST_P(TransientDeck, GoesAsInNgspice) {
+    const auto path = transient_deck(GetParam());
+    const Folder folder;
+    const auto log = ngspice(path, folder / "theirs.raw");
+    const auto theirs = read_raw_file(folder / "theirs.raw");
+    ASSERT_EQ(theirs.size(), 1U) << log;
+    const auto mine = native_run(path).plots();
+    ASSERT_EQ(mine.size(), 1U);
+    hold(mine[0], theirs[0], asked_of(read_file(path)));
+}
+
+class TransistorDeck : public testing::TestWithParam<std::string> {};
+
+TEST_P(TransistorDeck, GoesHereByFormulasAsByOurOwnTransistors) {
+    const auto path = transient_deck(GetParam());
+    const auto mine = native_run(path).plots(), formulas = ours(path).plots();
+    ASSERT_EQ(mine.size(), 1U);
+    ASSERT_EQ(formulas.size(), 1U);
+    hold(mine[0], formulas[0], asked_of(read_file(path)));
+}
+
 INSTANTIATE_TEST_SUITE_P(Ngspice, TransientDeck, testing::ValuesIn(transient_decks()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Here, TransistorDeck, testing::ValuesIn(transistor_decks()), [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace corpuscle::circuit::test
