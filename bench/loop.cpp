@@ -6,8 +6,8 @@
 // one second as it is, and one with its force at 60 nA throughout, where nothing fires: the difference is what spikes cost. Then the parts
 // of an iteration alone: all devices with their charges (System::eval) at 256 points of the run in turn, each matrix of them (slopes, and
 // capacitances over a step of 10 us) factored and solved, by KLU along its last pivots and along the list of settle(). What is left of an
-// iteration is bookkeeping: predictions, errors, history, convergence, and the points' way out. Each line: median of the rounds, least and
-// greatest.
+// iteration is bookkeeping: predictions, errors, history, convergence, and the points' way out; it is
+// below nothing where a run looks at its devices in a cheaper way than System::eval. Each line: median of the rounds, least and greatest.
 
 #include <algorithm>
 #include <cstdio>
