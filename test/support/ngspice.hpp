@@ -19,9 +19,10 @@ using namespace corpuscle::test;
 
 inline std::string deck_path(const std::string& name) { return root() + "/test/circuit/decks/" + name + ".cir"; }
 
-inline std::vector<std::string> decks() {
+/// Those of a folder there; "": what is in none.
+inline std::vector<std::string> decks(const std::string& folder = "") {
     std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(root() + "/test/circuit/decks"))
+    for (const auto& entry : std::filesystem::directory_iterator(root() + "/test/circuit/decks/" + folder))
         if (entry.path().extension() == ".cir") out.push_back(entry.path().stem());
     std::sort(out.begin(), out.end());
     return out;
@@ -38,8 +39,7 @@ inline std::string ngspice(const std::string& deck, const std::string& raw) {
     return out;
 }
 
-inline std::shared_ptr<const Circuit> circuit_of(const std::string& deck) {
-    const auto netlist = Netlist::read(deck);
+inline std::shared_ptr<const Circuit> circuit_of(const Result<Netlist>& netlist) {
     EXPECT_TRUE(netlist) << (netlist ? "" : netlist.error().text());
     if (!netlist) return {};
     auto circuit = netlist->elaborate();
@@ -47,14 +47,17 @@ inline std::shared_ptr<const Circuit> circuit_of(const std::string& deck) {
     return circuit ? std::make_shared<const Circuit>(std::move(*circuit)) : nullptr;
 }
 
-inline RunOutcome ours(const std::string& deck) {
+inline std::shared_ptr<const Circuit> circuit_of(const std::string& deck) { return circuit_of(Netlist::read(deck)); }
+
+inline RunOutcome ours(const Result<Netlist>& netlist) {
     static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points at its circuit's commands
-    kept.push_back(circuit_of(deck));
+    kept.push_back(circuit_of(netlist));
     if (!kept.back()) return {};
     auto outcome = run(kept.back());
     EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
     return outcome ? *outcome : RunOutcome{};
 }
+inline RunOutcome ours(const std::string& deck) { return ours(Netlist::read(deck)); }
 
 /// A name as we give it: ngspice's files wrap what is no voltage in v(), and keep capitals.
 inline std::string plain(std::string name) {

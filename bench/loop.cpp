@@ -1,0 +1,187 @@
+// What does a second of the 108-array loop cost, and of what is one of its iterations made?
+//
+//     bench-loop [NETLIST] [ROUNDS]
+//
+// Method: one core, seconds of the processor. The netlist (bench/decks/loop.cir) starts from its operating point with .ic held, and goes
+// one second as it is, and one with its force at 60 nA throughout, where nothing fires: the difference is what spikes cost. Then the parts
+// of an iteration alone: all devices with their charges (System::eval) at 256 points of the run in turn, each matrix of them (slopes, and
+// capacitances over a step of 10 us) factored and solved, by KLU along its last pivots and along the list of settle(). What is left of an
+// iteration is bookkeeping: predictions, errors, history, convergence, and the points' way out; it is
+// below nothing where a run looks at its devices in a cheaper way than System::eval. Each line: median of the rounds, least and greatest.
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+
+#include "circuit/analysis/bench.hpp"
+#include "circuit/solve/transient.hpp"
+
+namespace {
+
+using namespace corpuscle;
+using namespace corpuscle::circuit;
+
+constexpr double seconds = 1, longest = 1e-3, level = 0.35, quiet_force = 60e-9, step = 10e-6;
+constexpr std::size_t points_kept = 256;
+
+/// Of the processor, s: a busy machine disturbs it less than the clock on the wall.
+double now() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+void say(const char* what, std::vector<double> times, double scale, const char* unit) {
+    std::sort(times.begin(), times.end());
+    std::printf("  %-34s %9.3f %s (%.3f ... %.3f)\n", what, times[times.size() / 2] * scale, unit, times.front() * scale,
+                times.back() * scale);
+}
+double median(std::vector<double> times) {
+    std::nth_element(times.begin(), times.begin() + static_cast<long>(times.size() / 2), times.end());
+    return times[times.size() / 2];
+}
+
+struct Second {
+    std::vector<double> times;  // of each round
+    TransientWork work;
+    double reltol = 0;
+    std::vector<double> spikes;  // s
+    std::vector<std::vector<double>> points;
+    std::vector<double> at;
+};
+
+Springs held(const TestBench& bench) {
+    Springs out{std::vector<double>(static_cast<std::size_t>(bench.system.nodes())),
+                std::vector<double>(static_cast<std::size_t>(bench.system.size()))};
+    for (const auto& [node, v] : bench.circuit->ic)
+        out.g[static_cast<std::size_t>(node) - 1] = 1e3, out.to[static_cast<std::size_t>(node) - 1] = v;
+    return out;
+}
+
+/// One second, `rounds` times from the same start.
+Result<Second> second_of(TestBench& bench, int rounds, bool quiet) {
+    Second out;
+    const auto s = static_cast<std::size_t>(bench.system.unknown("v(s)"));
+    for (int round = 0; round < rounds; ++round) {
+        bench.system.go(1e-3, seconds);
+        if (auto* force = bench.system.device("if"); quiet && force != nullptr) force->go(0, 0), force->set(quiet_force);
+        const auto rest = operating_point(bench.newton, {}, held(bench));
+        if (!rest) return rest.error();
+        out.spikes.clear(), out.points.clear(), out.at.clear();
+        double before = rest->x[s], t_before = 0;
+        TransientPlan plan;
+        plan.stop = seconds, plan.longest = longest;
+        out.reltol = plan.reltol;
+        Transient transient(bench.system, bench.newton, plan);
+        long count = 0;
+        const long apart = std::max(1L, out.work.steps / static_cast<long>(points_kept));
+        const double start = now();
+        const auto done = transient.run(rest->x, [&](double t, std::span<const double> x) {
+            if (before < level && x[s] >= level) out.spikes.push_back(t_before + (t - t_before) * (level - before) / (x[s] - before));
+            before = x[s], t_before = t;
+            if (count++ % apart == 0 && round > 0) out.points.emplace_back(x.begin(), x.end()), out.at.push_back(t);
+            return true;
+        });
+        out.times.push_back(now() - start);
+        bench.system.go(0, 0);
+        if (!done) return done.error();
+        out.work = transient.work();
+    }
+    return out;
+}
+
+/// Seconds of one of many, as often as there are rounds.
+std::vector<double> each(int rounds, std::size_t count, const std::function<void(std::size_t)>& one) {
+    std::vector<double> out;
+    for (int round = 0; round < rounds; ++round) {
+        const double start = now();
+        for (std::size_t k = 0; k < count; ++k) one(k);
+        out.push_back((now() - start) / static_cast<double>(count));
+    }
+    return out;
+}
+
+struct Parts {
+    std::vector<double> devices, factor, solve, factor_listed, solve_listed;
+    long strayed = 0;
+};
+
+Parts parts_of(const TestBench& bench, const Second& run, int rounds) {
+    Parts out;
+    Instant at;
+    at.gmin = bench.tolerances.gmin;
+    auto memory = bench.system.fresh_memory();
+    Sums sums;
+    const auto count = run.points.size(), entries = bench.system.pattern().entries();
+    out.devices = each(rounds, count, [&](std::size_t k) {
+        at.time = run.at[k];
+        bench.system.eval(run.points[k], at, memory, sums);
+    });
+    std::vector<std::vector<double>> matrices;
+    for (std::size_t k = 0; k < count; ++k) {
+        at.time = run.at[k];
+        bench.system.eval(run.points[k], at, memory, sums);
+        matrices.emplace_back(entries);
+        for (std::size_t n = 0; n < entries; ++n) matrices.back()[n] = sums.G[n] + sums.C[n] / step;
+    }
+    Solver<double> solver(bench.system.pattern());
+    std::vector<double> b(static_cast<std::size_t>(bench.system.size()), 1e-9);
+    const auto factors = [&](std::size_t k) { (void)solver.factor(matrices[k]); };
+    const auto solves = [&](std::size_t) { solver.solve(b), b.assign(b.size(), 1e-9); };
+    out.factor = each(rounds, count, factors), out.solve = each(rounds, count, solves);
+    solver.settle(matrices[count / 2]);
+    out.factor_listed = each(rounds, count, factors), out.solve_listed = each(rounds, count, solves);
+    out.strayed = solver.strayed() / rounds;
+    return out;
+}
+
+void report(const TestBench& bench, const Second& whole, const Second& quiet, const Parts& parts) {
+    const auto row = [](const char* what, const Second& s) {
+        std::printf("%s, to %g a step: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", what, s.reltol, s.work.steps,
+                    s.work.rejected, s.work.iterations, s.spikes.size());
+        if (!s.spikes.empty()) std::printf(", from %.6f to %.6f s", s.spikes.front(), s.spikes.back());
+        std::printf("\n");
+        say("whole", s.times, 1, "s");
+        say("an iteration", s.times, 1e6 / static_cast<double>(s.work.iterations), "us");
+    };
+    row("a second of touch", whole);
+    const double spikes = static_cast<double>(whole.spikes.size()), beyond = spikes - static_cast<double>(quiet.spikes.size());
+    if (spikes > 0) say("a spike, all in all", whole.times, 1e3 / spikes, "ms");
+    row("a quiet second", quiet);
+    if (beyond > 0) std::printf("  a spike beyond it %27.3f ms\n", (median(whole.times) - median(quiet.times)) * 1e3 / beyond);
+    std::printf("an iteration: %d unknowns, %zu devices, %zu entries\n", bench.system.size(), bench.system.devices().size(),
+                bench.system.pattern().entries());
+    say("devices", parts.devices, 1e6, "us");
+    say("elimination, KLU: factor", parts.factor, 1e6, "us");
+    say("elimination, KLU: solve", parts.solve, 1e6, "us");
+    say("elimination, listed: factor", parts.factor_listed, 1e6, "us");
+    say("elimination, listed: solve", parts.solve_listed, 1e6, "us");
+    std::printf("  %ld of %zu matrices did not go along the list\n", parts.strayed, whole.points.size());
+    const double all = median(whole.times) * 1e6 / static_cast<double>(whole.work.iterations), devices = median(parts.devices) * 1e6;
+    for (const auto& [way, elimination] : {std::pair{"KLU", median(parts.factor) + median(parts.solve)},
+                                           {"listed", median(parts.factor_listed) + median(parts.solve_listed)}})
+        std::printf("  if %s: devices %.0f %%, elimination %.0f %%, bookkeeping %.0f %% of %.2f us\n", way, 100 * devices / all,
+                    100 * elimination * 1e6 / all, 100 * (1 - (devices + elimination * 1e6) / all), all);
+}
+
+int fail(const Error& error) { return std::fprintf(stderr, "%s\n", error.text().c_str()), 1; }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int rounds = argc > 2 ? std::max(2, std::atoi(argv[2])) : 5;
+    const auto netlist = Netlist::read(argc > 1 ? argv[1] : "bench/decks/loop.cir");
+    if (!netlist) return fail(netlist.error());
+    auto circuit = netlist->elaborate();
+    if (!circuit) return fail(circuit.error());
+    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!bench) return fail(bench.error());
+    if ((*bench)->system.unknown("v(s)") < 0) return std::fputs("bench-loop: the netlist has no node s\n", stderr), 1;
+    const auto whole = second_of(**bench, rounds, false);
+    if (!whole) return fail(whole.error());
+    const auto quiet = second_of(**bench, rounds, true);
+    if (!quiet) return fail(quiet.error());
+    report(**bench, *whole, *quiet, parts_of(**bench, *whole, 20 * rounds));
+}

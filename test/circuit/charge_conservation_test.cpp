@@ -1,0 +1,112 @@
+// Charge that nothing leads away stays: nets joined to the rest by capacitances alone, over ten thousand cycles.
+//
+// What lies on such a net is the sum of its nodes' charges, of capacitors, junctions and transistors. A rule of integration that works
+// with charges keeps it but for what Newton's steps leave over, whatever its own error; one that works with capacitances does not.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/netlist_runner.hpp"
+#include "circuit/solve/transient.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+struct Kept {
+    double drift = 0;  ///< C: how far the net's charge was from what it began with, at most
+    double swing = 0;  ///< C: between the least and the most on any one of its nodes
+    long steps = 0;
+};
+
+std::unique_ptr<TestBench> bench_of(const std::string& text) {
+    const auto netlist = parsed(text);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
+    auto circuit = netlist->elaborate();
+    if (!circuit) return ADD_FAILURE() << circuit.error().text(), nullptr;
+    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!bench) return ADD_FAILURE() << bench.error().text(), nullptr;
+    return std::move(*bench);
+}
+
+/// From 0 V everywhere but where .ic says otherwise.
+Kept kept(const std::string& text, double cycle, const std::vector<std::string>& net) {
+    const double stop = 1e4 * cycle;
+    Kept out;
+    const auto bench = bench_of(text);
+    if (!bench) return out;
+    std::vector<double> start(static_cast<std::size_t>(bench->system.size()));
+    for (const auto& [node, v] : bench->circuit->ic) start[static_cast<std::size_t>(node) - 1] = v;
+    std::vector<std::size_t> nodes;
+    for (const auto& name : net) nodes.push_back(static_cast<std::size_t>(bench->system.unknown("v(" + name + ")")));
+
+    Sums sums;
+    auto memory = bench->system.fresh_memory();
+    Instant at;
+    at.gmin = bench->tolerances.gmin;
+    double before = 0;
+    std::vector<double> low(nodes.size(), 1e300), high(nodes.size(), -1e300);
+    const auto see = [&](double t, std::span<const double> x) {
+        at.time = t;
+        for (int looks = 0; looks < 100; ++looks) {
+            bench->system.eval(x, at, memory, sums);
+            if (!sums.limited) break;
+        }
+        double all = 0;
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const double q = sums.q[nodes[k]];
+            all += q, low[k] = std::min(low[k], q), high[k] = std::max(high[k], q);
+        }
+        if (t == 0) before = all;
+        out.drift = std::max(out.drift, std::abs(all - before));
+        return true;
+    };
+    bench->system.go(cycle / 100, stop);
+    TransientPlan plan;
+    plan.stop = stop, plan.longest = cycle / 8;  // long steps could meet a sine where it is zero
+    plan.reltol = 1e-3;                          // charge is not a matter of accuracy
+    Transient transient(bench->system, bench->newton, plan);
+    const auto done = transient.run(start, see);
+    EXPECT_TRUE(done) << (done ? "" : done.error().text());
+    for (std::size_t k = 0; k < nodes.size(); ++k) out.swing = std::max(out.swing, high[k] - low[k]);
+    out.steps = transient.work().steps;
+    std::printf("%ld steps: a drift of %.2g C, %.2g of the swing\n", out.steps, out.drift, out.drift / out.swing);
+    return out;
+}
+
+/// Of the swing, over ten thousand cycles: one part in 1e7 a cycle.
+constexpr double bound = 1e-3;
+
+TEST(ChargeConservation, NonlinearCapacitorsInARowKeepWhatIsBetweenThem) {
+    const auto found = kept(
+        "divider of charge\nv1 in 0 sin(0 1 1k)\nc1 in a q='1u*v(in,a)+0.5u*tanh(3*v(in,a))'\nr1 a b 100\n"
+        "c2 b 0 q='0.5u*v(b)+2u*v(b)*v(b)*v(b)'\nr2 a 0 1e17\n.end\n",
+        1e-3, {"a", "b"});
+    ASSERT_GT(found.swing, 1e-7);
+    EXPECT_LE(found.drift, bound * found.swing);
+}
+
+TEST(ChargeConservation, ARingOfDiodesPassesItsChargeAround) {
+    const auto found = kept(
+        "three phases push charge around\nva ka 0 sin(0 1 1meg 0 0 0)\nvb kb 0 sin(0 1 1meg 0 0 120)\nvc kc 0 sin(0 1 1meg 0 0 240)\n"
+        "ca ka a 10p\ncb kb b 10p\ncc kc c 10p\nd1 a b d\nd2 b c d\nd3 c a d\n.model d d(is=1e-12 n=1.05 cjo=2p vj=0.6 m=0.45 tt=5n)\n"
+        "r1 a 0 1e18\n.ic v(kb)=0.8660254 v(kc)=-0.8660254\n.end\n",
+        1e-6, {"a", "b", "c"});
+    ASSERT_GT(found.swing, 1e-13);
+    EXPECT_LE(found.drift, bound * found.swing);
+}
+
+TEST(ChargeConservation, TransistorsHandChargeOnAndKeepIt) {
+    // the card's transistors, but for what their junctions carry
+    const std::string card = "level=80 isq=112n vto=0.46 n=1.27 zetal=15n cox=8.42m cgso=0.37n cgdo=0.37n cj=1m cjsw=0.23n pb=0.75 mj=0.38";
+    const auto found = kept("a gate opens between two nets, and pushes both\n.options gmin=1e-20\n.model n nmos(" + card +
+                                ")\nva k 0 pulse(0 1.5 1u 0.2u 0.2u 2.8u 8u)\nm1 a k b 0 n w=6u l=0.5u\nm2 b b a 0 n w=1.5u l=0.5u\n"
+                                "ca a 0 0.1p\ncb b k 50f\nr1 a 0 1e20\n.ic v(a)=0.5 v(b)=0.3\n.end\n",
+                            8e-6, {"a", "b"});
+    ASSERT_GT(found.swing, 1e-15);
+    EXPECT_LE(found.drift, bound * found.swing);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
