@@ -67,7 +67,7 @@ Kept kept(const std::string& text, double cycle, const std::vector<std::string>&
     plan.stop = stop, plan.longest = cycle / 8;  // long steps could meet a sine where it is zero
     plan.reltol = 1e-3;                          // charge is not a matter of accuracy
     Transient transient(bench->system, bench->newton, plan);
-    const auto done = transient.run(start, see);
+    const auto done = transient.run(start, true, see);
     EXPECT_TRUE(done) << (done ? "" : done.error().text());
     for (std::size_t k = 0; k < nodes.size(); ++k) out.swing = std::max(out.swing, high[k] - low[k]);
     out.steps = transient.work().steps;
