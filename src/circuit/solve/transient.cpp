@@ -35,6 +35,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled) {
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     past_.accept();
     h_ = plan_.longest;
+    equations_.at(0, past_[0].x, rate_, first.q);
     start_over();
     allow();
     equations_.settle(past_[0].x, 1e3 / plan_.longest);
@@ -65,10 +66,10 @@ Result<void> Transient::settle() {
     return {};
 }
 
-/// Only the newest point counts from now on; dq/dt there is what the currents leave.
+/// Only the newest point counts from now on; dq/dt there is what the currents leave. Its charge stays what came of the steps before.
 void Transient::start_over() {
     Moment now = past_[0];
-    equations_.at(now.t, now.x, rate_, now.q);
+    equations_.at(now.t, now.x, rate_, error_);
     for (double& r : rate_) r = -r;
     past_.clear();
     past_.next() = std::move(now);
