@@ -12,9 +12,9 @@ constexpr double near_enough = 0.03;  // of what is allowed: what an iteration m
 
 }  // namespace
 
-StepEquations::StepEquations(const System& system, Newton& newton) : system_(system), newton_(newton) {
+StepEquations::StepEquations(const System& system, Newton& newton) : system_(system), newton_(newton), side_by_side_(system) {
     const auto count = static_cast<std::size_t>(system.size());
-    x_.resize(count + 1), still_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count);
+    x_.resize(count + 1), still_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count + 1);
     J_.resize(system.pattern().entries() + 1), J_0_.resize(J_.size());
     for (int n = 0; n < system.size(); ++n) voltage_.push_back(system.is_voltage(n));
     std::vector<Linear> sums(J_.size(), Linear{0, -1, -1, 0, 0});
@@ -41,17 +41,6 @@ StepEquations::StepEquations(const System& system, Newton& newton) : system_(sys
     }
     for (std::size_t place = 0; place + 1 < sums.size(); ++place)
         if (sums[place].g != 0 || sums[place].c != 0) linear_.push_back(sums[place]), linear_.back().place = place;
-    for (const auto& group : system.groups()) {
-        const auto n = group.terminals;
-        auto& t = together_.emplace_back(Together{group, {}, {}, std::vector<Line>((3 * n + 2 * n * n) * group.room / 8)});
-        for (std::size_t j = 0; j < n; ++j)
-            for (std::size_t k = 0; k < group.room; ++k) {
-                const int u = group.unknowns[std::min(k, group.members.size() - 1) * n + j];
-                t.unknowns.push_back(u < 0 ? static_cast<int>(count) : u);
-            }
-        for (std::size_t entry = 0; entry < n * n; ++entry)
-            for (std::size_t k = 0; k < group.members.size(); ++k) t.places.push_back(static_cast<int>(group.places[k * n * n + entry]));
-    }
 }
 
 void StepEquations::prepare(double t, double a, std::span<const double> history) {
@@ -103,18 +92,7 @@ void StepEquations::look(std::span<const double> x) {
     for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += J_0_[l.place] * x_[static_cast<std::size_t>(l.column)];
     limited_ = false;
     for (auto& own : own_) look_at_own(own);
-    for (auto& t : together_) {
-        const auto n = t.group.terminals, room = t.group.room, count = t.group.members.size();
-        double *const v = t.row(0), *const f = t.row(n), *const q = t.row(2 * n), *const df = t.row(3 * n),
-                      *const dq = t.row(3 * n + n * n);
-        for (std::size_t k = 0; k < n * room; ++k) v[k] = x_[static_cast<std::size_t>(t.unknowns[k])];
-        t.group.bank->eval(newton_.instant, {room, v, f, df, nullptr, q, dq, a_});
-        const int* place = t.places.data();
-        for (std::size_t entry = 0; entry < n * n; ++entry)
-            for (std::size_t k = 0; k < count; ++k) J_[static_cast<std::size_t>(*place++)] += df[entry * room + k];
-        for (std::size_t row = 0; row < n; ++row)
-            for (std::size_t k = 0; k < count; ++k) r_[static_cast<std::size_t>(t.unknowns[row * room + k])] += f[row * room + k];
-    }
+    side_by_side_.look(newton_.instant, a_, x_, J_, r_);
 }
 
 double StepEquations::largest_step(std::span<const double> allowed, bool& clamped) {
@@ -132,8 +110,8 @@ StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<cons
     look(x);
     ++iterations;
     if (!newton_.solver.factor(std::span<const double>(J_).first(J_.size() - 1))) return Way::lost;
-    for (std::size_t n = 0; n < step_.size(); ++n) step_[n] = -r_[n];
-    newton_.solver.solve(step_);
+    for (std::size_t n = 0; n < x.size(); ++n) step_[n] = -r_[n];
+    newton_.solver.solve(std::span(step_).first(x.size()));
     bool clamped = false;
     const double size = largest_step(allowed, clamped), before = std::exchange(before_, size);
     if (!std::isfinite(size)) return Way::lost;
@@ -154,26 +132,16 @@ void StepEquations::charges(std::span<double> q) {
     for (std::size_t n = 0; n < count; ++n) x_[n] += step_[n];  // where it was looked at last, and the step from there
     std::fill(r_.begin(), r_.end(), 0.0);
     for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += l.c * x_[static_cast<std::size_t>(l.column)];
-    const auto moved = [&](int u) { return static_cast<std::size_t>(u) < count ? step_[static_cast<std::size_t>(u)] : 0.0; };
     for (const auto& own : own_) {
         const auto n = own.terminals;
         for (std::size_t row = 0; row < n; ++row) {
             double sum = own.stamp[n + row];
             for (std::size_t column = 0; column < n; ++column)
-                sum += own.stamp[2 * n + n * n + row * n + column] * moved(own.unknowns[column]);
+                sum += own.stamp[2 * n + n * n + row * n + column] * step_[static_cast<std::size_t>(own.unknowns[column])];
             r_[static_cast<std::size_t>(own.unknowns[row])] += sum;
         }
     }
-    for (auto& t : together_) {
-        const auto n = t.group.terminals, room = t.group.room, members = t.group.members.size();
-        double *const d = t.row(0), *const qs = t.row(2 * n), *const dq = t.row(3 * n + n * n);
-        for (std::size_t k = 0; k < n * room; ++k) d[k] = moved(t.unknowns[k]);
-        for (std::size_t row = 0; row < n; ++row)
-            for (std::size_t column = 0; column < n; ++column)
-                for (std::size_t k = 0; k < room; ++k) qs[row * room + k] += dq[(row * n + column) * room + k] * d[column * room + k];
-        for (std::size_t row = 0; row < n; ++row)
-            for (std::size_t k = 0; k < members; ++k) r_[static_cast<std::size_t>(t.unknowns[row * room + k])] += qs[row * room + k];
-    }
+    side_by_side_.charges(step_, r_);
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(count), q.begin());
 }
 

@@ -2,6 +2,7 @@
 // The equations of one step in time, f(x, t) + a q(x) + history = 0, and Newton's way to their answer.
 
 #include "circuit/solve/operating_point.hpp"
+#include "circuit/solve/side_by_side.hpp"
 
 namespace corpuscle::circuit {
 
@@ -26,17 +27,7 @@ class StepEquations {
         bool limited = false;
     };
     std::vector<Own> own_;
-    struct alignas(64) Line {
-        double of[8];
-    };
-    struct Together {
-        const Group& group;
-        std::vector<int> unknowns;  // [terminals][room]; of ground: one beyond the others
-        std::vector<int> places;    // [terminals^2][members]
-        std::vector<Line> lines;    // v, f, q [terminals][room]; df, dq [terminals^2][room]
-        double* row(std::size_t k) { return lines.data()->of + k * group.room; }
-    };
-    std::vector<Together> together_;
+    SideBySide side_by_side_;
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
     std::vector<char> voltage_;
     int tries_ = 0;

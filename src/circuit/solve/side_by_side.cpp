@@ -1,0 +1,85 @@
+#include "circuit/solve/side_by_side.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace corpuscle::circuit {
+
+SideBySide::Sums SideBySide::sums_of(std::vector<std::pair<int, int>> to_from) {
+    std::map<int, std::vector<int>> sources;
+    for (const auto& [to, from] : to_from) sources[to].push_back(from);
+    std::vector<std::pair<std::size_t, int>> order;  // of the same length together: a processor learns them
+    for (const auto& [to, from] : sources) order.emplace_back(from.size(), to);
+    std::sort(order.begin(), order.end());
+    Sums out;
+    for (const auto& [count, to] : order) {
+        out.ones.push_back({to, static_cast<int>(count)});
+        out.from.insert(out.from.end(), sources[to].begin(), sources[to].end());
+    }
+    return out;
+}
+
+void SideBySide::Sums::add(const double* numbers, double* out) const {
+    const int* source = from.data();
+    for (const One& one : ones) {
+        double sum = out[one.to];
+        for (int k = 0; k < one.count; ++k) sum += numbers[*source++];
+        out[one.to] = sum;
+    }
+}
+
+SideBySide::SideBySide(const System& system) {
+    const int ground = system.size();
+    std::vector<std::pair<int, int>> slopes, currents, charges;
+    std::size_t at = 0;
+    for (const auto& group : system.groups()) {
+        const auto n = group.terminals, room = group.room;
+        parts_.push_back({group, at});
+        const auto f = at + n * room, q = f + n * room, df = q + n * room;
+        for (std::size_t j = 0; j < n; ++j)
+            for (std::size_t k = 0; k < room; ++k) {
+                const int u = group.unknowns[std::min(k, group.members.size() - 1) * n + j];
+                terminals_.push_back(u < 0 ? ground : u);
+                if (u < 0 || k >= group.members.size()) continue;
+                currents.emplace_back(u, static_cast<int>(f + j * room + k));
+                charges.emplace_back(u, static_cast<int>(q + j * room + k));
+            }
+        for (std::size_t k = 0; k < group.members.size(); ++k)
+            for (std::size_t entry = 0; entry < n * n; ++entry)
+                if (const auto place = group.places[k * n * n + entry]; place < system.pattern().entries())
+                    slopes.emplace_back(static_cast<int>(place), static_cast<int>(df + entry * room + k));
+        at += (3 * n + 2 * n * n) * room;
+    }
+    lines_.resize(at / 8);
+    slopes_ = sums_of(std::move(slopes)), currents_ = sums_of(std::move(currents)), charges_ = sums_of(std::move(charges));
+}
+
+void SideBySide::look(const Instant& at, double rate, const std::vector<double>& x, std::vector<double>& J, std::vector<double>& r) {
+    const int* terminal = terminals_.data();
+    for (const auto& part : parts_) {
+        const auto n = part.group.terminals, room = part.group.room;
+        double *const v = numbers() + part.at, *const f = v + n * room, *const q = f + n * room, *const df = q + n * room;
+        for (std::size_t k = 0; k < n * room; ++k) v[k] = x[static_cast<std::size_t>(*terminal++)];
+        part.group.bank->eval(at, {room, v, f, df, nullptr, q, df + n * n * room, rate});
+    }
+    slopes_.add(numbers(), J.data());
+    currents_.add(numbers(), r.data());
+}
+
+void SideBySide::charges(const std::vector<double>& step, std::vector<double>& q) {
+    const int* terminal = terminals_.data();
+    for (const auto& part : parts_) {
+        const auto n = part.group.terminals, room = part.group.room;
+        double *const d = numbers() + part.at, *const qs = d + 2 * n * room, *const dq = qs + (1 + n) * n * room;
+        for (std::size_t k = 0; k < n * room; ++k) d[k] = step[static_cast<std::size_t>(*terminal++)];
+        for (std::size_t row = 0; row < n; ++row)
+            for (std::size_t column = 0; column < n; ++column) {
+                double* const to = qs + row * room;
+                const double *const slope = dq + (row * n + column) * room, *const by = d + column * room;
+                for (std::size_t k = 0; k < room; ++k) to[k] += slope[k] * by[k];
+            }
+    }
+    charges_.add(numbers(), q.data());
+}
+
+}  // namespace corpuscle::circuit
