@@ -107,6 +107,7 @@ bool Elimination::factor(std::span<const double> values) {
         }
         if (!(std::abs(per) < 1e300)) return false;
     }
+    growth_ = most;
     return most <= largest_multiplier;
 }
 

@@ -25,6 +25,7 @@ class Elimination {
     std::vector<int> rows_, columns_;  // P, Q
     std::vector<double> scale_, slots_, per_pivot_;
     int l_from_ = 0;
+    double growth_ = 0;
     mutable std::vector<double> work_;
 
 public:
@@ -33,7 +34,8 @@ public:
 
     /// False: with these numbers the order does not serve (a pivot is far too small against its column).
     bool factor(std::span<const double> values);
-    void solve(std::span<double> b) const;  ///< A x = b, in place
+    void solve(std::span<double> b) const;     ///< A x = b, in place
+    double growth() const { return growth_; }  ///< the largest multiplier of the last matrix, of scaled rows
 
     std::size_t multiplications() const { return updates_.size(); }  ///< and as many additions, in one factor()
     std::size_t slots() const { return slots_.size(); }

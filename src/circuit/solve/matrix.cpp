@@ -85,10 +85,21 @@ bool Solver<T>::factor(std::span<const T> values) {
     if constexpr (!Held::is_complex) {
         held_->by_list = held_->list && held_->list->factor(values);
         if (held_->by_list) return true;
-        held_->strayed += held_->list.has_value();
-        if (held_->list) return held_->anew(numbers);  // and not along pivots that depend on which matrices went before
+        if (held_->list) return factor_anew(values);  // and not along pivots that depend on which matrices went before
     }
     return (held_->numeric != nullptr && held_->again(numbers)) || held_->anew(numbers);
+}
+
+template <class T>
+bool Solver<T>::factor_anew(std::span<const T> values) {
+    held_->by_list = false;
+    held_->strayed += held_->list.has_value();
+    return held_->anew(reinterpret_cast<double*>(const_cast<T*>(values.data())));
+}
+
+template <class T>
+double Solver<T>::growth() const {
+    return held_->by_list ? held_->list->growth() : 0;
 }
 
 template <class T>

@@ -8,7 +8,8 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr int most_iterations = 12;
-constexpr double near_enough = 0.03;  // of what is allowed: what an iteration may leave over
+constexpr double doubtful_growth = 1e4, doubtful_rest = 1e-9;  // of the list's elimination: when its answer is looked at, what it may leave
+constexpr double near_enough = 0.03;                           // of what is allowed: what an iteration may leave over
 
 }  // namespace
 
@@ -106,12 +107,43 @@ double StepEquations::largest_step(std::span<const double> allowed, bool& clampe
     return largest;
 }
 
+/// J step + r = 0.
+bool StepEquations::solve_for_step() {
+    const auto J = std::span<const double>(J_).first(J_.size() - 1);
+    const auto step = std::span(step_).first(step_.size() - 1);
+    auto& solver = newton_.solver;
+    const auto solve = [&] {
+        for (std::size_t n = 0; n < step.size(); ++n) step[n] = -r_[n];
+        solver.solve(step);
+    };
+    if (!solver.factor(J)) return false;
+    solve();
+    if (solver.growth() < doubtful_growth || left_over() < doubtful_rest) return true;
+    if (!solver.factor_anew(J)) return false;
+    return solve(), true;
+}
+
+/// The largest part of a row of J step + r that is left, of the largest number in that row.
+double StepEquations::left_over() {
+    const auto& p = system_.pattern();
+    scratch_.assign(r_.begin(), r_.end());
+    std::vector<double> largest(r_.size());
+    for (std::size_t column = 0; column + 1 < step_.size(); ++column)
+        for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e) {
+            const auto row = static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)]);
+            const double part = J_[static_cast<std::size_t>(e)] * step_[column];
+            scratch_[row] += part, largest[row] = std::max(largest[row], std::abs(part));
+        }
+    double most = 0;
+    for (std::size_t n = 0; n + 1 < r_.size(); ++n)
+        if (largest[n] > 0) most = std::max(most, std::abs(scratch_[n]) / std::max(largest[n], std::abs(r_[n])));
+    return most;
+}
+
 StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<const double> allowed) {
     look(x);
     ++iterations;
-    if (!newton_.solver.factor(std::span<const double>(J_).first(J_.size() - 1))) return Way::lost;
-    for (std::size_t n = 0; n < x.size(); ++n) step_[n] = -r_[n];
-    newton_.solver.solve(std::span(step_).first(x.size()));
+    if (!solve_for_step()) return Way::lost;
     bool clamped = false;
     const double size = largest_step(allowed, clamped), before = std::exchange(before_, size);
     if (!std::isfinite(size)) return Way::lost;

@@ -37,6 +37,8 @@ class StepEquations {
 
     void look(std::span<const double> x);
     void look_at_own(Own&);
+    bool solve_for_step();
+    double left_over();
     double largest_step(std::span<const double> allowed, bool& clamped);
 
 public:
