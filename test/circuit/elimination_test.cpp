@@ -111,5 +111,22 @@ TEST(Elimination, DoesNoMoreThanItsFillAsksFor) {
     EXPECT_EQ(list.multiplications(), 9U);
 }
 
+TEST(Elimination, TellsHowItGrewAndLeavesAMatrixToPivotsOfItsOwn) {
+    const Pattern pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
+    Solver<double> solver(pattern);
+    solver.settle(std::vector<double>{1, 0.5, 0.5, 1});
+    const std::vector<double> grown = {1e-6, 0.5, 0.5, 1e-6};  // either diagonal pivot is small now
+    ASSERT_TRUE(solver.factor(grown));
+    EXPECT_GT(solver.growth(), 1e5);
+    EXPECT_EQ(solver.strayed(), 0);
+    ASSERT_TRUE(solver.factor_anew(grown));
+    EXPECT_EQ(solver.growth(), 0);
+    EXPECT_EQ(solver.strayed(), 1);
+    std::vector<double> b = {1, 2};
+    solver.solve(b);
+    EXPECT_NEAR(1e-6 * b[0] + 0.5 * b[1], 1, 1e-15);
+    EXPECT_NEAR(0.5 * b[0] + 1e-6 * b[1], 2, 1e-15);
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit

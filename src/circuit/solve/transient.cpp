@@ -23,11 +23,11 @@ double growth(double error, int order) { return error > 0 ? std::min(safety * st
 Result<void> Transient::begin(std::vector<double> x, bool settled) {
     plan_.longest = std::min(plan_.longest, system_.pace());
     const auto count = x.size();
-    for (auto* v : {&scale_, &allowed_, &history_, &rate_, &error_}) v->assign(count, 0);
+    for (auto* v : {&scale_, &allowed_, &history_, &rate_, &error_, &turn_, &fastest_}) v->assign(count, 0);
     newton_.memory = system_.fresh_memory();
     newton_.instant.charges = true, newton_.instant.time = 0;
     system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
-    charged_.assign(count, 0);
+    alternations_.assign(count, 0), calming_ = 0, charged_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
     past_.clear();
@@ -177,8 +177,27 @@ Error Transient::too_short(double h) {
             Place{system_.circuit().file}};
 }
 
+/// Whether some charge's rate, on top of its course, goes to and fro step by step, as nothing of that pace does.
+void Transient::watch() {
+    constexpr int enough = 3;
+    constexpr double visible = 1e-3;  // of the fastest so far
+    bool rings = false;
+    for (std::size_t n = 0; n < rate_.size(); ++n) {
+        const double before = std::exchange(turn_[n], leading_ * past_.next().q[n] + history_[n] - rate_[n]);
+        fastest_[n] = std::max(fastest_[n], std::abs(rate_[n]));
+        const bool back = turn_[n] * before < 0 && std::abs(turn_[n]) > 0.5 * std::abs(before);
+        alternations_[n] = back && std::abs(turn_[n]) > visible * fastest_[n] ? alternations_[n] + 1 : 0;
+        rings |= allowed_[n] > 0 && alternations_[n] >= enough;
+    }
+    if (calming_ > 0) --calming_;
+    if (!rings) return;
+    calming_ = 2, order_ = std::min(2, past_.count());
+    std::fill(alternations_.begin(), alternations_.end(), 0);
+}
+
 void Transient::take() {
     const auto& next = past_.next();
+    if (plan_.method == Integration::trapezoidal) watch();
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
     past_.accept();
     allow();
@@ -255,17 +274,20 @@ std::optional<double> Transient::crossing(int plus, int minus, double level, boo
 }
 
 TransientState Transient::save() const {
-    TransientState s{{}, order_, since_choice_, failures_, starting_, h_, equations_.bend(), scale_, rate_, newton_.memory, work_};
+    TransientState s;
     for (int k = 0; k < past_.count(); ++k) s.past.push_back(past_[k]);
+    s.order = order_, s.since_choice = since_choice_, s.failures = failures_, s.calming = calming_, s.starting = starting_;
+    s.h = h_, s.bend = equations_.bend(), s.work = work_;
+    s.scale = scale_, s.rate = rate_, s.turn = turn_, s.fastest = fastest_, s.alternations = alternations_, s.memory = newton_.memory;
     return s;
 }
 
 void Transient::restore(const TransientState& s) {
     past_.clear();
     for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
-    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, starting_ = s.starting, h_ = s.h;
-    equations_.set_bend(s.bend), equations_.iterations = s.work.iterations;
-    scale_ = s.scale, rate_ = s.rate, newton_.memory = s.memory, work_ = s.work;
+    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, calming_ = s.calming, starting_ = s.starting;
+    h_ = s.h, equations_.set_bend(s.bend), work_ = s.work, equations_.iterations = s.work.iterations;
+    scale_ = s.scale, rate_ = s.rate, turn_ = s.turn, fastest_ = s.fastest, alternations_ = s.alternations, newton_.memory = s.memory;
     allow();
 }
 

@@ -32,13 +32,16 @@ struct TransientState {
     int order = 1, since_choice = 0, failures = 0;
     bool starting = true;
     double h = 0, bend = 1;
-    std::vector<double> scale, rate, memory;
+    int calming = 0;
+    std::vector<double> scale, rate, memory, turn, fastest;
+    std::vector<int> alternations;
     TransientWork work;
 };
 
 /// Steps of variable length and order: BDF with the coefficients of the points as they stand, or the trapezoidal rule. The polynomial
 /// through the points before predicts; how far charges come to be from it is what the rule of this order leaves over in the equations, and
 /// the matrix turns that into the error of each voltage, which decides whether a step counts, how long the next one is, and of what order.
+/// The trapezoidal rule rings where something is much faster than its steps: then two steps of BDF calm it.
 /// Right after the beginning, and where a source's corner proves too sharp for the points before, all begins again with order 1.
 class Transient {
 public:
@@ -55,9 +58,14 @@ private:
     bool starting_ = true;  // since the start every step has been of the highest order its points allow
     std::vector<double> scale_, allowed_, history_, rate_, error_;
     std::vector<char> charged_;
+    std::vector<double> turn_, fastest_;  // of the trapezoidal rule: the last change of rate, the fastest rate
+    std::vector<int> alternations_;       // how often in a row it went to and fro
+    int calming_ = 0;                     // steps still to be taken by BDF
+
     TransientWork work_;
 
-    bool trapezoid() const { return plan_.method == Integration::trapezoidal; }
+    bool trapezoid() const { return plan_.method == Integration::trapezoidal && calming_ == 0; }
+    void watch();
     int points_between() const { return std::min(std::max(order_ + 1, 4), past_.count()); }
     void start_over();
     Result<void> settle();
