@@ -8,6 +8,7 @@
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/oscillator.hpp"
+#include "signal/instruction_set.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -76,6 +77,21 @@ TEST(Transient, GoesOnFromAKeptStateAsIfItHadNeverStopped) {
     EXPECT_EQ(resumed->time(), whole->time());
     for (std::size_t n = 0; n < whole->x().size(); ++n) EXPECT_EQ(resumed->x()[n], whole->x()[n]) << n;
     EXPECT_EQ(resumed->work().iterations, whole->work().iterations);
+}
+
+TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
+    std::vector<std::vector<double>> ends;
+    for (const auto set : instruction_sets()) {
+        setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
+        Stepped one(membrane, 0.1);
+        auto t = one.begun();
+        while (t->time() < 0.1) ASSERT_TRUE(t->step(0.1));
+        ends.emplace_back(t->x().begin(), t->x().end());
+        ends.back().push_back(static_cast<double>(t->work().steps));
+        EXPECT_EQ(ends.back(), ends.front()) << name_of(set);
+    }
+    unsetenv("CORPUSCLE_ISA");
+    EXPECT_GT(ends.size(), 1U);
 }
 
 TEST(Transient, TakesTheSameStepsHoweverFarItMayGoAtATime) {
