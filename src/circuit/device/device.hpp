@@ -107,6 +107,8 @@ public:
     virtual ~Bank() = default;
     virtual void take(std::span<const Device* const>) = 0;  ///< their numbers, at first and whenever they have changed
     virtual void eval(const Instant&, const BankStamp&) const = 0;
+    /// q along its slopes: q += dq dv.
+    virtual void follow(std::size_t room, const double* dv, const double* dq, double* q) const = 0;
 };
 
 /// Where a device gets its unknowns when it is made.

@@ -101,6 +101,7 @@ public:
     void eval(const Instant& at, const BankStamp& s) const override {
         lanes_.eval({models_.data()->bytes, count_, s.room, s.v, at.gmin, s.f, s.df, s.most, s.q, s.dq, s.rate});
     }
+    void follow(std::size_t room, const double* dv, const double* dq, double* q) const override { lanes_.follow(room, dv, dq, q); }
 };
 
 /// A size from what an M line says.

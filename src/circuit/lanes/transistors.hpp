@@ -28,6 +28,7 @@ struct TransistorLanes {
     std::size_t lanes, model_bytes;
     void (*build)(std::byte* at, const UicmConstants*);  ///< the models of as many transistors as there are lanes
     void (*eval)(const TransistorCall&);
+    void (*follow)(std::size_t room, const double* dv, const double* dq, double* q);  ///< q += dq dv, of all `room`
 };
 
 extern const TransistorLanes one_by_one;

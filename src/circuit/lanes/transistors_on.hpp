@@ -89,7 +89,19 @@ void eval(const TransistorCall& call) {
 }
 
 template <class T>
-constexpr TransistorLanes transistor_lanes{width<T>(), sizeof(Uicm<T>), build<T>, eval<T>};
+void follow(std::size_t room, const double* dv, const double* dq, double* q) {
+    for (std::size_t k = 0; k < room; k += width<T>()) {
+        const T d[4] = {loaded<T>(dv + k), loaded<T>(dv + room + k), loaded<T>(dv + 2 * room + k), loaded<T>(dv + 3 * room + k)};
+        for (std::size_t row = 0; row < 4; ++row) {
+            T sum = loaded<T>(q + row * room + k);
+            for (std::size_t column = 0; column < 4; ++column) sum = sum + loaded<T>(dq + (4 * row + column) * room + k) * d[column];
+            store(sum, q + row * room + k);
+        }
+    }
+}
+
+template <class T>
+constexpr TransistorLanes transistor_lanes{width<T>(), sizeof(Uicm<T>), build<T>, eval<T>, follow<T>};
 
 }  // namespace
 }  // namespace corpuscle::circuit::lanes

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <type_traits>
 
 namespace corpuscle::circuit {
 
@@ -12,20 +13,40 @@ SideBySide::Sums SideBySide::sums_of(std::vector<std::pair<int, int>> to_from) {
     for (const auto& [to, from] : sources) order.emplace_back(from.size(), to);
     std::sort(order.begin(), order.end());
     Sums out;
-    for (const auto& [count, to] : order) {
-        out.ones.push_back({to, static_cast<int>(count)});
+    for (const auto& [terms, to] : order) {
+        if (out.runs.empty() || out.runs.back().terms != static_cast<int>(terms)) out.runs.push_back({static_cast<int>(terms), 0});
+        ++out.runs.back().count;
+        out.to.push_back(to);
         out.from.insert(out.from.end(), sources[to].begin(), sources[to].end());
     }
     return out;
 }
 
 void SideBySide::Sums::add(const double* numbers, double* out) const {
-    const int* source = from.data();
-    for (const One& one : ones) {
-        double sum = out[one.to];
-        for (int k = 0; k < one.count; ++k) sum += numbers[*source++];
-        out[one.to] = sum;
-    }
+    const int *source = from.data(), *target = to.data();
+    const auto run = [&](auto terms, int count) {
+        for (int k = 0; k < count; ++k) {
+            double sum = out[*target];
+            for (int j = 0; j < terms; ++j) sum += numbers[*source++];
+            out[*target++] = sum;
+        }
+    };
+    for (const auto& [terms, count] : runs) switch (terms) {  // short ones unrolled
+            case 1:
+                run(std::integral_constant<int, 1>(), count);
+                break;
+            case 2:
+                run(std::integral_constant<int, 2>(), count);
+                break;
+            case 3:
+                run(std::integral_constant<int, 3>(), count);
+                break;
+            case 4:
+                run(std::integral_constant<int, 4>(), count);
+                break;
+            default:
+                run(terms, count);
+        }
 }
 
 SideBySide::SideBySide(const System& system) {
@@ -72,12 +93,7 @@ void SideBySide::charges(const std::vector<double>& step, std::vector<double>& q
         const auto n = part.group.terminals, room = part.group.room;
         double *const d = numbers() + part.at, *const qs = d + 2 * n * room, *const dq = qs + (1 + n) * n * room;
         for (std::size_t k = 0; k < n * room; ++k) d[k] = step[static_cast<std::size_t>(*terminal++)];
-        for (std::size_t row = 0; row < n; ++row)
-            for (std::size_t column = 0; column < n; ++column) {
-                double* const to = qs + row * room;
-                const double *const slope = dq + (row * n + column) * room, *const by = d + column * room;
-                for (std::size_t k = 0; k < room; ++k) to[k] += slope[k] * by[k];
-            }
+        part.group.bank->follow(room, d, dq, qs);
     }
     charges_.add(numbers(), q.data());
 }

@@ -15,13 +15,13 @@ class SideBySide {
     struct alignas(64) Line {
         double of[8];
     };
-    /// Sums of numbers, the shortest first: to[k] gets all of its sources.
+    /// Sums of numbers, those of so many terms together.
     struct Sums {
-        struct One {
-            int to, count;
+        struct Run {
+            int terms, count;
         };
-        std::vector<One> ones;
-        std::vector<int> from;
+        std::vector<Run> runs;
+        std::vector<int> to, from;
         void add(const double* numbers, double* out) const;
     };
     std::vector<Part> parts_;
