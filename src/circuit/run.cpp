@@ -8,6 +8,7 @@
 #include "circuit/curves.hpp"
 #include "circuit/measure.hpp"
 #include "circuit/netlist/number.hpp"
+#include "circuit/saved.hpp"
 #include "circuit/solve/topology.hpp"
 #include "signal/field.hpp"
 
@@ -59,27 +60,6 @@ Result<void> expect(const Circuit& circuit, RunOutcome& out) {
     return {};
 }
 
-/// What .save names; "out" is v(out), and "all" is everything.
-Result<std::vector<std::string>> saved_of(const System& system, const Circuit& circuit) {
-    std::vector<std::string> out;
-    bool all = false;
-    for (const auto& c : circuit.commands) {
-        if (c.name != "save") continue;
-        for (std::size_t k = 0; k < c.words.size(); ++k) {
-            const auto& word = c.words[k];
-            if (word == "all") {
-                all = true;
-                continue;
-            }
-            auto named = c;
-            named.words[k] = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
-            if (const auto known = wanted_of(system, named, k); !known) return known.error();
-            out.push_back(named.words[k]);
-        }
-    }
-    return all ? std::vector<std::string>{} : out;
-}
-
 /// The plot with the curves named, where it has one of them; a plot of another kind (noise, transfer function) as it is.
 Plot narrowed(const Plot& plot, const std::vector<std::string>& names) {
     Plot out{plot.name, plot.is_complex, plot.swept, {}};
@@ -108,9 +88,9 @@ Result<RunOutcome> run(TestBench& bench, const RunStop& stop) {
         out.remarks = circuit->remarks;
         for (auto& s : suspicious(*circuit)) out.remarks.push_back(std::move(s));
     }
-    auto saved = saved_of(bench.system, *circuit);
+    const auto saved = saved_of(bench.system);
     if (!saved) return saved.error();
-    out.saved = std::move(*saved);
+    for (const auto& curve : *saved) out.saved.push_back(curve.name);
     bool any = false;
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);

@@ -18,6 +18,7 @@ struct Findings {
     std::vector<std::pair<std::string, double>> numbers;  ///< printed as "name = value"
     std::string table;                                    ///< for people
     std::vector<Error> remarks;
+    std::optional<std::vector<double>> spikes;  ///< s, where the netlist has .spike
 };
 
 /// A circuit ready for its analyses; one chip of it after another, if it is drawn.

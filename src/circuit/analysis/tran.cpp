@@ -1,76 +1,46 @@
 // .tran: the circuit in time.
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/transient_plan.hpp"
-#include "circuit/device/values.hpp"
+#include "circuit/spike_output.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-struct Times {
-    double step, stop, start = 0, longest;
-    bool uic = false;
-};
-
-Result<Times> times_of(const Command& given) {
-    auto c = given;
-    Times out{};
-    out.uic = !c.words.empty() && c.words.back() == "uic";
-    if (out.uic) c.words.pop_back();
-    if (c.words.size() < 2 || c.words.size() > 4) return bad_input(".tran: it is .tran STEP STOP [START [LONGEST]] [uic]", c.place);
-    const auto step = number_of(c, 0, "a step"), stop = number_of(c, 1, "where it stops");
-    const auto start = c.words.size() > 2 ? number_of(c, 2, "where it begins to be kept") : Result<double>(0.0);
-    if (!step) return step.error();
-    if (!stop) return stop.error();
-    if (!start) return start.error();
-    const auto longest = c.words.size() > 3 ? number_of(c, 3, "the longest step") : Result<double>((*stop - *start) / 50);
-    if (!longest) return longest.error();
-    if (!(*step > 0 && *stop > 0 && *start >= 0 && *start < *stop && *longest > 0))
-        return bad_input(
-            fmt::format(".tran: step {:g}, stop {:g}, start {:g}, longest {:g} s; all above 0, the start from 0 and below the stop", *step,
-                        *stop, *start, *longest),
-            c.place);
-    out.step = *step, out.stop = *stop, out.start = *start, out.longest = *longest;
-    return out;
-}
-
-Springs held(const TestBench& bench) {
-    Springs out{std::vector<double>(static_cast<std::size_t>(bench.system.nodes())),
-                std::vector<double>(static_cast<std::size_t>(bench.system.size()))};
-    for (const auto& [node, v] : bench.circuit->ic)
-        out.g[static_cast<std::size_t>(node) - 1] = 1e3, out.to[static_cast<std::size_t>(node) - 1] = v;
-    return out;
-}
-
-/// Where it begins: the operating point, with the nodes of .ic held; with uic those alone, and all else at 0 V.
-Result<std::vector<double>> beginning(TestBench& bench, bool uic) {
-    const auto springs = held(bench);
-    if (uic) return springs.to;
-    const auto rest = bench.circuit->ic.empty() ? operating_point(bench.newton) : operating_point(bench.newton, {}, springs);
-    if (!rest) return rest.error();
-    return rest->x;
+/// Spikes as numbers to print and to expect.
+void tell(const std::vector<double>& spikes, Findings& out) {
+    out.numbers.emplace_back("spikes", static_cast<double>(spikes.size()));
+    if (spikes.empty()) return;
+    out.numbers.emplace_back("first_spike", spikes.front());
+    out.numbers.emplace_back("last_spike", spikes.back());
+    if (spikes.size() > 1)
+        out.numbers.emplace_back("mean_interval", (spikes.back() - spikes.front()) / static_cast<double>(spikes.size() - 1));
 }
 
 }  // namespace
 
 Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
-    const auto times = times_of(c);
+    const auto times = transient_times(c);
     if (!times) return times.error();
     auto asked = transient_plan(*bench.circuit);
     if (!asked) return asked.error();
+    const auto output = spike_output(bench.system);
+    if (!output) return output.error();
     TransientPlan& plan = *asked;
-    plan.stop = times->stop, plan.longest = times->longest;
+    plan.stop = times->stop, plan.longest = times->longest.value_or((times->stop - times->start) / 50);
     bench.system.go(times->step, times->stop);
     Findings out;
     Plot plot = plot_of(bench.system, "Transient Analysis", "time", "time");
     Transient transient(bench.system, bench.newton, plan);
+    std::vector<double> spikes;
     bool stopped = false;
     const auto x = beginning(bench, times->uic);
     auto done = !x ? Result<void>(x.error()) : transient.run(*x, [&](double t, std::span<const double> at) {
         if (t >= times->start) append(plot, t, at);
+        if (*output)
+            if (const auto spike = (*output)->within(transient); spike && *spike >= times->start) spikes.push_back(*spike);
         stopped = bench.stopped(t / times->stop);
         return !stopped;
     });
@@ -80,6 +50,7 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     const auto& work = transient.work();
     out.table = fmt::format("{} steps, {} rejected, {} Newton iterations\n", work.steps, work.rejected, work.iterations);
     out.plots.push_back(std::move(plot));
+    if (*output) tell(spikes, out), out.spikes = std::move(spikes);
     return out;
 }
 

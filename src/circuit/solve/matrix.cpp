@@ -87,7 +87,8 @@ bool Solver<T>::factor(std::span<const T> values) {
         if (held_->by_list) return true;
         held_->strayed += held_->list.has_value();
     }
-    return (held_->numeric != nullptr && held_->again(numbers)) || held_->anew(numbers);
+    // Beside a list the last pivots are not tried: an answer is to depend on its matrix alone, not on those before.
+    return (held_->numeric != nullptr && !held_->list && held_->again(numbers)) || held_->anew(numbers);
 }
 
 template <class T>

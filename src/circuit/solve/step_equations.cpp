@@ -177,8 +177,8 @@ void StepEquations::charges(std::span<double> q) {
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(count), q.begin());
 }
 
-void StepEquations::at(double t, std::span<const double> x, std::span<double> f, std::span<double> q) {
-    prepare(t, 0, {});
+void StepEquations::at(double t, std::span<const double> x, std::span<double> f, std::span<double> q, double a) {
+    prepare(t, a, {});
     look(x);
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(f.size()), f.begin());
     std::fill(step_.begin(), step_.end(), 0.0);

@@ -64,9 +64,9 @@ public:
     void charges(std::span<double> q);
     /// e with (G + a C) e = r, at the answer's slopes, in place: what a disturbance of the equations does to the unknowns.
     void answer_to(std::span<double> r) const { newton_.solver.solve(r); }
-    /// f(x, t), for a = 0 and no history; q(x).
-    void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
-    /// The matrix's order of elimination is taken from here, for all that follow.
+    /// f(x, t) + a q(x), q(x).
+    void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q, double a = 0);
+    /// The matrix's order of elimination is taken from where it was looked at last, for all that follow.
     void settle();
     double bend() const { return bend_; }
     void set_bend(double bend) { bend_ = bend; }

@@ -81,6 +81,7 @@ public:
     /// See Device: all of them.
     void go(double step, double stop);
     double next_corner(double t) const;
+    bool hear(const Trace*);  ///< whether some source carries force
     /// All devices as drawn; null: as designed.
     void draw(const Draw*);
     /// A device's own unknowns' values.

@@ -26,6 +26,7 @@ void Transient::begin(std::vector<double> x) {
     newton_.memory = system_.fresh_memory();
     newton_.instant.charges = true, newton_.instant.time = 0;
     system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
+    work_ = {}, equations_.iterations = 0;
     charged_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
@@ -34,8 +35,17 @@ void Transient::begin(std::vector<double> x) {
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     past_.accept();
     h_ = plan_.longest;
+    settle();
     start_over();
     allow();
+}
+
+/// The order of elimination is that of the first x, whatever comes later: steps after restore() are those that would have come.
+void Transient::settle() {
+    if (std::exchange(settled_, true)) return;
+    Moment now = past_[0];
+    equations_.at(now.t, now.x, rate_, now.q, 1 / plan_.longest);
+    equations_.settle();
 }
 
 /// Only the newest point counts from now on; dq/dt there is what the currents leave.
@@ -75,7 +85,6 @@ bool Transient::attempt(double t, double& error) {
     for (;;) {
         using Way = StepEquations::Way;
         const auto way = equations_.iterate(next.x, allowed_);
-        if (!settled_) equations_.settle(), settled_ = true;
         if (way == Way::lost) return false;
         const bool far = way == Way::on && equations_.step_size() > far_off;  // is it worth to go on?
         if (way == Way::on && !far) continue;

@@ -54,6 +54,7 @@ class Transient {
     TransientWork work_;
 
     bool trapezoid() const { return plan_.method == Integration::trapezoidal; }
+    void settle();
     void start_over();
     bool attempt(double t, double& error);
     double error_of(int order);
@@ -72,7 +73,7 @@ public:
     Result<void> run(std::vector<double> x, const std::function<bool(double, std::span<const double>)>& each);
     const TransientWork& work() const { return work_; }
 
-    /// At t = 0. x: consistent, or (uic) only where charge holds it.
+    /// At t = 0. x: consistent, or (uic) only where charge holds it. The matrix's order of elimination is that of the first x handed in.
     void begin(std::vector<double> x);
     /// One step, not beyond `until`. False: it would go beyond, or its length depends on what comes there.
     Result<bool> step(double until);
@@ -84,7 +85,8 @@ public:
     std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
 
     TransientState save() const;
-    /// After begin(), from the x that the one who saved began from.
+    /// After begin(), from the x that the one who saved began from. Steps are the same to the last bit if the first x that each was ever
+    /// handed is the same, too.
     void restore(const TransientState&);
 };
 
