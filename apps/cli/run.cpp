@@ -40,7 +40,10 @@ Json document_of(const Circuit& c, const RunOutcome& outcome) {
         expectations.push_back(
             {{"what", e.what}, {"found", number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
     for (const auto& r : outcome.remarks) remarks.push_back(r.text());
-    return {{"title", c.title}, {"plots", plots}, {"numbers", numbers}, {"expectations", expectations}, {"warnings", remarks}};
+    Json out = {{"title", c.title}, {"plots", plots}, {"numbers", numbers}, {"expectations", expectations}, {"warnings", remarks}};
+    for (const auto& a : outcome.analyses)
+        if (a.findings.spikes) out["spikes"].push_back(*a.findings.spikes);  // a list each .tran
+    return out;
 }
 
 /// One of the circuits that a netlist asks for, and what was found.

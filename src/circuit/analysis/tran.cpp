@@ -4,6 +4,7 @@
 
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/transient_plan.hpp"
+#include "circuit/force_order.hpp"
 #include "circuit/spike_output.hpp"
 
 namespace corpuscle::circuit {
@@ -28,6 +29,10 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     if (!asked) return asked.error();
     const auto output = spike_output(bench.system);
     if (!output) return output.error();
+    const auto force = force_order(*bench.circuit);
+    if (!force) return force.error();
+    if (*force && !bench.system.hear(&**force))
+        return bad_input(".force: no source carries it; one is written 'iin 0 fin force 60n' (60 nA a newton)", Place{bench.circuit->file});
     TransientPlan& plan = *asked;
     plan.stop = times->stop, plan.longest = times->longest.value_or((times->stop - times->start) / 50);
     bench.system.go(times->step, times->stop);
@@ -44,7 +49,7 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
         stopped = bench.stopped(t / times->stop);
         return !stopped;
     });
-    bench.system.go(0, 0);
+    bench.system.go(0, 0), bench.system.hear(nullptr);
     if (!done) return done.error();
     if (stopped) return interruption();
     const auto& work = transient.work();

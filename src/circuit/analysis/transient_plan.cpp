@@ -72,6 +72,7 @@ Result<std::vector<double>> beginning(TestBench& bench, bool uic, std::vector<do
                  std::vector<double>(static_cast<std::size_t>(bench.system.size()))};
     for (const auto& [node, v] : bench.circuit->ic)
         held.g[static_cast<std::size_t>(node) - 1] = 1e3, held.to[static_cast<std::size_t>(node) - 1] = v;
+    bench.newton.instant.time = 0;
     if (uic) return held.to;
     const auto rest = operating_point(bench.newton, std::move(from), bench.circuit->ic.empty() ? Springs{} : held);
     if (!rest) return rest.error();
