@@ -26,7 +26,7 @@ void Transient::begin(std::vector<double> x) {
     newton_.memory = system_.fresh_memory();
     newton_.instant.charges = true, newton_.instant.time = 0;
     system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
-    work_ = {}, equations_.iterations = 0;
+    work_ = {}, equations_.iterations = 0, equations_.set_bend(1);
     charged_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
