@@ -1,8 +1,8 @@
 #include "corpuscle.hpp"
 
 #include "measure/measures.hpp"
-#include "study/afferents.hpp"
 #include "signal/stimuli.hpp"
+#include "study/afferents.hpp"
 
 namespace corpuscle {
 namespace {

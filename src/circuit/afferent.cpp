@@ -41,6 +41,7 @@ class CircuitAfferent final : public Afferent {
     std::shared_ptr<const CircuitDesign> design_;
     double T_;
     bool sampled_;
+    std::optional<Draw> chip_;
     std::int64_t delay_;
     std::string format_;
     std::vector<Probe> probes_;
@@ -56,7 +57,7 @@ class CircuitAfferent final : public Afferent {
                 return rig;
             }
         }
-        return Rig::make(*design_, T_);
+        return Rig::make(*design_, T_, chip_);
     }
     void give_back(std::unique_ptr<Rig> rig) const {
         const std::lock_guard lock(guard_);
@@ -67,10 +68,11 @@ class CircuitAfferent final : public Afferent {
     Result<void> go_on(Rig&, std::int64_t from, std::int64_t to, Answer&) const;
 
 public:
-    CircuitAfferent(std::shared_ptr<const CircuitDesign> design, double dt, bool sampled)
-        : design_(std::move(design)), T_(dt), sampled_(sampled),
+    CircuitAfferent(std::shared_ptr<const CircuitDesign> design, double dt, bool sampled, std::optional<Draw> chip)
+        : design_(std::move(design)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
           delay_(static_cast<std::int64_t>(std::ceil(2.1 * design_->plan.longest / dt)) + Trace::lag + 2),
-          format_(fmt::format("netlist {:016x}/1, T = {} s", design_->mark, dt)) {
+          format_(fmt::format("netlist {:016x}/1{}, T = {} s", design_->mark,
+                              chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
         for (const auto& s : design_->shown) probes_.push_back({s.name, s.name[0] == 'v' ? "V" : "A"});
     }
 
@@ -95,7 +97,8 @@ Result<void> CircuitAfferent::respond_on(Rig& rig, std::span<const double> force
         if (auto ok = rig.begin(force); !ok) return ok;
     } else {
         if (!rig.restore(state.values, state.step))
-            return bad_input(fmt::format("{}: a saved state is damaged: it holds what this netlist cannot have left", design_->circuit->file));
+            return bad_input(
+                fmt::format("{}: a saved state is damaged: it holds what this netlist cannot have left", design_->circuit->file));
         rig.hear(force);
     }
     const auto before = rig.work();
@@ -154,6 +157,11 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     if (!*output) return bad_input("nothing says what a spike is: '.spike v(NODE) LEVEL [rise|fall]'", place);
     auto design = std::make_shared<CircuitDesign>();
     for (const auto& c : circuit->commands) {
+        if (c.name == "mc") {
+            const auto chips = chips_of(c);
+            if (!chips) return chips.error();
+            design->chips = *chips;
+        }
         if (c.name != "tran") continue;
         const auto times = transient_times(c);
         if (!times) return times.error();
@@ -166,8 +174,9 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     return std::shared_ptr<const CircuitDesign>(std::move(design));
 }
 
-std::unique_ptr<Afferent> CircuitDesign::make(double dt, bool sampled) const {
-    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled);
+std::unique_ptr<Afferent> CircuitDesign::make(double dt, bool sampled, std::uint32_t copy) const {
+    const auto chip = chips && copy > 0 ? std::optional(chips->draw(copy - 1)) : std::nullopt;
+    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
 }
 
 }  // namespace corpuscle::circuit

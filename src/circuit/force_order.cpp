@@ -43,7 +43,8 @@ Result<Asked> asked(const Command& c) {
             continue;
         }
         const std::string of(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
-        out.wishes.push_back({of, own_letters(of, dot == std::string_view::npos ? name : name.substr(dot + 1)), fmt::format("{}", value->value)});
+        out.wishes.push_back(
+            {of, own_letters(of, dot == std::string_view::npos ? name : name.substr(dot + 1)), fmt::format("{}", value->value)});
     }
     return out;
 }

@@ -15,11 +15,12 @@ void put(std::vector<double>& out, std::span<const double> x) { out.insert(out.e
 
 }  // namespace
 
-Result<std::unique_ptr<Rig>> Rig::make(const CircuitDesign& design, double T) {
+Result<std::unique_ptr<Rig>> Rig::make(const CircuitDesign& design, double T, const std::optional<Draw>& chip) {
     auto bench = TestBench::make(design.circuit);
     if (!bench) return bench.error();
     std::unique_ptr<Rig> rig(new Rig(design, T));
     rig->bench_ = std::move(*bench);
+    if (chip) rig->bench_->draw(*chip);
     auto& system = rig->bench_->system;
     system.go(design.times.step > 0 ? design.times.step : T, design.times.stop > 0 ? design.times.stop : 1);
     for (const auto& d : system.devices()) rig->clocked_ |= d->varies();
@@ -53,7 +54,8 @@ Result<void> Rig::begin(std::span<const double> force) {
 Result<void> Rig::step() {
     if (!clocked_ && transient_->time() > long_ago) shift();
     if (clocked_ && transient_->time() >= end_of_clock)
-        return bad_input(fmt::format("a netlist with sources that go by time runs for {:g} s at the most", end_of_clock), {design_.circuit->file});
+        return bad_input(fmt::format("a netlist with sources that go by time runs for {:g} s at the most", end_of_clock),
+                         {design_.circuit->file});
     const auto stepped = transient_->step(trace_.known());
     if (!stepped) return stepped.error();
     if (!*stepped) return bad_input("a step depends on force that has not come yet", {design_.circuit->file});  // never, see delay()

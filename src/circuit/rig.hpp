@@ -25,7 +25,7 @@ class Rig {
     void shift();
 
 public:
-    static Result<std::unique_ptr<Rig>> make(const CircuitDesign&, double T);
+    static Result<std::unique_ptr<Rig>> make(const CircuitDesign&, double T, const std::optional<Draw>& chip);
     Rig(const Rig&) = delete;
 
     /// Anew, at rest under the first of these samples.

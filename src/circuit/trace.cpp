@@ -48,8 +48,8 @@ double Trace::at(double t) const {
 }
 
 double Trace::next_corner(double t) const {
-    const auto after = std::upper_bound(corners_.begin(), corners_.end(), t,
-                                        [&](double at, std::int64_t k) { return at < static_cast<double>(k) * T_; });
+    const auto after =
+        std::upper_bound(corners_.begin(), corners_.end(), t, [&](double at, std::int64_t k) { return at < static_cast<double>(k) * T_; });
     return after == corners_.end() ? std::numeric_limits<double>::infinity() : static_cast<double>(*after) * T_;
 }
 

@@ -181,7 +181,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
 }
 
 std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Run& run) {
-    if (plan.design) return plan.design->make(run.dt, run.sampled);
+    if (plan.design) return plan.design->make(run.dt, run.sampled, plan.copy);
     if (!plan.converter.empty()) return make_digital(plan, run);
     const auto settings = settings_of(plan);
     std::unique_ptr<Afferent> made;

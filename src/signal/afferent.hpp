@@ -35,9 +35,9 @@ struct Answer {
     std::uint32_t unit = 0;
     /// If not empty: one array a probe, each as long as the block of force, to be filled.
     std::span<double* const> probes = {};
-    std::int64_t capped = 0;      ///< steps whose spikes were more than the cap allows
-    std::int64_t clipped = 0;     ///< samples beyond what a sensor's electronics or a converter can tell
-    std::int64_t overflowed = 0;  ///< results too large for a digital afferent's words, kept at the largest
+    std::int64_t capped = 0;                               ///< steps whose spikes were more than the cap allows
+    std::int64_t clipped = 0;                              ///< samples beyond what a sensor's electronics or a converter can tell
+    std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words, kept at the largest
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of a circuit: in time, those taken again, and Newton's
 };
 
@@ -77,8 +77,8 @@ public:
     virtual ~Design() = default;
     virtual std::string_view kind() const = 0;   ///< "netlist"
     virtual std::string_view title() const = 0;  ///< what it says of itself
-    /// For samples dt apart, s; sampled: spikes come on the samples.
-    virtual std::unique_ptr<Afferent> make(double dt, bool sampled) const = 0;
+    /// For samples dt apart, s; sampled: spikes come on the samples; copy: its number among copies that may differ, from 1, or 0.
+    virtual std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy) const = 0;
 };
 
 }  // namespace corpuscle

@@ -54,8 +54,9 @@ std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents,
     std::vector<std::string> warnings;
     for (const auto& a : afferents)
         if (noise > 0 && (a.design || !a.converter.empty()))
-            warnings.push_back(fmt::format("{}: --noise does not reach it; {}", a.name,
-                                           a.design ? "a netlist has no membrane but its own" : "behind a converter membranes are numbers"));
+            warnings.push_back(
+                fmt::format("{}: --noise does not reach it; {}", a.name,
+                            a.design ? "a netlist has no membrane but its own" : "behind a converter membranes are numbers"));
     return warnings;
 }
 

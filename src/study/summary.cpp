@@ -194,10 +194,8 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
                    {"spikes", work.spikes},   {"capped_steps", work.capped_steps},
                    {"clipped", work.clipped}, {"overflowed", work.overflowed}};
     if (work.steps > 0 || !work.lost.empty())
-        out["work"]["circuits"] = {{"steps", work.steps},
-                                   {"rejected", work.rejected},
-                                   {"iterations", work.iterations},
-                                   {"not_converged", work.lost.size()}};
+        out["work"]["circuits"] = {
+            {"steps", work.steps}, {"rejected", work.rejected}, {"iterations", work.iterations}, {"not_converged", work.lost.size()}};
     out["warnings"] = warnings;
     return out;
 }

@@ -168,7 +168,8 @@ Result<void> Units::answer_force(Single& single, Answer& answer, std::span<doubl
     const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(single.unit);
     if (delay > 0 && samples_ == 0)
         if (auto ok = afferent.respond(ahead_.of(channel, 0, delay), single.state, answer); !ok) return ok;
-    const std::span<const double> force = delay > 0 ? ahead_.of(channel, delay, force_.count) : std::span(force_of(single.unit), force_.count);
+    const std::span<const double> force =
+        delay > 0 ? ahead_.of(channel, delay, force_.count) : std::span(force_of(single.unit), force_.count);
     answer.probes = shown;
     return afferent.respond(force, single.state, answer);
 }

@@ -10,6 +10,7 @@
 
 #include "circuit/netlist_runner.hpp"
 #include "study/afferents.hpp"
+#include "study/respond.hpp"
 #include "support/program.hpp"
 #include "support/property.hpp"
 
@@ -213,8 +214,28 @@ TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
     says(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is no number; the level to cross was expected");
     says(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
     says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: 'now' is too much");
-    says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n", file + ":2:9: iin: force has 2 numbers; wanted is force, or force and a scale");
+    says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n",
+         file + ":2:9: iin: force has 2 numbers; wanted is force, or force and a scale");
     EXPECT_EQ(refusal(t + ".spike v(a) 1\n"), "");
+}
+
+TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {
+    auto text = spiker();
+    text.insert(text.find(".save"), ".mc 3 seed=5\n.meas tran u max v(u)\n");
+    text.replace(text.find("tt"), 2, "mc");
+    const auto cut = text.find(".expect");
+    text.replace(cut, text.find(".end", cut) - cut, "");
+    const auto chips = ran_all(text);
+    ASSERT_EQ(chips.size(), 3U);
+    const auto made = design(text);
+    const auto press = corpuscle::test::force("press");
+    const auto clock = sure(clock_of(10e3));
+    for (std::uint32_t copy = 1; copy <= 3; ++copy) {
+        const auto spikes = times(answered(*made->make(1e-4, false, copy), press), clock);
+        EXPECT_EQ(static_cast<double>(spikes.size()), chips[copy - 1].number("spikes")) << copy;
+        EXPECT_NEAR(spikes[0], chips[copy - 1].number("first_spike"), 1e-6) << copy;
+        EXPECT_NE(spikes[0], times(answered(*made->make(1e-4, false), press), clock)[0]);
+    }
 }
 
 TEST(CircuitAfferent, OfTwoNetlistsNeitherTakesTheOthersState) {
@@ -243,6 +264,46 @@ TEST(Run, TellsSpikesUnderAForceOfTheNetlistsOwn) {
     EXPECT_NE(refused(".force").find("a stimulus is missing"), std::string::npos) << refused(".force");
 }
 
+/// Keeps what it hears.
+struct Ear final : Listener {
+    std::vector<Spike> spikes;
+    std::vector<double> shown;
+    std::int64_t samples = 0;
+    bool wants_probes() const override { return true; }
+    Result<void> block(const Input&, const Answered& a) override {
+        EXPECT_EQ(a.first, samples);
+        samples += static_cast<std::int64_t>(a.force.count);
+        for (const auto& s : a.spikes) {
+            EXPECT_TRUE(s.step >= a.first && s.step < samples);
+            spikes.push_back(s);
+        }
+        for (std::size_t k = 0; k < a.force.count; ++k)
+            for (const auto& unit : a.probes)
+                for (const auto& probe : unit) shown.push_back(probe[k]);
+        return {};
+    }
+};
+
+TEST(Respond, NetlistsBesideModelsInBlocksOfAnySize) {
+    const auto path = corpuscle::test::root() + "/circuits/spiker.cir";
+    std::vector<Ear> ears(3);
+    for (std::size_t k = 0; k < ears.size(); ++k) {
+        const std::vector<AfferentPlan> plans = {sure(plan_any_afferent(path, {})), sure(plan_any_afferent("fa1", {}))};
+        std::vector<std::unique_ptr<Source>> sources;
+        sources.push_back(sure(make_stimulus("press", {}, 1e3, 0)));
+        Listener* listeners[] = {&ears[k]};
+        RespondOptions options;
+        options.block = std::vector<std::size_t>{4096, 1, 37}[k];
+        const auto work = sure(respond(sources, plans, listeners, options));
+        EXPECT_EQ(work.samples, 1000);
+        EXPECT_GT(work.steps, 10000);
+        EXPECT_EQ(ears[k].samples, 1000);
+        EXPECT_TRUE(ears[k].spikes == ears[0].spikes);
+        EXPECT_TRUE(ears[k].shown == ears[0].shown);
+    }
+    EXPECT_GT(ears[0].spikes.size(), 60U);
+}
+
 class Responding : public ::testing::Test {
 protected:
     const Folder folder;
@@ -269,7 +330,8 @@ TEST_F(Responding, NetlistsAnswerBesideModelsTheSameOnAnyNumberOfThreads) {
     const auto one = corpuscle::test::run(folder, words(names, "--out one --traces -j 1 --report"));
     ASSERT_EQ(one.status, 0) << one.err;
     ASSERT_EQ(corpuscle::test::run(folder, words(names, "--out four --traces -j 4")).status, 0);
-    for (const std::string name : {"/spikes.csv", "/traces.csv"}) EXPECT_TRUE(read_file(folder / ("one" + name)) == read_file(folder / ("four" + name))) << name;
+    for (const std::string name : {"/spikes.csv", "/traces.csv"})
+        EXPECT_TRUE(read_file(folder / ("one" + name)) == read_file(folder / ("four" + name))) << name;
     const auto summary = nlohmann::json::parse(read_file(folder / "one/summary.json"));
     EXPECT_EQ(summary["afferents"][1]["name"], "./spiker.cir");
     EXPECT_EQ(summary["afferents"][1]["made_of"], "netlist");
@@ -293,7 +355,8 @@ TEST_F(Responding, AnswersAlikeInSmallBlocks) {
 
 TEST_F(Responding, OneThatDoesNotConvergeIsToldAndTheOthersGoOn) {
     // dv/dt = F - 0.5 - v^2: with less than half a newton it falls without end
-    folder.write("falls.cir", "falls\niin 0 a force 1\nb1 a 0 i={0.5+v(a)*v(a)*v(a)*v(a)*v(a)*v(a)-0*v(a)+2*v(a)*v(a)}\nca a 0 1m\n.spike v(a) 0.2\n");
+    folder.write("falls.cir",
+                 "falls\niin 0 a force 1\nb1 a 0 i={0.5+v(a)*v(a)*v(a)*v(a)*v(a)*v(a)-0*v(a)+2*v(a)*v(a)}\nca a 0 1m\n.spike v(a) 0.2\n");
     const auto ran = corpuscle::test::run(folder, words("sa1,falls.cir,spiker.cir", "--out answer"));
     EXPECT_EQ(ran.status, 3) << ran.err;
     EXPECT_NE(ran.err.find("did not converge"), std::string::npos) << ran.err;

@@ -48,7 +48,9 @@ TEST(Trace, AStillForceAndAStraightOneHaveNoCorner) {
 
 TEST(Trace, WhereForceJumpsOrRampsBeginThereIsACorner) {
     EXPECT_EQ(corners(trace_of(sampled(300, [](double t) { return t < 0.0995 ? 0.0 : 1.0; }))), (std::vector<long>{99, 100}));
-    EXPECT_EQ(corners(trace_of(sampled(300, [](double t) { return t < 0.1 ? 0.0 : t < 0.15 ? (t - 0.1) / 0.05 : 1.0; }))),
+    EXPECT_EQ(corners(trace_of(sampled(300, [](double t) { return t < 0.1    ? 0.0
+                                                                  : t < 0.15 ? (t - 0.1) / 0.05
+                                                                             : 1.0; }))),
               (std::vector<long>{100, 150}));
     EXPECT_EQ(corners(trace_of(sampled(300, [](double t) { return std::abs(t - 0.1) < 0.0005 ? 1.0 : 0.0; }))),
               (std::vector<long>{99, 100, 101}));

@@ -60,10 +60,9 @@ Result<TransientTimes> transient_times(const Command& given) {
         out.longest = *longest;
     }
     if (!(*step > 0 && *stop > 0 && *start >= 0 && *start < *stop && out.longest.value_or(1) > 0))
-        return bad_input(
-            fmt::format(".tran: step {:g}, stop {:g}, start {:g}{} s; all above 0, the start from 0 and below the stop", *step, *stop,
-                        *start, out.longest ? fmt::format(", longest {:g}", *out.longest) : ""),
-            c.place);
+        return bad_input(fmt::format(".tran: step {:g}, stop {:g}, start {:g}{} s; all above 0, the start from 0 and below the stop", *step,
+                                     *stop, *start, out.longest ? fmt::format(", longest {:g}", *out.longest) : ""),
+                         c.place);
     return out;
 }
 
