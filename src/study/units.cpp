@@ -177,7 +177,7 @@ Result<void> Units::answer_force(Single& single, Answer& answer, std::span<doubl
 Result<void> Units::answer_singles(Pool& pool, Work& work) {
     pool.each(singles_.size(), [this](std::size_t k, unsigned) { answer_single(singles_[k]); });
     for (auto& s : singles_) {
-        if (s.error && s.error->code != Code::not_converged) return *s.error;
+        if (s.error && !(s.error->code == Code::not_converged && input_.afferent_of(s.unit).design)) return *s.error;
         if (s.error) s.lost = true, work.lost.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
         work.capped_steps += s.capped, work.clipped += s.clipped, work.overflowed += s.overflowed;

@@ -32,7 +32,7 @@ private:
         std::vector<Spike> spikes = {};
         std::int64_t capped = 0, clipped = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;
         std::optional<Error> error = {};
-        bool lost = false;  // it did not converge: it says no more
+        bool lost = false;  // a netlist that did not converge: it says no more
     };
 
     Units(Input input, std::size_t block, bool probed);
