@@ -1,8 +1,8 @@
 #include "corpuscle.hpp"
 
 #include "measure/measures.hpp"
-#include "model/catalog.hpp"
 #include "signal/stimuli.hpp"
+#include "study/afferents.hpp"
 
 namespace corpuscle {
 namespace {
@@ -40,14 +40,16 @@ Touch stimulus(const std::string& name, const std::vector<std::string>& settings
 
 Response respond(const std::string& afferent, const Touch& touch, const std::vector<std::string>& settings) {
     const auto wishes = wishes_of(settings);
-    const auto plan = sure(plan_afferent(afferent, wishes));
+    const auto plan = sure(plan_any_afferent(afferent, wishes));
     check_used(wishes);
     const auto clock = sure(clock_of(touch.rate));
     const auto made = make_afferent(plan, {clock.T()});
     auto state = made->start();
     std::vector<Spike> spikes;
     Answer answer{spikes};
-    if (auto ok = made->respond(touch.force, state, answer); !ok) throw Refused(ok.error().text());
+    auto force = touch.force;
+    if (!force.empty()) force.insert(force.end(), static_cast<std::size_t>(made->delay()), force.back());
+    if (auto ok = made->respond(force, state, answer); !ok) throw Refused(ok.error().text());
     return {times(spikes, clock)};
 }
 

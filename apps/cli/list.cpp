@@ -55,6 +55,12 @@ std::vector<Entry> afferent_entries() {
                            *plan->parameters,
                            {a.other_names.begin(), a.other_names.end()}});
     }
+    entries.push_back({"path/own.cir",
+                       "netlist",
+                       "any netlist that says where force goes in (a source with FORCE) and what a spike is (.spike)",
+                       "doc/circuits.md; circuits/spiker.cir",
+                       {},
+                       {}});
     return entries;
 }
 

@@ -32,7 +32,8 @@ constexpr const char* respond_examples =
     R"(FORCE is a file of numbers in columns (- for standard input), or a stimulus by name: press, ramp-hold, step, sine,
 chirp, noise, grating, or a sum of them: press+noise (a shorter one holds its last value). AFFERENT is a name (sa1 fa1
 sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a transduction and a neuron: sa1b+izhikevich; before either may
-stand a sensor, a transducer, a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b. 'corpuscle list' shows them all, with
+stand a sensor, a transducer, a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b; or the path of a netlist with a force
+input and a spike output: circuits/spiker.cir. 'corpuscle list' shows them all, with
 every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
 
 Examples:

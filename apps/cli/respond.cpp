@@ -14,6 +14,7 @@
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
+#include "study/afferents.hpp"
 #include "study/summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -110,7 +111,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
         job.wishes.push_back(std::move(*wish));
     }
     for (const auto& name : w.afferents) {
-        auto plan = plan_afferent(name, job.wishes);
+        auto plan = plan_any_afferent(name, job.wishes);
         if (!plan) return plan.error();
         if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == plan->name; }))
             return bad_usage(fmt::format("--afferent {}: given twice", name));
@@ -218,6 +219,14 @@ void print_quality(Job& job, const Summary& summary, bool quiet) {
     }
 }
 
+/// Netlists on their channels.
+std::size_t netlists(const Job& job) {
+    std::size_t all = 0;
+    for (const auto& s : job.sources)
+        for (const auto& a : job.copies) all += a.design ? s->channels().size() : 0;
+    return all;
+}
+
 Result<void> run(const RespondWords& w, const Common& common) {
     auto job = prepare(w, common.quiet);
     if (!job) return job.error();
@@ -247,6 +256,12 @@ Result<void> run(const RespondWords& w, const Common& common) {
         fmt::print("{}", document);
     else if (!common.quiet)
         fmt::print("{}{}{}{}", inputs_table(summary), copies_line(job->population), rate_table(summary), outputs.told());
+    if (!work->lost.empty()) {
+        auto error = work->lost[0];
+        error.sentence = fmt::format("{} of {} netlists on their channels did not converge; the first: {}", work->lost.size(),
+                                     netlists(*job), error.sentence);
+        return error;
+    }
     return {};
 }
 

@@ -65,8 +65,11 @@ Json document_of(const Done& done) {
         expectations.push_back(
             {{"what", e.what}, {"found", number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
     for (const auto& r : outcome.remarks) remarks.push_back(r.text());
-    return {{"title", done.variant.circuit->title}, {"plots", plots},     {"analyses", analyses}, {"numbers", numbers},
-            {"expectations", expectations},         {"warnings", remarks}};
+    Json out = {{"title", done.variant.circuit->title}, {"plots", plots},     {"analyses", analyses}, {"numbers", numbers},
+                {"expectations", expectations},         {"warnings", remarks}};
+    for (const auto& a : outcome.analyses)
+        if (a.findings.spikes) out["spikes"].push_back(*a.findings.spikes);  // a list each .tran
+    return out;
 }
 
 void print_numbers(const RunOutcome& outcome) {

@@ -7,9 +7,10 @@
 #include "circuit/analyses.hpp"
 #include "circuit/curves.hpp"
 #include "circuit/measure.hpp"
+#include "circuit/narrow.hpp"
 #include "circuit/netlist/number.hpp"
 #include "circuit/print.hpp"
-#include "circuit/save.hpp"
+#include "circuit/saved.hpp"
 #include "circuit/solve/topology.hpp"
 #include "signal/field.hpp"
 
@@ -164,9 +165,9 @@ Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
         out.remarks = circuit->remarks;
         for (auto& s : suspicious(*circuit)) out.remarks.push_back(std::move(s));
     }
-    auto saved = saved_of(bench.system, *circuit);
+    const auto saved = saved_of(bench.system);
     if (!saved) return saved.error();
-    out.saved = std::move(*saved);
+    for (const auto& curve : *saved) out.saved.push_back(curve.name);
     Measures measures(*circuit);
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);

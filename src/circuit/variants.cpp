@@ -48,6 +48,34 @@ Result<std::vector<double>> by_powers(const Command& c, std::size_t word, double
 
 }  // namespace
 
+Result<Chips> chips_of(const Command& c) {
+    Chips out;
+    const auto count = number_of(c, 0, "a number of draws");
+    if (!count) return count.error();
+    out.count = *count;
+    for (std::size_t k = 1; k < c.words.size(); ++k) {
+        const auto equals = c.words[k].find('=');
+        const auto name = c.words[k].substr(0, equals);
+        const auto value = equals == std::string::npos ? std::nullopt : whole_number(std::string_view(c.words[k]).substr(equals + 1));
+        if (!value || (name != "seed" && name != "process" && name != "mismatch"))
+            return bad_input(fmt::format(".mc: '{}' must be seed=NUMBER, process=0|1 or mismatch=0|1", c.words[k]), c.place);
+        if (name == "seed") {
+            if (!(value->value >= 0 && value->value < 0x1p53))
+                return bad_input(fmt::format(".mc: seed={:g} must be from 0 to 2^53", value->value), c.place);
+            out.seed = static_cast<std::uint64_t>(value->value);
+        }
+        if (name == "process") out.process = value->value != 0;
+        if (name == "mismatch") out.mismatch = value->value != 0;
+    }
+    return out;
+}
+
+Draw Chips::draw(std::uint64_t chip) const {
+    Draw out{seed, chip, mismatch, {}};
+    if (process) std::copy_n(process_deviates(seed, chip).of, 4, out.process);
+    return out;
+}
+
 Result<Variants> Variants::of(const Netlist& netlist) {
     Variants out{};
     out.netlist_ = netlist;
@@ -83,33 +111,19 @@ Result<Variants> Variants::of(const Netlist& netlist) {
             out.axes_.push_back(std::move(axis));
         }
         if (c.name == "mc") {
-            const auto draws = number_of(c, 0, "a number of draws");
-            if (!draws) return draws.error();
-            count *= *draws;
-            if (!(*draws >= 1 && count <= most_variants)) return too_many(c, count);
-            out.draws_ = static_cast<std::size_t>(*draws);
-            for (std::size_t k = 1; k < c.words.size(); ++k) {
-                const auto equals = c.words[k].find('=');
-                const auto name = c.words[k].substr(0, equals);
-                const auto value =
-                    equals == std::string::npos ? std::nullopt : whole_number(std::string_view(c.words[k]).substr(equals + 1));
-                if (!value || (name != "seed" && name != "process" && name != "mismatch"))
-                    return bad_input(fmt::format(".mc: '{}' must be seed=NUMBER, process=0|1 or mismatch=0|1", c.words[k]), c.place);
-                if (name == "seed") {
-                    if (!(value->value >= 0 && value->value < 0x1p53))
-                        return bad_input(fmt::format(".mc: seed={:g} must be from 0 to 2^53", value->value), c.place);
-                    out.seed_ = static_cast<std::uint64_t>(value->value);
-                }
-                if (name == "process") out.process_ = value->value != 0;
-                if (name == "mismatch") out.mismatch_ = value->value != 0;
-            }
+            const auto chips = chips_of(c);
+            if (!chips) return chips.error();
+            count *= chips->count;
+            if (!(chips->count >= 1 && count <= most_variants)) return too_many(c, count);
+            out.chips_ = *chips;
+            out.chips_.count = std::floor(chips->count);
         }
     }
     return out;
 }
 
 std::size_t Variants::count() const {
-    std::size_t count = std::max<std::size_t>(draws_, 1);
+    std::size_t count = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1);
     for (const auto& axis : axes_) count *= axis.values.size();
     return count;
 }
@@ -138,13 +152,11 @@ Result<void> Variants::step(std::size_t number) {
 }
 
 Result<Variant> Variants::at(std::size_t number) {
-    const std::size_t draws = std::max<std::size_t>(draws_, 1), chip = number % draws;
+    const std::size_t draws = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % draws;
     if (auto ok = step(number / draws); !ok) return ok.error();
     Variant out{last_->label, last_->circuit, {}};
-    if (draws_ == 0) return out;
-    Draw draw{seed_, chip, mismatch_, {}};
-    if (process_) std::copy_n(process_deviates(seed_, chip).of, 4, draw.process);
-    out.draw = draw;
+    if (!this->draws()) return out;
+    out.draw = chips_.draw(chip);
     out.label += fmt::format("{}mc={}", out.label.empty() ? "" : " ", chip + 1);
     return out;
 }

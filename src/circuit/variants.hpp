@@ -14,6 +14,16 @@ struct Variant {
     std::optional<Draw> draw;
 };
 
+/// What a .mc line says of the chips that it asks for.
+struct Chips {
+    double count = 0;
+    std::uint64_t seed = 0;
+    bool process = true, mismatch = true;
+
+    Draw draw(std::uint64_t chip) const;  ///< of the first, 0, and so on
+};
+Result<Chips> chips_of(const Command&);
+
 /// .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS; NAME may be temp (without
 /// param). Several .step lines: every value of the first with every of the second. .mc COUNT [seed=S] [process=0] [mismatch=0]: each
 /// transistor draws its own delvto and mulu0, each chip its process, after the card's deviations (avt, ais, svt0, sis).
@@ -24,9 +34,7 @@ class Variants {
         std::vector<double> values;
     };
     std::vector<Axis> axes_;
-    std::size_t draws_ = 0;
-    std::uint64_t seed_ = 0;
-    bool process_ = true, mismatch_ = true;
+    Chips chips_;
     std::shared_ptr<const Circuit> plain_;
     struct Stepped {
         std::size_t number;
@@ -40,7 +48,7 @@ class Variants {
 public:
     static Result<Variants> of(const Netlist&);
     std::size_t count() const;
-    bool draws() const { return draws_ > 0; }
+    bool draws() const { return chips_.count > 0; }
     /// Quick where numbers follow each other: draws run fastest.
     Result<Variant> at(std::size_t number);
 };

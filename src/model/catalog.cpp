@@ -108,6 +108,7 @@ std::optional<double> AfferentPlan::value(std::string_view parameter) const {
 }
 
 std::string AfferentPlan::made_of() const {
+    if (design) return std::string(design->kind());
     std::string text;
     for (const auto part : {sensor, transducer, converter, receptor, neuron})
         if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
@@ -180,6 +181,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
 }
 
 std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Run& run) {
+    if (plan.design) return plan.design->make(run.dt, run.sampled, plan.copy);
     if (!plan.converter.empty()) return make_digital(plan, run);
     const auto settings = settings_of(plan);
     std::unique_ptr<Afferent> made;

@@ -72,6 +72,7 @@ struct AfferentPlan {
     std::string_view sensor = {}, transducer = {}, converter = {};  ///< "": there is none
     std::uint32_t copy = 0;                                         ///< its number among its copies, from 1; 0: it is none
     std::string of = {};                                            ///< the name of what it is a copy of
+    std::shared_ptr<const Design> design = {};                      ///< what it is, where no model is: then there is no neuron either
     std::optional<double> value(std::string_view parameter) const;
     std::string made_of() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
 };

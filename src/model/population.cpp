@@ -105,7 +105,7 @@ std::unique_ptr<Population> crowd(const PopulationPlan& p, const Run& run, Instr
 }  // namespace
 
 bool goes_on_lanes(const AfferentPlan& plan, const Run& run) {
-    return plan.sensor.empty() && plan.transducer.empty() && plan.converter.empty() && run.noise == 0;
+    return !plan.design && plan.sensor.empty() && plan.transducer.empty() && plan.converter.empty() && run.noise == 0;
 }
 
 Result<std::unique_ptr<Population>> make_population(const PopulationPlan& p, const Run& run, InstructionSet set) {
@@ -115,7 +115,8 @@ Result<std::unique_ptr<Population>> make_population(const PopulationPlan& p, con
         return bad_input(fmt::format("{} numbers for {} units", p.numbers.size(), p.units));
     if (auto wrong = unlike(p.plans)) return *wrong;
     for (const auto* plan : p.plans)
-        if (!goes_on_lanes(*plan, run)) return bad_input(fmt::format("{}: sensors, converters and noise do not go on lanes", plan->name));
+        if (!goes_on_lanes(*plan, run))
+            return bad_input(fmt::format("{}: netlists, sensors, converters and noise do not go on lanes", plan->name));
     return p.precision == Precision::in_double ? crowd<double>(p, run, set) : crowd<float>(p, run, set);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,9 +35,10 @@ struct Answer {
     std::uint32_t unit = 0;
     /// If not empty: one array a probe, each as long as the block of force, to be filled.
     std::span<double* const> probes = {};
-    std::int64_t capped = 0;      ///< steps whose spikes were more than the cap allows
-    std::int64_t clipped = 0;     ///< samples beyond what a sensor's electronics or a converter can tell
-    std::int64_t overflowed = 0;  ///< results too large for a digital afferent's words, kept at the largest
+    std::int64_t capped = 0;                               ///< steps whose spikes were more than the cap allows
+    std::int64_t clipped = 0;                              ///< samples beyond what a sensor's electronics or a converter can tell
+    std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words, kept at the largest
+    std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of a circuit: in time, those taken again, and Newton's
 };
 
 /// Which of several channels that share their electronics: a converter takes them in turn.
@@ -59,8 +61,24 @@ public:
     virtual std::span<const Probe> probes() const = 0;
     /// The state before the first sample. The first sample also sets the force that went before it.
     virtual State start(Turn = {}) const = 0;
+    /// How many samples the answer is behind the force: a block answers that many samples before those it hands in, and so do its
+    /// probes. Who wants to hear a force to its end hands in so many samples more.
+    virtual std::int64_t delay() const { return 0; }
     /// Answers the next block (force in newtons, one sample a T). Blocks of any size give the same spikes.
     virtual Result<void> respond(std::span<const double> force, State&, Answer&) const = 0;
+};
+
+/// What afferents are made from that are no models of equations: a netlist.
+class Design {
+public:
+    Design() = default;
+    Design(const Design&) = delete;
+    Design& operator=(const Design&) = delete;
+    virtual ~Design() = default;
+    virtual std::string_view kind() const = 0;   ///< "netlist"
+    virtual std::string_view title() const = 0;  ///< what it says of itself
+    /// For samples dt apart, s; sampled: spikes come on the samples; copy: its number among copies that may differ, from 1, or 0.
+    virtual std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy) const = 0;
 };
 
 }  // namespace corpuscle

@@ -53,8 +53,10 @@ Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise) {
     std::vector<std::string> warnings;
     for (const auto& a : afferents)
-        if (noise > 0 && !a.converter.empty())
-            warnings.push_back(fmt::format("{}: --noise does not reach it; behind a converter membranes are numbers", a.name));
+        if (noise > 0 && (a.design || !a.converter.empty()))
+            warnings.push_back(
+                fmt::format("{}: --noise does not reach it; {}", a.name,
+                            a.design ? "a netlist has no membrane but its own" : "behind a converter membranes are numbers"));
     return warnings;
 }
 
@@ -73,6 +75,7 @@ std::vector<std::string> work_warnings(const Work& work) {
     if (work.overflowed > 0)
         warnings.push_back(fmt::format(
             "{} results did not fit their words and were kept at the largest or least; lower frac, or raise word", work.overflowed));
+    for (const auto& error : work.lost) warnings.push_back("did not converge, and said no more: " + error.text());
     return warnings;
 }
 

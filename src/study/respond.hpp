@@ -49,9 +49,11 @@ struct Work {
     std::int64_t samples = 0;         ///< of force, over all channels
     std::int64_t afferent_steps = 0;  ///< samples times afferents
     std::int64_t spikes = 0;
-    std::int64_t capped_steps = 0;  ///< steps cut short by the cap on spikes a step
-    std::int64_t clipped = 0;       ///< samples beyond a sensor's electronics or converter
-    std::int64_t overflowed = 0;    ///< results too large for a digital afferent's words
+    std::int64_t capped_steps = 0;                         ///< steps cut short by the cap on spikes a step
+    std::int64_t clipped = 0;                              ///< samples beyond a sensor's electronics or converter
+    std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words
+    std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: in time, those taken again, and Newton's
+    std::vector<Error> lost;                               ///< a netlist that did not converge, and when: it said no more on its channel
 };
 
 struct RespondOptions {

@@ -18,6 +18,7 @@ void add(Json& object, std::string key, Json value) { object.get_ref<Json::objec
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json afferent_document(const AfferentPlan& plan) {
+    if (plan.design) return {{"name", plan.name}, {"made_of", plan.made_of()}, {"title", plan.sentence}};
     Json parameters = Json::object();
     for (std::size_t k = 0; k < plan.values.size(); ++k) {
         const auto& p = (*plan.parameters)[k];
@@ -192,6 +193,9 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
     out["work"] = {{"samples", work.samples}, {"afferent_steps", work.afferent_steps},
                    {"spikes", work.spikes},   {"capped_steps", work.capped_steps},
                    {"clipped", work.clipped}, {"overflowed", work.overflowed}};
+    if (work.steps > 0 || !work.lost.empty())
+        out["work"]["circuits"] = {
+            {"steps", work.steps}, {"rejected", work.rejected}, {"iterations", work.iterations}, {"not_converged", work.lost.size()}};
     out["warnings"] = warnings;
     return out;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace corpuscle {
 namespace {
@@ -50,7 +52,7 @@ Kinds kinds_of(std::span<const AfferentPlan> plans, const Run& run) {
 }  // namespace
 
 Units::Units(Input input, std::size_t block, bool probed)
-    : input_(std::move(input)), probed_(probed), force_(input_.source.channels().size(), block) {}
+    : input_(std::move(input)), probed_(probed), force_(input_.source.channels().size(), block), ahead_(0, 0) {}
 
 Result<Units> Units::make(Input input, const RespondOptions& options, bool probed) {
     const auto set = instruction_set();
@@ -70,7 +72,8 @@ Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
     auto kinds = kinds_of(plans, run);
     if (in_float && (probed_ || !kinds.alone.empty()))
         return bad_usage(probed_ ? "in float no currents and membranes are kept: leave out --traces"
-                                 : fmt::format("{}: sensors, converters and noise are not in float", plans[kinds.alone[0]].name));
+                                 : fmt::format("{}: {} are not in float", plans[kinds.alone[0]].name,
+                                               plans[kinds.alone[0]].design ? "netlists" : "sensors, converters and noise"));
     std::vector<bool> single(plans.size());
     for (const auto k : kinds.alone) single[k] = true;
     for (const auto& kind : kinds.together) {
@@ -84,6 +87,9 @@ Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
     for (std::size_t k = 0; k < plans.size(); ++k)
         if (single[k]) afferents_[k] = make_afferent(plans[k], run), probes_of_[k] = afferents_[k]->probes();
     input_.probes = probes_of_;
+    std::int64_t delay = 0;
+    for (const auto& a : afferents_) delay = std::max(delay, a ? a->delay() : 0);
+    ahead_ = Ahead(channels, static_cast<std::size_t>(delay));
     for (std::size_t u = 0; u < input_.units(); ++u) {
         const std::size_t plan = u % plans.size();
         if (!single[plan]) continue;
@@ -147,24 +153,41 @@ void Units::answer_single(Single& single) {
     if (probed_)
         for (auto& p : shown_[u]) shown.push_back(p.data());
     single.spikes.clear();
-    Answer answer{single.spikes, input_.first_unit + single.unit, shown};
-    if (auto ok = afferents_[u % afferents_.size()]->respond({force_of(u), force_.count}, single.state, answer); !ok)
+    Answer answer{single.spikes, input_.first_unit + single.unit};
+    if (single.lost)
+        for (double* p : shown) std::fill_n(p, force_.count, std::numeric_limits<double>::quiet_NaN());
+    else if (auto ok = answer_force(single, answer, shown); !ok)
         single.error = of_unit(ok.error(), u);
     single.capped = answer.capped, single.clipped = answer.clipped, single.overflowed = answer.overflowed;
+    single.steps = answer.steps, single.rejected = answer.rejected, single.iterations = answer.iterations;
+}
+
+/// One whose answer is behind the force has heard so much more of it before the first block.
+Result<void> Units::answer_force(Single& single, Answer& answer, std::span<double* const> shown) {
+    const auto& afferent = *afferents_[single.unit % afferents_.size()];
+    const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(single.unit);
+    if (delay > 0 && samples_ == 0)
+        if (auto ok = afferent.respond(ahead_.of(channel, 0, delay), single.state, answer); !ok) return ok;
+    const std::span<const double> force =
+        delay > 0 ? ahead_.of(channel, delay, force_.count) : std::span(force_of(single.unit), force_.count);
+    answer.probes = shown;
+    return afferent.respond(force, single.state, answer);
 }
 
 Result<void> Units::answer_singles(Pool& pool, Work& work) {
     pool.each(singles_.size(), [this](std::size_t k, unsigned) { answer_single(singles_[k]); });
-    for (const auto& s : singles_) {
-        if (s.error) return *s.error;
+    for (auto& s : singles_) {
+        if (s.error && !(s.error->code == Code::not_converged && input_.afferent_of(s.unit).design)) return *s.error;
+        if (s.error) s.lost = true, work.lost.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
         work.capped_steps += s.capped, work.clipped += s.clipped, work.overflowed += s.overflowed;
+        work.steps += s.steps, work.rejected += s.rejected, work.iterations += s.iterations;
     }
     return {};
 }
 
 Result<bool> Units::answer_block(Source& source, std::span<Listener* const> listeners, Pool& pool, Work& work) {
-    if (auto ok = source.read(force_); !ok) return ok.error();
+    if (auto ok = ahead_.next(source, force_); !ok) return ok.error();
     if (force_.count == 0) return false;
     spikes_.clear();
     for (auto& crowd : crowds_)

@@ -2,6 +2,7 @@
 // The units of one input at work: side by side on lanes where they can, one by one where they cannot, on all threads.
 
 #include "model/population.hpp"
+#include "study/ahead.hpp"
 #include "study/respond.hpp"
 
 namespace corpuscle {
@@ -29,8 +30,9 @@ private:
         std::uint32_t unit;
         State state;
         std::vector<Spike> spikes = {};
-        std::int64_t capped = 0, clipped = 0, overflowed = 0;
+        std::int64_t capped = 0, clipped = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;
         std::optional<Error> error = {};
+        bool lost = false;  // a netlist that did not converge: it says no more
     };
 
     Units(Input input, std::size_t block, bool probed);
@@ -38,6 +40,7 @@ private:
     Result<void> seat_crowds(std::span<const std::size_t> plans, const Run& run, const RespondOptions& options, InstructionSet set);
     Result<void> answer_crowd(Crowd& crowd, Pool& pool, Work& work);
     void answer_single(Single& single);
+    Result<void> answer_force(Single& single, Answer& answer, std::span<double* const> shown);
     Result<void> answer_singles(Pool& pool, Work& work);
     Error of_unit(Error error, std::size_t unit) const;
     const double* force_of(std::size_t unit) const { return force_.force[input_.channel_of(unit)].data(); }
@@ -45,6 +48,7 @@ private:
     Input input_;
     bool probed_;
     Frames force_;
+    Ahead ahead_;
     std::vector<std::unique_ptr<Afferent>> afferents_;  // of each plan; none where its units are in crowds
     std::vector<std::span<const Probe>> probes_of_;
     std::vector<Crowd> crowds_;

@@ -215,7 +215,7 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
     const auto document = Json::parse(ran.out);
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"of", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run(folder, "list --json").out);
-    EXPECT_EQ(listed["afferents"].size(), named_afferents().size());
+    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + 1);  // and netlists
     for (const auto& card : receptor_cards())
         EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) {
             return e["name"] == card.name;

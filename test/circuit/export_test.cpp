@@ -101,11 +101,13 @@ void simplify(Command& dc) {
     }
 }
 
-/// Commands that ngspice cannot be asked, and others that would be asked there alone.
+/// Without commands that ngspice cannot be asked, and others that would be asked there alone; without .tran, whose points are each one's
+/// own.
 std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Circuit>& circuit) {
     auto out = std::make_shared<Circuit>(*circuit);
-    std::erase_if(out->commands,
-                  [](const Command& c) { return c.name == "expect" || c.name == "step" || c.name == "mc" || c.name.starts_with("meas"); });
+    std::erase_if(out->commands, [](const Command& c) {
+        return c.name == "expect" || c.name == "step" || c.name == "mc" || c.name == "tran" || c.name.starts_with("meas");
+    });
     for (auto& c : out->commands)
         if (c.name == "dc") simplify(c);
     return out;

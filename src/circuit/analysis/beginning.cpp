@@ -35,18 +35,15 @@ Error kicked(const TestBench& bench, const Growth& growth) {
 
 }  // namespace
 
-Result<Beginning> beginning(TestBench& bench, bool uic) {
+Result<Beginning> beginning(TestBench& bench, bool uic, std::vector<double> from) {
     const auto springs = held(bench);
+    bench.newton.instant.time = 0, bench.newton.instant.charges = false;
     if (uic) return Beginning{springs.to, false};
-    if (!bench.circuit->ic.empty()) {
-        auto rest = operating_point(bench.newton, {}, springs);
-        if (!rest) return rest.error();
-        return Beginning{std::move(rest->x)};
-    }
-    const auto rest = bench.rest();
+    const bool held_there = !bench.circuit->ic.empty();
+    auto rest = operating_point(bench.newton, std::move(from), held_there ? springs : Springs{});
     if (!rest) return rest.error();
-    Beginning out{rest->x};
-    if (bench.system.linear()) return out;
+    Beginning out{std::move(rest->x)};
+    if (held_there || bench.system.linear()) return out;
     const auto growth = growth_at(bench.newton, out.x);
     if (!growth) return out;
     for (std::size_t n = 0; n < out.x.size(); ++n) out.x[n] += kick * growth->direction[n];

@@ -11,8 +11,8 @@ struct Beginning {
     std::optional<Error> remark{};  ///< a warning: it would have stayed where it rests
 };
 
-/// The operating point, with the nodes of .ic held there; with uic those alone, and all else at 0 V. A circuit without .ic that rests
-/// where the smallest disturbance would grow begins 10 mV beside, in the direction that grows most.
-Result<Beginning> beginning(TestBench&, bool uic);
+/// The operating point, sought from `from`, with the nodes of .ic held there; with uic those alone, and all else at 0 V. A circuit without
+/// .ic that rests where the smallest disturbance would grow begins 10 mV beside, in the direction that grows most.
+Result<Beginning> beginning(TestBench&, bool uic, std::vector<double> from = {});
 
 }  // namespace corpuscle::circuit

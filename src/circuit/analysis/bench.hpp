@@ -19,6 +19,7 @@ struct Findings {
     std::vector<std::pair<std::string, double>> work;     ///< what it took: steps, iterations ...
     std::string table;                                    ///< for people
     std::vector<Error> remarks;
+    std::optional<std::vector<double>> spikes;  ///< s, where the netlist has .spike
 };
 
 /// A circuit ready for its analyses; one chip of it after another, if it is drawn.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "circuit/device/values.hpp"
-#
 
 namespace corpuscle::circuit {
 namespace {
@@ -42,6 +41,30 @@ Result<TransientPlan> transient_plan(const Circuit& c) {
         return bad_input(fmt::format(".options maxord={:g}: a whole number from 1 to 5", order), Place{c.file});
     plan.order = static_cast<int>(order);
     return plan;
+}
+
+Result<TransientTimes> transient_times(const Command& given) {
+    auto c = given;
+    TransientTimes out;
+    out.uic = !c.words.empty() && c.words.back() == "uic";
+    if (out.uic) c.words.pop_back();
+    if (c.words.size() < 2 || c.words.size() > 4) return bad_input(".tran: it is .tran STEP STOP [START [LONGEST]] [uic]", c.place);
+    const auto step = number_of(c, 0, "a step"), stop = number_of(c, 1, "where it stops");
+    const auto start = c.words.size() > 2 ? number_of(c, 2, "where it begins to be kept") : Result<double>(0.0);
+    if (!step) return step.error();
+    if (!stop) return stop.error();
+    if (!start) return start.error();
+    out.step = *step, out.stop = *stop, out.start = *start;
+    if (c.words.size() > 3) {
+        const auto longest = number_of(c, 3, "the longest step");
+        if (!longest) return longest.error();
+        out.longest = *longest;
+    }
+    if (!(*step > 0 && *stop > 0 && *start >= 0 && *start < *stop && out.longest.value_or(1) > 0))
+        return bad_input(fmt::format(".tran: step {:g}, stop {:g}, start {:g}{} s; all above 0, the start from 0 and below the stop", *step,
+                                     *stop, *start, out.longest ? fmt::format(", longest {:g}", *out.longest) : ""),
+                         c.place);
+    return out;
 }
 
 }  // namespace corpuscle::circuit

@@ -16,6 +16,8 @@
 
 namespace corpuscle::circuit {
 
+class Trace;
+
 /// Under what a device is looked at.
 struct Instant {
     double time = 0;
@@ -75,6 +77,8 @@ public:
 
     /// From now on a source goes its course in time, in an analysis of this step and end, s; 0: it stands as it did.
     virtual void go(double, double) {}
+    /// From now on a source that carries force takes it from this trace; null: 0 N. False: it carries none.
+    virtual bool hear(const Trace*) { return false; }
     /// The first time after t at which it bends or jumps, s.
     virtual double next_corner(double) const { return std::numeric_limits<double>::infinity(); }
     /// The longest step, s, that does not overlook what it does between its corners.

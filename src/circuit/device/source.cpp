@@ -3,6 +3,7 @@
 #include "circuit/device/course.hpp"
 #include "circuit/device/formula_inputs.hpp"
 #include "circuit/device/values.hpp"
+#include "circuit/trace.hpp"
 #include "signal/elementary.hpp"
 
 namespace corpuscle::circuit {
@@ -29,14 +30,18 @@ std::complex<double> phasor(const Waveform& w) {
     return {w.ac_magnitude * num::cos_turns(turns), w.ac_magnitude * num::sin_turns(turns)};
 }
 
+/// With the word FORCE it carries its DC value and, times a scale, a force that somebody hands in.
 class IndependentSource : public Device {
     Waveform wave_;
     double value_;
     std::optional<Course> course_;
+    const Trace* force_ = nullptr;
+
+    double now(double t) const { return course_ ? course_->at(t) : force_ ? value_ + wave_.numbers[0] * force_->at(t) : value_; }
 
 protected:
     std::complex<double> phasor_;
-    double value(const Instant& at) const { return at.sources * (course_ ? course_->at(at.time) : value_); }
+    double value(const Instant& at) const { return at.sources * now(at.time); }
 
 public:
     explicit IndependentSource(const Waveform& wave) : wave_(wave), value_(at_rest(wave)), phasor_(phasor(wave)) {}
@@ -46,9 +51,16 @@ public:
         course_.reset();
         if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) course_.emplace(wave_, step, stop);
     }
+    bool hear(const Trace* force) override {
+        const bool carries = wave_.shape == Waveform::Shape::force;
+        if (carries) force_ = force;
+        return carries;
+    }
     double pace() const override { return course_ ? course_->pace() : Device::pace(); }
-    bool varies() const override { return course_.has_value(); }
-    double next_corner(double t) const override { return course_ ? course_->next_corner(t) : Device::next_corner(t); }
+    bool varies() const override { return course_ || force_; }
+    double next_corner(double t) const override {
+        return course_ ? course_->next_corner(t) : force_ ? force_->next_corner(t) : Device::next_corner(t);
+    }
 };
 
 /// Unknowns: two nodes, and the current from the first through the source to the second.

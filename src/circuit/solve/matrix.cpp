@@ -87,7 +87,8 @@ bool Solver<T>::factor(std::span<const T> values) {
         if (held_->by_list) return true;
         if (held_->list) return factor_anew(values);  // and not along pivots that depend on which matrices went before
     }
-    return (held_->numeric != nullptr && held_->again(numbers)) || held_->anew(numbers);
+    // Beside a list the last pivots are not tried: an answer is to depend on its matrix alone, not on those before.
+    return (held_->numeric != nullptr && !held_->list && held_->again(numbers)) || held_->anew(numbers);
 }
 
 template <class T>

@@ -13,7 +13,8 @@ constexpr double near_enough = 0.03;                           // of what is all
 
 }  // namespace
 
-StepEquations::StepEquations(const System& system, Newton& newton) : system_(system), newton_(newton), side_by_side_(system) {
+StepEquations::StepEquations(const System& system, Newton& newton)
+    : system_(system), newton_(newton), side_by_side_(system), solver_(system.pattern()) {
     const auto count = static_cast<std::size_t>(system.size());
     x_.resize(count + 1), still_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count + 1);
     J_.resize(system.pattern().entries() + 1), J_0_.resize(J_.size());
@@ -111,15 +112,14 @@ double StepEquations::largest_step(std::span<const double> allowed, bool& clampe
 bool StepEquations::solve_for_step() {
     const auto J = std::span<const double>(J_).first(J_.size() - 1);
     const auto step = std::span(step_).first(step_.size() - 1);
-    auto& solver = newton_.solver;
     const auto solve = [&] {
         for (std::size_t n = 0; n < step.size(); ++n) step[n] = -r_[n];
-        solver.solve(step);
+        solver_.solve(step);
     };
-    if (!solver.factor(J)) return false;
+    if (!solver_.factor(J)) return false;
     solve();
-    if (solver.growth() < doubtful_growth || left_over() < doubtful_rest) return true;
-    if (!solver.factor_anew(J)) return false;
+    if (solver_.growth() < doubtful_growth || left_over() < doubtful_rest) return true;
+    if (!solver_.factor_anew(J)) return false;
     return solve(), true;
 }
 
@@ -188,7 +188,7 @@ void StepEquations::at(double t, std::span<const double> x, std::span<double> f,
 void StepEquations::settle(std::span<const double> x, double a) {
     prepare(newton_.instant.time, a, {});
     look(x);
-    newton_.solver.settle(std::span<const double>(J_).first(J_.size() - 1));
+    solver_.settle(std::span<const double>(J_).first(J_.size() - 1));
 }
 
 }  // namespace corpuscle::circuit

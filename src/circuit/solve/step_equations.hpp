@@ -28,6 +28,7 @@ class StepEquations {
     };
     std::vector<Own> own_;
     SideBySide side_by_side_;
+    Solver<double> solver_;  // its own: the list of a transient's matrices is not that of an operating point's
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
     std::vector<char> voltage_;
     int tries_ = 0;
@@ -56,7 +57,7 @@ public:
     /// Of the answer.
     void charges(std::span<double> q);
     /// e with (G + a C) e = r, at the answer's slopes, in place: what a disturbance of the equations does to the unknowns.
-    void answer_to(std::span<double> r) const { newton_.solver.solve(r); }
+    void answer_to(std::span<double> r) const { solver_.solve(r); }
     /// f(x, t), for a = 0 and no history; q(x).
     void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
     /// The matrix's order of elimination, for all that follow, is taken from the one at x with dq/dt = a q.

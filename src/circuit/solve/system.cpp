@@ -111,6 +111,12 @@ double System::next_corner(double t) const {
     return first;
 }
 
+bool System::hear(const Trace* force) {
+    bool any = false;
+    for (const auto& d : devices_) any |= d->hear(force);
+    return any;
+}
+
 void System::draw(const Draw* chip) {
     std::uint32_t number = 0;
     for (const auto& d : devices_) number += d->draw(chip, number);

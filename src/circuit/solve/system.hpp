@@ -82,6 +82,7 @@ public:
     void go(double step, double stop);
     double next_corner(double t) const;
     double pace() const;
+    bool hear(const Trace*);  ///< whether some source carries force
     /// All devices as drawn; null: as designed.
     void draw(const Draw*);
     /// A device's own unknowns' values.

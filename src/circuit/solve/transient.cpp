@@ -27,6 +27,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled) {
     newton_.memory = system_.fresh_memory();
     newton_.instant.charges = true, newton_.instant.time = 0;
     system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
+    work_ = {}, equations_.iterations = 0, equations_.set_bend(1);
     alternations_.assign(count, 0), calming_ = 0, charged_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
@@ -34,11 +35,11 @@ Result<void> Transient::begin(std::vector<double> x, bool settled) {
     auto& first = past_.next();
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     past_.accept();
-    h_ = plan_.longest;
+    h_ = plan_.longest, bent_ = false;
     equations_.at(0, past_[0].x, rate_, first.q);
     start_over();
     allow();
-    equations_.settle(past_[0].x, 1e3 / plan_.longest);
+    if (!std::exchange(ordered_, true)) equations_.settle(past_[0].x, 1e3 / plan_.longest);
     if (settled) return {};
     auto ok = settle();
     start_over();
@@ -205,6 +206,7 @@ void Transient::take() {
 }
 
 Result<bool> Transient::step(double until) {
+    if (std::exchange(bent_, false)) start_over();
     for (;;) {
         const double t0 = time(), corner = std::min(plan_.stop, system_.next_corner(t0));
         double h = std::min(h_, plan_.longest);
@@ -223,7 +225,7 @@ Result<bool> Transient::step(double until) {
         choose(t - t0, error);
         if (last && t - t0 < wanted) h_ = std::max(h_, std::min(wanted, plan_.longest));
         take();
-        if (last) start_over();
+        bent_ = last;
         return true;
     }
 }
@@ -276,7 +278,7 @@ std::optional<double> Transient::crossing(int plus, int minus, double level, boo
 TransientState Transient::save() const {
     TransientState s;
     for (int k = 0; k < past_.count(); ++k) s.past.push_back(past_[k]);
-    s.order = order_, s.since_choice = since_choice_, s.failures = failures_, s.calming = calming_, s.starting = starting_;
+    s.order = order_, s.since_choice = since_choice_, s.failures = failures_, s.calming = calming_, s.starting = starting_, s.bent = bent_;
     s.h = h_, s.bend = equations_.bend(), s.work = work_;
     s.scale = scale_, s.rate = rate_, s.turn = turn_, s.fastest = fastest_, s.alternations = alternations_, s.memory = newton_.memory;
     return s;
@@ -285,7 +287,7 @@ TransientState Transient::save() const {
 void Transient::restore(const TransientState& s) {
     past_.clear();
     for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
-    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, calming_ = s.calming, starting_ = s.starting;
+    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, calming_ = s.calming, starting_ = s.starting, bent_ = s.bent;
     h_ = s.h, equations_.set_bend(s.bend), work_ = s.work, equations_.iterations = s.work.iterations;
     scale_ = s.scale, rate_ = s.rate, turn_ = s.turn, fastest_ = s.fastest, alternations_ = s.alternations, newton_.memory = s.memory;
     allow();

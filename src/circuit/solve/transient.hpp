@@ -30,7 +30,7 @@ struct TransientWork {
 struct TransientState {
     std::vector<Moment> past;  ///< newest first
     int order = 1, since_choice = 0, failures = 0;
-    bool starting = true;
+    bool starting = true, bent = false;
     double h = 0, bend = 1;
     int calming = 0;
     std::vector<double> scale, rate, memory, turn, fastest;
@@ -55,6 +55,8 @@ private:
     Past past_;
     int order_ = 1, since_choice_ = 0, failures_ = 0;
     double h_ = 0, leading_ = 0;
+    bool ordered_ = false;  // the matrix's elimination, once and for all
+    bool bent_ = false;     // the last point is a source's corner: from there it starts over
     bool starting_ = true;  // since the start every step has been of the highest order its points allow
     std::vector<double> scale_, allowed_, history_, rate_, error_;
     std::vector<char> charged_;
@@ -88,7 +90,8 @@ public:
     Result<void> run(std::vector<double> x, bool settled, const Each& each);
     const TransientWork& work() const { return work_; }
 
-    /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them.
+    /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them. The matrix's order of
+    /// elimination is that of the first x handed in, so that steps after restore() are those that would have come.
     Result<void> begin(std::vector<double> x, bool settled = true);
     /// One step, not beyond `until`. False: it would go beyond, or its length depends on what comes there.
     Result<bool> step(double until);
@@ -101,7 +104,8 @@ public:
     std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
 
     TransientState save() const;
-    /// After begin(), from the x that the one who saved began from.
+    /// After begin(), from the x that the one who saved began from. Steps are the same to the last bit if the first x that each was ever
+    /// handed is the same, too.
     void restore(const TransientState&);
 };
 

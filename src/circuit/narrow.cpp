@@ -1,6 +1,4 @@
-#include "circuit/save.hpp"
-
-#include <fmt/format.h>
+#include "circuit/narrow.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -26,26 +24,6 @@ Plot head_of(const Plot& plot, const std::vector<Chosen>& curves) {
 }
 
 }  // namespace
-
-Result<std::vector<std::string>> saved_of(const System& system, const Circuit& circuit) {
-    std::vector<std::string> out;
-    bool all = false;
-    for (const auto& c : circuit.commands) {
-        if (c.name != "save") continue;
-        for (std::size_t k = 0; k < c.words.size(); ++k) {
-            const auto& word = c.words[k];
-            if (word == "all") {
-                all = true;
-                continue;
-            }
-            auto named = c;
-            named.words[k] = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
-            if (const auto known = wanted_of(system, named, k); !known) return known.error();
-            out.push_back(named.words[k]);
-        }
-    }
-    return all ? std::vector<std::string>{} : out;
-}
 
 Plot narrowed(const Plot& plot, const std::vector<std::string>& names) {
     const auto curves = chosen(plot, names);

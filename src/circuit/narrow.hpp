@@ -1,15 +1,13 @@
 #pragma once
-// .save: which curves are handed on.
+// Plots with some of their curves: those that .save names.
 
 #include "circuit/analysis/bench.hpp"
 #include "circuit/curves.hpp"
 
 namespace corpuscle::circuit {
 
-/// What .save names: v(a), v(a,b), i(v1) ...; "out" is v(out). Empty: everything is meant.
-Result<std::vector<std::string>> saved_of(const System&, const Circuit&);
-
-/// The plot with the curves named, where it has one of them; a plot of another kind (noise, transfer function) as it is.
+/// The plot with the curves named (none: all of them), where it has one of them; a plot of another kind (noise, transfer function) as it
+/// is.
 Plot narrowed(const Plot&, const std::vector<std::string>& names);
 
 /// The same of points as they come.

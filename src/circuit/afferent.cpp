@@ -1,0 +1,182 @@
+#include "circuit/afferent.hpp"
+
+#include <fmt/format.h>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "circuit/rig.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// FNV-1a over whatever makes one circuit differ from another.
+std::uint64_t mark_of(const Circuit& c) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto number = [&](std::uint64_t x) { hash = (hash ^ x) * 0x100000001b3; };
+    const auto real = [&](double x) { number(std::bit_cast<std::uint64_t>(x)); };
+    const auto text = [&](std::string_view s) {
+        for (const char letter : s) number(static_cast<unsigned char>(letter));
+        number(s.size());
+    };
+    const auto values = [&](const Values& all) {
+        for (const auto& [name, value] : all) text(name), real(value);
+    };
+    for (const auto& e : c.elements) {
+        text(e.name), values(e.values), real(e.value), real(e.waveform.dc), number(static_cast<std::uint64_t>(e.waveform.shape));
+        number(static_cast<std::uint64_t>(e.model));
+        for (const int n : e.nodes) number(static_cast<std::uint64_t>(n));
+        for (const double x : e.waveform.numbers) real(x);
+    }
+    for (const auto& m : c.models) text(m.type), values(m.values);
+    values(c.options), real(c.temperature);
+    for (const auto& command : c.commands)
+        if (command.name == "tran" || command.name == "spike")
+            for (const auto& word : command.words) text(word);
+    return hash;
+}
+
+class CircuitAfferent final : public Afferent {
+    std::shared_ptr<const CircuitDesign> design_;
+    double T_;
+    bool sampled_;
+    std::optional<Draw> chip_;
+    std::int64_t delay_;
+    std::string format_;
+    std::vector<Probe> probes_;
+    mutable std::mutex guard_;
+    mutable std::vector<std::unique_ptr<Rig>> idle_;  // as many as were ever at work at once
+
+    Result<std::unique_ptr<Rig>> borrow() const {
+        {
+            const std::lock_guard lock(guard_);
+            if (!idle_.empty()) {
+                auto rig = std::move(idle_.back());
+                idle_.pop_back();
+                return rig;
+            }
+        }
+        return Rig::make(*design_, T_, chip_);
+    }
+    void give_back(std::unique_ptr<Rig> rig) const {
+        const std::lock_guard lock(guard_);
+        idle_.push_back(std::move(rig));
+    }
+
+    Result<void> respond_on(Rig&, std::span<const double> force, State&, Answer&) const;
+    Result<void> go_on(Rig&, std::int64_t from, std::int64_t to, Answer&) const;
+
+public:
+    CircuitAfferent(std::shared_ptr<const CircuitDesign> design, double dt, bool sampled, std::optional<Draw> chip)
+        : design_(std::move(design)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
+          delay_(static_cast<std::int64_t>(std::ceil(2.1 * design_->plan.longest / dt)) + Trace::lag + 2),
+          format_(fmt::format("netlist {:016x}/1{}, T = {} s", design_->mark,
+                              chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
+        for (const auto& s : design_->shown) probes_.push_back({s.name, s.name[0] == 'v' ? "V" : "A"});
+    }
+
+    std::span<const Probe> probes() const override { return probes_; }
+    State start(Turn) const override { return {format_, 0, {}}; }
+    std::int64_t delay() const override { return delay_; }
+
+    Result<void> respond(std::span<const double> force, State& state, Answer& answer) const override {
+        if (auto ok = check_block(design_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
+        for (double* shown : answer.probes) std::fill_n(shown, force.size(), std::numeric_limits<double>::quiet_NaN());
+        if (force.empty()) return {};
+        auto rig = borrow();
+        if (!rig) return rig.error();
+        auto done = respond_on(**rig, force, state, answer);
+        give_back(std::move(*rig));
+        return done;
+    }
+};
+
+Result<void> CircuitAfferent::respond_on(Rig& rig, std::span<const double> force, State& state, Answer& answer) const {
+    if (state.step == 0) {
+        if (auto ok = rig.begin(force); !ok) return ok;
+    } else {
+        if (!rig.restore(state.values, state.step))
+            return bad_input(
+                fmt::format("{}: a saved state is damaged: it holds what this netlist cannot have left", design_->circuit->file));
+        rig.hear(force);
+    }
+    const auto before = rig.work();
+    const auto from = state.step - delay_;
+    state.step += static_cast<std::int64_t>(force.size());
+    auto done = go_on(rig, from, state.step - delay_, answer);
+    const auto& work = rig.work();
+    answer.steps += work.steps - before.steps, answer.rejected += work.rejected - before.rejected;
+    answer.iterations += work.iterations - before.iterations;
+    state.values.clear();
+    rig.save(state.values);
+    return done;
+}
+
+/// Answers samples from ... to - 1.
+Result<void> CircuitAfferent::go_on(Rig& rig, std::int64_t from, std::int64_t to, Answer& answer) const {
+    const auto tell = [&] {
+        auto& spike = rig.coming();
+        if (!spike || spike->step >= to) return;
+        answer.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, answer.unit});
+        spike.reset();
+    };
+    tell();
+    for (std::int64_t sample = from;;) {
+        for (; sample < to && rig.at(sample); ++sample)
+            for (std::size_t p = 0; p < answer.probes.size(); ++p)
+                answer.probes[p][static_cast<std::size_t>(sample - from)] = rig.shown(design_->shown[p].of, sample);
+        if (sample == to) return {};
+        if (auto ok = rig.step(); !ok) return ok;
+        tell();
+    }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::read(const std::string& path) {
+    const auto netlist = Netlist::read(path);
+    if (!netlist) return netlist.error();
+    auto circuit = netlist->elaborate();
+    if (!circuit) return circuit.error();
+    return of(std::make_shared<const Circuit>(std::move(*circuit)));
+}
+
+Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<const Circuit> circuit) {
+    const auto bench = TestBench::make(circuit);
+    if (!bench) return bench.error();
+    const Place place{circuit->file};
+    const auto plan = transient_plan(*circuit);
+    if (!plan) return plan.error();
+    const auto output = spike_output((*bench)->system);
+    if (!output) return output.error();
+    auto shown = saved_of((*bench)->system);
+    if (!shown) return shown.error();
+    if (!(*bench)->system.hear(nullptr))
+        return bad_input("no source carries a force, such as 'iin 0 fin force 60n' (60 nA a newton)", place);
+    if (!*output) return bad_input("nothing says what a spike is: '.spike v(NODE) LEVEL [rise|fall]'", place);
+    auto design = std::make_shared<CircuitDesign>();
+    for (const auto& c : circuit->commands) {
+        if (c.name == "mc") {
+            const auto chips = chips_of(c);
+            if (!chips) return chips.error();
+            design->chips = *chips;
+        }
+        if (c.name != "tran") continue;
+        const auto times = transient_times(c);
+        if (!times) return times.error();
+        design->times = *times;
+    }
+    if (shown->empty()) shown->push_back({output->value().text, output->value().of});
+    design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown);
+    design->plan.longest = design->times.longest.value_or(longest_step);
+    design->mark = mark_of(*design->circuit);
+    return std::shared_ptr<const CircuitDesign>(std::move(design));
+}
+
+std::unique_ptr<Afferent> CircuitDesign::make(double dt, bool sampled, std::uint32_t copy) const {
+    const auto chip = chips && copy > 0 ? std::optional(chips->draw(copy - 1)) : std::nullopt;
+    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
+}
+
+}  // namespace corpuscle::circuit

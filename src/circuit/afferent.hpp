@@ -1,0 +1,35 @@
+#pragma once
+// A netlist with a force input and a spike output, as an afferent.
+
+#include "circuit/analysis/transient_plan.hpp"
+#include "circuit/saved.hpp"
+#include "circuit/spike_output.hpp"
+#include "circuit/variants.hpp"
+#include "signal/afferent.hpp"
+
+namespace corpuscle::circuit {
+
+/// A netlist read and found fit: it has a source that carries FORCE and a .spike order. Of .tran count LONGEST and uic; other orders are
+/// left alone. Its copies are the chips of its .mc, and alike without one. What is .save'd, else what spikes are taken from, are its
+/// probes.
+class CircuitDesign final : public Design, public std::enable_shared_from_this<CircuitDesign> {
+public:
+    static constexpr double longest_step = 5e-3;  ///< s, if .tran does not say
+
+    static Result<std::shared_ptr<const CircuitDesign>> read(const std::string& path);
+    static Result<std::shared_ptr<const CircuitDesign>> of(std::shared_ptr<const Circuit>);
+
+    std::string_view kind() const override { return "netlist"; }
+    std::string_view title() const override { return circuit->title; }
+    std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy = 0) const override;
+
+    std::shared_ptr<const Circuit> circuit;
+    TransientPlan plan;
+    TransientTimes times;
+    SpikeOutput output;
+    std::optional<Chips> chips;
+    std::vector<Saved> shown;
+    std::uint64_t mark = 0;  ///< of all its numbers: another netlist has another
+};
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,94 @@
+#include "circuit/force_order.hpp"
+
+#include <fmt/format.h>
+
+#include "circuit/netlist/number.hpp"
+#include "signal/stimuli.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double most_samples = 1e8;
+
+Error wrong(const Command& c, std::size_t word, std::string sentence) {
+    auto place = c.place;
+    if (word < c.columns.size()) place.column = c.columns[word];
+    return bad_input(".force: " + std::move(sentence), std::move(place));
+}
+
+/// As the stimulus itself writes it: netlists have small letters.
+std::string own_letters(std::string_view stimulus, std::string_view parameter) {
+    for (const auto& card : stimulus_cards())
+        for (const auto& row : card.rows)
+            if (card.name == stimulus && same_letters(row.name, parameter)) return std::string(row.name);
+    return std::string(parameter);
+}
+
+struct Asked {
+    std::vector<Wish> wishes;
+    double rate = 10e3;  // Hz
+};
+
+Result<Asked> asked(const Command& c) {
+    Asked out;
+    for (std::size_t k = 1; k < c.words.size(); ++k) {
+        const std::string_view word = c.words[k];
+        const auto equals = std::min(word.find('='), word.size()), dot = word.substr(0, equals).rfind('.');
+        const auto value = equals < word.size() ? whole_number(word.substr(equals + 1)) : std::nullopt;
+        if (!value) return wrong(c, k, fmt::format("'{}' must be PARAMETER=VALUE, such as f_max=2", word));
+        const auto name = word.substr(0, equals);
+        if (name == "rate") {
+            out.rate = value->value;
+            continue;
+        }
+        const std::string of(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
+        out.wishes.push_back(
+            {of, own_letters(of, dot == std::string_view::npos ? name : name.substr(dot + 1)), fmt::format("{}", value->value)});
+    }
+    return out;
+}
+
+Result<Trace> trace_of(Source& source, const Command& c) {
+    Trace trace(source.clock().T());
+    double count = 0, last = 0;
+    for (Frames block(source.channels().size(), 4096);;) {
+        if (auto ok = source.read(block); !ok) return ok.error();
+        if (block.count == 0) {
+            trace.append(std::vector<double>(Trace::lag + 1, last));  // it stays there
+            return trace;
+        }
+        if ((count += static_cast<double>(block.count)) > most_samples)
+            return wrong(c, 0, fmt::format("more than {:g} samples; lower the rate, or shorten it", most_samples));
+        trace.append(std::span(block.force[0]).first(block.count));
+        last = block.force[0][block.count - 1];
+    }
+}
+
+Result<Trace> read(const Command& c) {
+    if (c.words.empty()) return wrong(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
+    const auto how = asked(c);
+    if (!how) return how.error();
+    auto source = make_stimulus(c.words[0], how->wishes, how->rate, 0);
+    if (!source) return wrong(c, 0, source.error().sentence);
+    for (const auto& wish : how->wishes)
+        if (!wish.used) return wrong(c, 0, fmt::format("{}: no stimulus '{}' takes part", wish.text(), wish.of));
+    return trace_of(**source, c);
+}
+
+}  // namespace
+
+Result<std::optional<Trace>> force_order(const Circuit& circuit) {
+    const Command* found = nullptr;
+    for (const auto& c : circuit.commands) {
+        if (c.name != "force") continue;
+        if (found) return bad_input(fmt::format(".force: there is one already, in line {}", found->place.line), c.place);
+        found = &c;
+    }
+    if (!found) return std::optional<Trace>();
+    auto trace = read(*found);
+    if (!trace) return trace.error();
+    return std::optional<Trace>(std::move(*trace));
+}
+
+}  // namespace corpuscle::circuit
