@@ -181,7 +181,7 @@ Error Transient::too_short(double h) {
 /// Whether some charge's rate, on top of its course, goes to and fro step by step, as nothing of that pace does.
 void Transient::watch() {
     constexpr int enough = 3;
-    constexpr double visible = 1e-3;  // of the fastest so far
+    constexpr double visible = 1e-2;  // of the fastest so far
     bool rings = false;
     for (std::size_t n = 0; n < rate_.size(); ++n) {
         const double before = std::exchange(turn_[n], leading_ * past_.next().q[n] + history_[n] - rate_[n]);
