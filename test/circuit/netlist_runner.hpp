@@ -30,6 +30,7 @@ public:
     bool done() const { return circuit_ != nullptr; }
     std::string title() const { return circuit_ ? circuit_->title : ""; }
     const std::vector<Expectation>& expectations() const { return outcome_.expectations; }
+    const std::vector<std::pair<std::string, double>>& numbers() const { return outcome_.numbers; }
     const std::vector<Error>& remarks() const { return outcome_.remarks; }
     const std::vector<Analysed>& analyses() const { return outcome_.analyses; }
 

@@ -132,6 +132,21 @@ TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
     }
 }
 
+TEST(Transient, SaysHowFarOffItsSpikesMayBe) {
+    const auto spiking = [](const std::string& options) {
+        return ran(oscillator_netlist("0.3") + ".spike v(s) 0.35\n.options " + options + "\n");
+    };
+    const auto truth = spiking("accuracy=finest spikecheck=0");
+    for (const auto* options : {"reltol=3e-4", "reltol=1e-4", "accuracy=normal", "accuracy=fine"}) {
+        const auto found = spiking(options);
+        ASSERT_EQ(found.number("spikes"), truth.number("spikes")) << options;
+        const double error = std::abs(found.number("last_spike") - truth.number("last_spike"));
+        EXPECT_LE(error, found.number("spike_error")) << options;
+        EXPECT_LE(found.number("spike_error"), 100 * error + 1e-6) << options;
+    }
+    for (const auto& [name, value] : truth.numbers()) EXPECT_NE(name, "spike_error") << value;
+}
+
 TEST(Transient, WithoutAnInitialConditionAnOscillatorIsKickedAndTold) {
     auto free = membrane;
     free.erase(free.find(".ic"), free.find('\n', free.find(".ic")) - free.find(".ic") + 1);

@@ -1,24 +1,75 @@
 // .tran: the circuit in time.
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/beginning.hpp"
 #include "circuit/analysis/transient_plan.hpp"
+#include "circuit/device/values.hpp"
 #include "circuit/force_order.hpp"
 #include "circuit/spike_output.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
+struct Asked {
+    TransientTimes times;
+    TransientPlan plan;
+    std::optional<SpikeOutput> output;
+    Beginning from;
+};
+
+/// The spikes of a transient, whose points go to each().
+Result<std::vector<double>> spikes_of(TestBench& bench, const Asked& asked, Transient& t, const Transient::Each& each) {
+    std::vector<double> out;
+    bool stopped = false;
+    const auto done = t.run(asked.from.x, asked.from.settled, [&](double time, std::span<const double> x) {
+        if (!each(time, x)) return false;
+        if (time < t.time()) return true;  // within a step
+        if (asked.output)
+            if (const auto spike = asked.output->within(t); spike && *spike >= asked.times.start) out.push_back(*spike);
+        return !(stopped = bench.stopped(time / asked.times.stop));
+    });
+    if (!done) return done.error();
+    if (stopped) return interruption();
+    return out;
+}
+
+/// How far off a spike may be, s: what another run with a tenth of the tolerances says, whose own errors are a third of these at the most.
+/// NaN: it has other spikes.
+Result<double> spike_error(TestBench& bench, Asked asked, const std::vector<double>& spikes) {
+    for (double* tolerance : {&asked.plan.reltol, &asked.plan.vntol, &asked.plan.abstol}) *tolerance /= 10;
+    Transient transient(bench.system, bench.newton, asked.plan);
+    const auto finer = spikes_of(bench, asked, transient, [](double, std::span<const double>) { return true; });
+    if (!finer && finer.error().code == Code::interrupted) return finer.error();
+    if (!finer || finer->size() != spikes.size()) return std::nan("");
+    double most = 0;
+    for (std::size_t k = 0; k < spikes.size(); ++k) most = std::max(most, std::abs((*finer)[k] - spikes[k]));
+    return 1.5 * most;
+}
+
 /// Spikes as numbers to print and to expect.
-void tell(const std::vector<double>& spikes, Findings& out) {
+Result<void> tell(TestBench& bench, const Asked& asked, std::vector<double> spikes, Findings& out) {
     out.numbers.emplace_back("spikes", static_cast<double>(spikes.size()));
-    if (spikes.empty()) return;
-    out.numbers.emplace_back("first_spike", spikes.front());
-    out.numbers.emplace_back("last_spike", spikes.back());
-    if (spikes.size() > 1)
-        out.numbers.emplace_back("mean_interval", (spikes.back() - spikes.front()) / static_cast<double>(spikes.size() - 1));
+    if (!spikes.empty()) {
+        out.numbers.emplace_back("first_spike", spikes.front());
+        out.numbers.emplace_back("last_spike", spikes.back());
+        if (spikes.size() > 1)
+            out.numbers.emplace_back("mean_interval", (spikes.back() - spikes.front()) / static_cast<double>(spikes.size() - 1));
+        if (!bench.brief && value_or(bench.circuit->options, "spikecheck", 1) != 0) {
+            const auto error = spike_error(bench, asked, spikes);
+            if (!error) return error.error();
+            out.numbers.emplace_back("spike_error", *error);
+            if (std::isnan(*error))
+                out.remarks.push_back(bad_input(
+                    fmt::format("{} spikes, but others with a tenth of the tolerances; .options accuracy=fine is safer here", spikes.size()),
+                    asked.output->place));
+        }
+    }
+    out.spikes = std::move(spikes);
+    return {};
 }
 
 }  // namespace
@@ -26,52 +77,47 @@ void tell(const std::vector<double>& spikes, Findings& out) {
 Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     const auto times = transient_times(c);
     if (!times) return times.error();
-    auto asked = transient_plan(*bench.circuit);
-    if (!asked) return asked.error();
+    const auto plan = transient_plan(*bench.circuit);
+    if (!plan) return plan.error();
     const auto output = spike_output(bench.system);
     if (!output) return output.error();
     const auto force = force_order(*bench.circuit);
     if (!force) return force.error();
     if (*force && !bench.system.hear(&**force))
-        return bad_input(".force: no source carries it; one is written 'iin 0 fin force 60n' (60 nA a newton)", Place{bench.circuit->file});
-    TransientPlan& plan = *asked;
-    plan.stop = times->stop, plan.longest = times->longest.value_or((times->stop - times->start) / 50);
+        return bad_input(fmt::format(".force: no source carries it; one is written '{}' (60 nA a newton)", "iin 0 fin force 60n"),
+                         Place{bench.circuit->file});
+    Asked asked{*times, *plan, *output, {}};
+    asked.plan.stop = times->stop, asked.plan.longest = times->longest.value_or((times->stop - times->start) / 50);
     KeptPlot kept;
     PointSink& points = bench.points ? *bench.points : kept;
     if (auto ok = points.begin(plot_of(bench.system, "Transient Analysis", "time", "time")); !ok) return ok.error();
+
     bench.system.go(times->step, times->stop);
     Findings out;
-    Transient transient(bench.system, bench.newton, plan);
-    std::vector<double> spikes;
-    bool stopped = false;
+    Transient transient(bench.system, bench.newton, asked.plan);
     Result<void> taken;
     std::vector<double> row(1);
     auto from = beginning(bench, times->uic);
-    if (from && from->remark && !bench.brief) out.remarks.push_back(*from->remark);
-    auto done = !from ? Result<void>(from.error()) : transient.run(from->x, from->settled, [&](double t, std::span<const double> at) {
-        if (t >= times->start) {
-            row.assign(1, t), row.insert(row.end(), at.begin(), at.end());
-            taken = points.point(row);
-        }
-        if (t < transient.time()) return static_cast<bool>(taken);  // within a step
-        if (*output)
-            if (const auto spike = (*output)->within(transient); spike && *spike >= times->start) spikes.push_back(*spike);
-        stopped = bench.stopped(t / times->stop);
-        return !stopped && taken;
+    if (from) asked.from = std::move(*from);
+    if (asked.from.remark && !bench.brief) out.remarks.push_back(*asked.from.remark);
+    auto spikes = !from ? from.error() : spikes_of(bench, asked, transient, [&](double t, std::span<const double> x) {
+        if (t < times->start) return true;
+        row.assign(1, t), row.insert(row.end(), x.begin(), x.end());
+        taken = points.point(row);
+        return static_cast<bool>(taken);
     });
     const auto ended = points.end();
+    const auto told = spikes && taken && ended && asked.output ? tell(bench, asked, std::move(*spikes), out) : Result<void>();
     bench.system.go(0, 0), bench.system.hear(nullptr);
-    if (!done) return done.error();
-    if (!taken) return taken.error();
-    if (!ended) return ended.error();
-    if (stopped) return interruption();
+    if (!spikes) return spikes.error();
+    for (const auto& done : {taken, ended, told})
+        if (!done) return done.error();
     const auto& work = transient.work();
     out.table = fmt::format("{} steps, {} rejected, {} Newton iterations\n", work.steps, work.rejected, work.iterations);
     out.work = {{"steps", static_cast<double>(work.steps)},
                 {"rejected", static_cast<double>(work.rejected)},
                 {"iterations", static_cast<double>(work.iterations)}};
     if (!bench.points) out.plots.push_back(std::move(kept.plot));
-    if (*output) tell(spikes, out), out.spikes = std::move(spikes);
     return out;
 }
 
