@@ -24,17 +24,6 @@ Newton::Newton(const System& s, const Tolerances& t) : system(s), tolerances(t),
     step.resize(static_cast<std::size_t>(s.size()));
 }
 
-/// Charges' part in the sums.
-void Newton::move(const Rate& rate) {
-    for (std::size_t n = 0; n < sums.f.size(); ++n) {
-        const double part = rate.leading * sums.q[n], i = part + rate.history[n];
-        sums.f[n] += i;
-        sums.size[n] = std::max(sums.size[n], std::abs(i));
-        sums.grain[n] = std::max(sums.grain[n], 2e-15 * std::abs(part));
-    }
-    for (std::size_t k = 0; k < sums.G.size(); ++k) sums.G[k] += rate.leading * sums.C[k];
-}
-
 bool Newton::balanced() const {
     for (std::size_t n = 0; n < sums.f.size(); ++n) {
         const double floor = n < static_cast<std::size_t>(system.nodes()) ? tolerances.abstol : tolerances.vntol;
@@ -43,7 +32,7 @@ bool Newton::balanced() const {
     return true;
 }
 
-bool Newton::run(std::vector<double>& x, const Springs& springs, int most, const Rate& rate) {
+bool Newton::run(std::vector<double>& x, const Springs& springs, int most) {
     const auto count = static_cast<std::size_t>(system.size()), nodes = static_cast<std::size_t>(system.nodes());
     const bool linear = system.linear();
     const double cap = linear ? 0 : reach(system);
@@ -52,7 +41,6 @@ bool Newton::run(std::vector<double>& x, const Springs& springs, int most, const
     for (int k = 0; k < (most > 0 ? most : tolerances.itl1); ++k) {
         system.eval(x, instant, memory, sums);
         ++iterations;
-        if (rate.leading > 0) move(rate);
         for (std::size_t n = 0; n < nodes && !springs.g.empty(); ++n) {
             sums.f[n] += springs.g[n] * (x[n] - springs.to[n]);
             sums.G[system.pattern().place(static_cast<int>(n), static_cast<int>(n))] += springs.g[n];

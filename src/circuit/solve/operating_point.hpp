@@ -31,12 +31,6 @@ struct Springs {
     std::vector<double> g, to;
 };
 
-/// dq/dt as leading q + history, of each unknown's equation. leading 0: nothing moves.
-struct Rate {
-    double leading = 0;
-    std::span<const double> history{};
-};
-
 /// Newton's steps from x on; x is left where they ended. False: they did not arrive. Bound to its system, whose matrix it has analysed.
 struct Newton {
     const System& system;
@@ -51,8 +45,7 @@ struct Newton {
 
     Newton(const System&, const Tolerances&);
     bool balanced() const;  ///< whether the last sums are as good as zero
-    bool run(std::vector<double>& x, const Springs& = {}, int most = 0, const Rate& = {});
-    void move(const Rate&);
+    bool run(std::vector<double>& x, const Springs& = {}, int most = 0);
     /// Of the system at x: how far it is from an answer, in words.
     std::string distance(std::span<const double> x);
 };
