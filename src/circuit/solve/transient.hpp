@@ -42,7 +42,7 @@ struct TransientState {
 /// through the points before predicts; how far charges come to be from it is what the rule of this order leaves over in the equations, and
 /// the matrix turns that into the error of each voltage, which decides whether a step counts, how long the next one is, and of what order.
 /// The trapezoidal rule rings where something is much faster than its steps: then two steps of BDF calm it.
-/// Right after the beginning, and where a source's corner proves too sharp for the points before, all begins again with order 1.
+/// Right after the beginning, at every corner of a source, and where steps must shrink tenfold, all begins again with order 1.
 class Transient {
 public:
     using Each = std::function<bool(double t, std::span<const double> x)>;
