@@ -137,7 +137,7 @@ void Rig::read(Numbers& in, TransientState& s) {
     for (long* n : {&s.work.steps, &s.work.rejected, &s.work.lost, &s.work.iterations}) *n = in.whole(0, most);
     for (std::size_t k = 0; k < points; ++k) {
         s.past.push_back({in.next(), in.many(size), in.many(size)});
-        in.good &= k == 0 || s.past[k].t < s.past[k - 1].t;
+        in.good &= std::abs(s.past[k].t) <= end_of_clock && (k == 0 || s.past[k].t < s.past[k - 1].t);
     }
     s.scale = in.many(size), s.rate = in.many(size), s.turn = in.many(size), s.fastest = in.many(size),
     s.memory = in.many(bench_->system.fresh_memory().size());

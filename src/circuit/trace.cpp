@@ -12,6 +12,9 @@ constexpr double sharper = 4;       // ... if it is so many times that of the ca
 constexpr double far_off = 0.05;    // of the largest force: from the line of the last corner
 constexpr std::size_t numbers = 7;  // before corners and samples, in save()
 
+/// A number of samples that can be counted; a damaged state may ask for others.
+double in_reach(double samples) { return samples >= -0x1p53 && samples <= 0x1p53 ? samples : samples > 0 ? 0x1p53 : -0x1p53; }
+
 }  // namespace
 
 double Trace::sample(std::int64_t k) const {
@@ -41,7 +44,7 @@ void Trace::look() {
 }
 
 double Trace::at(double t) const {
-    const double place = t / T_, before = std::floor(place);
+    const double place = in_reach(t / T_), before = std::floor(place);
     const auto k = static_cast<std::int64_t>(before);
     const double a = sample(k);
     return a + (place - before) * (sample(k + 1) - a);
@@ -54,7 +57,7 @@ double Trace::next_corner(double t) const {
 }
 
 void Trace::forget(double t) {
-    const auto from = std::min(static_cast<std::int64_t>(std::floor(t / T_)) - 1, looked_ - lag);
+    const auto from = std::min(static_cast<std::int64_t>(std::floor(in_reach(t / T_))) - 1, looked_ - lag);
     if (from <= first_) return;
     const auto gone = std::min<std::int64_t>(from - first_, static_cast<std::int64_t>(samples_.size()));
     samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(gone));

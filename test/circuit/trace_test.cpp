@@ -93,5 +93,15 @@ TEST(Trace, DoesNotDependOnHowItComes) {
     }));
 }
 
+TEST(Trace, IsAskedForAnyTimeWithoutHarm) {
+    Trace trace(1e-4);
+    trace.append(std::vector<double>{1, 2, 3});
+    for (const double t : {1e303, -1e303, 1e20, std::nan("")}) {
+        (void)trace.at(t);
+        trace.forget(t);
+    }
+    EXPECT_EQ(trace.at(2e-4), 3);
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit
