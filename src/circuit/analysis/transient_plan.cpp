@@ -11,7 +11,7 @@ struct Accuracy {
     std::string_view word;
     double reltol, vntol;
 };
-constexpr Accuracy accuracies[] = {{"rough", 1e-3, 1e-5}, {"normal", 2e-5, 1e-6}, {"fine", 1e-6, 1e-7}, {"finest", 1e-8, 1e-9}};
+constexpr Accuracy accuracies[] = {{"rough", 1e-3, 1e-5}, {"normal", 1e-5, 1e-6}, {"fine", 1e-6, 1e-7}, {"finest", 1e-8, 1e-9}};
 
 Error refused(const Circuit& c, std::string_view option, std::string_view word, std::string_view known) {
     return bad_input(fmt::format(".options {}={}: it is one of {}", option, word, known), Place{c.file});

@@ -16,7 +16,7 @@ struct TransientPlan {
     double stop = 0, longest = 0;  ///< s: where it ends; the longest step
     Integration method = Integration::bdf;
     int order = 4;          ///< of BDF, at the most
-    double reltol = 2e-5;   ///< of a step's error, against the largest value so far
+    double reltol = 1e-5;   ///< of a step's error, against the largest value so far
     double vntol = 1e-6;    ///< V, beside it
     double abstol = 1e-16;  ///< A, of inductors' currents
 };
