@@ -45,6 +45,7 @@ class CircuitAfferent final : public Afferent {
     std::int64_t delay_;
     std::string format_;
     std::vector<Probe> probes_;
+    std::vector<Range> ranges_;
     mutable std::mutex guard_;
     mutable std::vector<std::unique_ptr<Rig>> idle_;  // as many as were ever at work at once
 
@@ -74,9 +75,11 @@ public:
           format_(fmt::format("netlist {:016x}/1{}, T = {} s", design_->mark,
                               chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
         for (const auto& s : design_->shown) probes_.push_back({s.name, s.name[0] == 'v' ? "V" : "A"});
+        for (const auto& w : design_->kept) ranges_.push_back(w.range());
     }
 
     std::span<const Probe> probes() const override { return probes_; }
+    std::span<const Range> ranges() const override { return ranges_; }
     State start(Turn) const override { return {format_, 0, {}}; }
     std::int64_t delay() const override { return delay_; }
 
@@ -123,9 +126,13 @@ Result<void> CircuitAfferent::go_on(Rig& rig, std::int64_t from, std::int64_t to
     };
     tell();
     for (std::int64_t sample = from;;) {
-        for (; sample < to && rig.at(sample); ++sample)
+        for (; sample < to && rig.at(sample); ++sample) {
             for (std::size_t p = 0; p < answer.probes.size(); ++p)
                 answer.probes[p][static_cast<std::size_t>(sample - from)] = rig.shown(design_->shown[p].of, sample);
+            for (std::size_t k = 0; sample >= 0 && k < answer.outside.size(); ++k)
+                if (auto& o = answer.outside[k]; !design_->kept[k].holds(rig.shown(design_->kept[k].of, sample)))
+                    o = {o.samples + 1, o.first < 0 ? sample : o.first};
+        }
         if (sample == to) return {};
         if (auto ok = rig.step(); !ok) return ok;
         tell();
@@ -152,6 +159,8 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     if (!output) return output.error();
     auto shown = saved_of((*bench)->system);
     if (!shown) return shown.error();
+    auto kept = within_of((*bench)->system);
+    if (!kept) return kept.error();
     if (!(*bench)->system.hear(nullptr))
         return bad_input("no source carries a force, such as 'iin 0 fin force 60n' (60 nA a newton)", place);
     if (!*output) return bad_input("nothing says what a spike is: '.spike v(NODE) LEVEL [rise|fall]'", place);
@@ -168,7 +177,7 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
         design->times = *times;
     }
     if (shown->empty()) shown->push_back({output->value().text, output->value().of});
-    design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown);
+    design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown), design->kept = std::move(*kept);
     design->plan.longest = design->times.longest.value_or(longest_step);
     design->mark = mark_of(*design->circuit);
     return std::shared_ptr<const CircuitDesign>(std::move(design));

@@ -5,6 +5,7 @@
 #include "circuit/saved.hpp"
 #include "circuit/spike_output.hpp"
 #include "circuit/variants.hpp"
+#include "circuit/within.hpp"
 #include "signal/afferent.hpp"
 
 namespace corpuscle::circuit {
@@ -29,6 +30,7 @@ public:
     SpikeOutput output;
     std::optional<Chips> chips;
     std::vector<Saved> shown;
+    std::vector<Within> kept;
     std::uint64_t mark = 0;  ///< of all its numbers: another netlist has another
 };
 

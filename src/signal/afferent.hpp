@@ -19,6 +19,21 @@ struct Probe {
     std::string_view name, unit;
 };
 
+/// An inner quantity that stays between two values as long as the afferent does what it was designed for.
+struct Range {
+    std::string_view of, unit;  ///< "v(vf)", "V"
+    double low, high;
+    std::string_view meaning;  ///< of being outside; "" if nobody says
+};
+
+/// How often one was outside.
+struct Outside {
+    std::int64_t samples = 0, first = -1;  ///< first: the number of the first such sample; -1: none
+};
+
+/// "v(vf) was outside 100 mV to 600 mV for 120 ms of 1 s, first at 310 ms: the sensor's current is ..."; times in seconds.
+std::string outside_sentence(const Range&, double outside, double of, double first);
+
 /// All that an afferent carries from block to block. Copy it to try twice; pack it to resume elsewhere.
 struct State {
     std::string format;          ///< what the values mean, with its version: "sa1b+lif-b/1"
@@ -35,6 +50,7 @@ struct Answer {
     std::uint32_t unit = 0;
     /// If not empty: one array a probe, each as long as the block of force, to be filled.
     std::span<double* const> probes = {};
+    std::span<Outside> outside = {};                       ///< if not empty: one a range, added to
     std::int64_t capped = 0;                               ///< steps whose spikes were more than the cap allows
     std::int64_t clipped = 0;                              ///< samples beyond what a sensor's electronics or a converter can tell
     std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words, kept at the largest
@@ -59,6 +75,7 @@ public:
     Afferent& operator=(const Afferent&) = delete;
     virtual ~Afferent() = default;
     virtual std::span<const Probe> probes() const = 0;
+    virtual std::span<const Range> ranges() const { return {}; }
     /// The state before the first sample. The first sample also sets the force that went before it.
     virtual State start(Turn = {}) const = 0;
     /// How many samples the answer is behind the force: a block answers that many samples before those it hands in, and so do its

@@ -42,6 +42,7 @@ Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span
             if (!options.keep_on((static_cast<double>(n) + source.done()) / static_cast<double>(sources.size())))
                 return Error{Code::interrupted, "interrupted"};
         }
+        for (auto& sentence : units.outside()) work.outside.push_back(std::move(sentence));
         if (units.samples() == 0) return bad_input("no samples of force", {source.name()});
         for (auto* listener : listeners)
             if (auto ok = listener->end(units.input(), units.samples()); !ok) return ok.error();
@@ -75,6 +76,7 @@ std::vector<std::string> work_warnings(const Work& work) {
     if (work.overflowed > 0)
         warnings.push_back(fmt::format(
             "{} results did not fit their words and were kept at the largest or least; lower frac, or raise word", work.overflowed));
+    warnings.insert(warnings.end(), work.outside.begin(), work.outside.end());
     for (const auto& error : work.lost) warnings.push_back("did not converge, and said no more: " + error.text());
     return warnings;
 }

@@ -53,6 +53,7 @@ struct Work {
     std::int64_t clipped = 0;                              ///< samples beyond a sensor's electronics or converter
     std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: in time, those taken again, and Newton's
+    std::vector<std::string> outside;                      ///< what did not stay where an afferent works as designed
     std::vector<Error> lost;                               ///< a netlist that did not converge, and when: it said no more on its channel
 };
 

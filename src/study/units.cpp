@@ -95,6 +95,7 @@ Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
         if (!single[plan]) continue;
         singles_.push_back({static_cast<std::uint32_t>(u), afferents_[plan]->start({static_cast<std::uint32_t>(input_.channel_of(u)),
                                                                                     static_cast<std::uint32_t>(channels)})});
+        singles_.back().outside.resize(afferents_[plan]->ranges().size());
     }
     if (probed_)
         for (std::size_t u = 0; u < input_.units(); ++u)
@@ -170,8 +171,39 @@ Result<void> Units::answer_force(Single& single, Answer& answer, std::span<doubl
         if (auto ok = afferent.respond(ahead_.of(channel, 0, delay), single.state, answer); !ok) return ok;
     const std::span<const double> force =
         delay > 0 ? ahead_.of(channel, delay, force_.count) : std::span(force_of(single.unit), force_.count);
-    answer.probes = shown;
+    answer.probes = shown, answer.outside = single.outside;
     return afferent.respond(force, single.state, answer);
+}
+
+/// The one of this plan's units that was outside a range longest, or null; and how many were.
+std::pair<const Units::Single*, std::size_t> Units::longest_outside(std::size_t plan, std::size_t range) const {
+    const Single* longest = nullptr;
+    std::size_t left = 0;
+    for (const auto& s : singles_) {
+        if (s.unit % afferents_.size() != plan || s.outside[range].samples == 0) continue;
+        ++left;
+        if (!longest || s.outside[range].samples > longest->outside[range].samples) longest = &s;
+    }
+    return {longest, left};
+}
+
+std::vector<std::string> Units::outside() const {
+    std::vector<std::string> sentences;
+    const double T = input_.source.clock().T();
+    for (std::size_t plan = 0; plan < afferents_.size(); ++plan) {
+        const auto ranges = afferents_[plan] ? afferents_[plan]->ranges() : std::span<const Range>{};
+        for (std::size_t r = 0; r < ranges.size(); ++r) {
+            const auto [single, left] = longest_outside(plan, r);
+            if (!single) continue;
+            const auto& o = single->outside[r];
+            const auto what = outside_sentence(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
+                                               static_cast<double>(o.first) * T);
+            sentences.push_back(fmt::format("{} on {}: {}{}", input_.afferents[plan].name,
+                                            input_.channel_name(input_.channel_of(single->unit)), what,
+                                            left > 1 ? fmt::format(" (on {} more channels, too, not as long)", left - 1) : ""));
+        }
+    }
+    return sentences;
 }
 
 Result<void> Units::answer_singles(Pool& pool, Work& work) {

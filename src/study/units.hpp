@@ -14,6 +14,8 @@ public:
 
     const Input& input() const { return input_; }
     std::int64_t samples() const { return samples_; }
+    /// What left its afferent's ranges: a sentence for each range, on the channel on which it was outside longest.
+    std::vector<std::string> outside() const;
 
     /// One block through all units to all listeners; false at the end of the source.
     Result<bool> answer_block(Source& source, std::span<Listener* const> listeners, Pool& pool, Work& work);
@@ -31,6 +33,7 @@ private:
         State state;
         std::vector<Spike> spikes = {};
         std::int64_t capped = 0, clipped = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;
+        std::vector<Outside> outside = {};  // of each of the afferent's ranges
         std::optional<Error> error = {};
         bool lost = false;  // a netlist that did not converge: it says no more
     };
@@ -42,6 +45,7 @@ private:
     void answer_single(Single& single);
     Result<void> answer_force(Single& single, Answer& answer, std::span<double* const> shown);
     Result<void> answer_singles(Pool& pool, Work& work);
+    std::pair<const Single*, std::size_t> longest_outside(std::size_t plan, std::size_t range) const;
     Error of_unit(Error error, std::size_t unit) const;
     const double* force_of(std::size_t unit) const { return force_.force[input_.channel_of(unit)].data(); }
 

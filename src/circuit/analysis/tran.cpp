@@ -10,6 +10,7 @@
 #include "circuit/device/values.hpp"
 #include "circuit/force_order.hpp"
 #include "circuit/spike_output.hpp"
+#include "circuit/within.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -19,6 +20,34 @@ struct Asked {
     TransientPlan plan;
     std::optional<SpikeOutput> output;
     Beginning from;
+};
+
+/// How long each of the circuit's ranges was left, step by step.
+class Watch {
+    struct One {
+        Within range;
+        double outside = 0, first = 0;
+    };
+    std::vector<One> all_;
+    double before_ = 0;
+
+public:
+    explicit Watch(std::vector<Within> ranges) {
+        for (auto& r : ranges) all_.push_back({std::move(r)});
+    }
+    void look(double t, std::span<const double> x) {
+        for (auto& one : all_) {
+            if (one.range.holds(one.range.of.of(x))) continue;
+            if (one.outside == 0) one.first = t;
+            one.outside += t - before_;
+        }
+        before_ = t;
+    }
+    void tell(std::vector<Error>& remarks) const {
+        for (const auto& one : all_)
+            if (one.outside > 0)
+                remarks.push_back(bad_input(outside_sentence(one.range.range(), one.outside, before_, one.first), one.range.place));
+    }
 };
 
 /// The spikes of a transient, whose points go to each().
@@ -81,6 +110,9 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     if (!plan) return plan.error();
     const auto output = spike_output(bench.system);
     if (!output) return output.error();
+    auto ranges = within_of(bench.system);
+    if (!ranges) return ranges.error();
+    Watch watch(std::move(*ranges));
     const auto force = force_order(*bench.circuit);
     if (!force) return force.error();
     if (*force && !bench.system.hear(&**force))
@@ -101,6 +133,7 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     if (from) asked.from = std::move(*from);
     if (asked.from.remark && !bench.brief) out.remarks.push_back(*asked.from.remark);
     auto spikes = !from ? from.error() : spikes_of(bench, asked, transient, [&](double t, std::span<const double> x) {
+        watch.look(t, x);
         if (t < times->start) return true;
         row.assign(1, t), row.insert(row.end(), x.begin(), x.end());
         taken = points.point(row);
@@ -112,6 +145,7 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     if (!spikes) return spikes.error();
     for (const auto& done : {taken, ended, told})
         if (!done) return done.error();
+    if (!bench.brief) watch.tell(out.remarks);
     const auto& work = transient.work();
     out.table = fmt::format("{} steps, {} rejected, {} Newton iterations\n", work.steps, work.rejected, work.iterations);
     out.work = {{"steps", static_cast<double>(work.steps)},

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "circuit/device/values.hpp"
+#include "circuit/export/force.hpp"
 #include "circuit/export/transistor_text.hpp"
 
 namespace corpuscle::circuit {
@@ -76,7 +77,7 @@ private:
         });
     }
 
-    std::string source() const {
+    Result<std::string> source() const {
         const Waveform& w = e_.waveform;
         const bool force = w.shape == Waveform::Shape::force, shaped = w.shape != Waveform::Shape::none && !force;
         // A sine begins with its phase there, here with its offset.
@@ -86,7 +87,11 @@ private:
         if (w.ac_magnitude != 0 || w.ac_phase != 0) out += fmt::format(" ac {} {}", w.ac_magnitude, w.ac_phase);
         if (shaped) out += fmt::format(" {}({:})", shape_name(w.shape), fmt::join(w.numbers, " "));
         if (e_.letter == 'i' && said("m", 1) != 1) out += fmt::format(" m={}", said("m", 1));
-        return force ? fmt::format("* {} hands in a force in Corpuscle; here it rests\n{}\n", e_.name, out) : out + '\n';
+        if (!force) return out + '\n';
+        const auto points = force_points(circuit_, w.numbers.empty() ? 1 : w.numbers[0]);
+        if (!points) return points.error();
+        if (points->empty()) return fmt::format("* {} hands in a force in Corpuscle; here it rests\n{}\n", e_.name, out);
+        return fmt::format("* {}: the force of .force, in straight lines\n{} {}\n", e_.name, out, *points);
     }
     static std::string_view shape_name(Waveform::Shape shape) {
         switch (shape) {

@@ -20,7 +20,8 @@ public:
         if (c.name == "dc") return dc(c);
         if (c.name == "noise") return noise(c);
         if (c.name == "print") return print(c);
-        for (const std::string_view own : {"expect", "step", "mc", "force", "spike", "probe"})
+        if (c.name == "force") return "";  // it stands in the sources
+        for (const std::string_view own : {"expect", "step", "mc", "spike", "within", "probe"})
             if (c.name == own)
                 return left_out(
                     c, own == "step" || own == "mc" ? "ngspice has no such line; here are the plain values" : "ngspice has no such line");

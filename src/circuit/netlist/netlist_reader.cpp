@@ -20,7 +20,7 @@ constexpr std::string_view own_words[] = {".subckt", ".ends",    ".param",  ".fu
                                           ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
 constexpr std::string_view command_words[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",    ".sens", ".tran",
                                               ".meas", ".measure", ".print", ".plot",  ".probe", ".save", ".step",
-                                              ".mc",   ".expect",  ".force", ".spike", ".four"};
+                                              ".mc",   ".expect",  ".force", ".spike", ".within", ".four"};
 
 /// Values that go on over blanks: formulas of sources and charges.
 bool goes_on(char letter, std::string_view name) {

@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""The SA-I chip under the thesis's press: how long one second of touch takes, how exact its spikes are, and what ngspice takes.
+
+    chip.py CORPUSCLE CHIP_CIR [--until SECONDS] [--rounds N] [--keep DIR]
+
+Method: `corpuscle run` on the netlist with its default accuracy, N times (the quickest and the middle one are told; whole processes,
+processor's seconds), and once with tolerances a hundred times tighter, whose spikes are the measure of the others'. Then ngspice on the
+netlist as `corpuscle export` writes it (the same transistors by formulas, the force as straight lines), with our tolerances instead of
+the far tighter ones of the deck, up to SECONDS of the press, once; and ours again up to there. A spike is where v(s) rises through half
+the supply, on the straight line between two points. One core each, one after the other.
+"""
+import argparse
+import re
+import resource
+import statistics
+import struct
+import subprocess
+import tempfile
+from pathlib import Path
+
+OPTIONS = "reltol=1e-5 abstol=1e-16 vntol=1e-9"  # looser floors, and picoamperes are lost: no spike comes
+
+
+def timed(command):
+    def processor():
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return used.ru_utime + used.ru_stime
+    before = processor()
+    ran = subprocess.run(command, capture_output=True, text=True)
+    return processor() - before, ran.stdout + ran.stderr
+
+
+def spikes(raw):
+    """Where v(s) rises through 0.35 V, of a binary .raw file's last plot."""
+    head, _, body = Path(raw).read_bytes().rpartition(b"Binary:\n")
+    head = head.decode(errors="replace")[-100000:]
+    head = head[head.rindex("No. Variables"):]
+    variables, points = (int(re.search(rf"No. {what}: *(\d+)", head)[1]) for what in ("Variables", "Points"))
+    names = [l.split()[1].lower() for l in head.split("\nVariables:")[1].strip().splitlines()]
+    rows = list(struct.iter_unpack(f"<{variables}d", body[:points * variables * 8]))
+    s = names.index("v(s)")
+    return [a[0] + (b[0] - a[0]) * (0.35 - a[s]) / (b[s] - a[s]) for a, b in zip(rows, rows[1:]) if a[s] < 0.35 <= b[s]]
+
+
+class Chip:
+    def __init__(self, program, netlist, folder):
+        self.program, self.folder = program, folder
+        self.text = re.sub(r"(?m)^\.(op|expect).*\n", "", netlist.read_text())
+        for kind in ("lib", "include"):
+            self.text = re.sub(rf"(?m)^\.{kind} '([^']*)'", lambda m: f".{kind} '{(netlist.parent / m[1]).resolve()}'", self.text)
+
+    def netlist(self, name, until, options):
+        """The chip with these options, stopped there."""
+        text = re.sub(r"(?m)^\.tran (\S+) \S+", rf".tran \1 {until}", self.text).replace("\n.end", f"\n.options {options}\n.end")
+        path = self.folder / f"{name}.cir"
+        path.write_text(text)
+        return path
+
+    def ours(self, name, until, options=""):
+        raw = self.folder / f"{name}.raw"
+        seconds, said = timed([self.program, "run", str(self.netlist(name, until, "spikecheck=0 " + options)), "-o", str(raw)])
+        numbers = re.search(r"(\d+) steps, (\d+) rejected, (\d+) Newton iterations", said)
+        if not numbers:
+            raise SystemExit(said)
+        return seconds, [int(n) for n in numbers.groups()], spikes(raw)
+
+    def theirs(self, until):
+        deck, raw = self.folder / "ngspice.cir", self.folder / "ngspice.raw"
+        source = self.netlist("exported", until, "spikecheck=0")
+        subprocess.run([self.program, "export", str(source), "--for", "ngspice", "-o", str(deck), "--quiet"], check=True, capture_output=True)
+        text = re.sub(r"reltol=\S+ abstol=\S+ vntol=\S+", OPTIONS, deck.read_text())
+        control = f".control\nset num_threads=1\nrun\nrusage traniter accept rejected\nwrite {raw}\nquit\n.endc\n.end\n"
+        deck.write_text(re.sub(r"\.end\n*$", control, text))
+        seconds, said = timed(["ngspice", "-b", str(deck)])
+        numbers = [re.search(rf"{what} = (\d+)", said) for what in ("Accepted timepoints", "Rejected timepoints", "Transient iterations")]
+        if not all(numbers):
+            raise SystemExit("ngspice did not come to the end:\n" + said[-2000:])
+        return seconds, [int(n[1]) for n in numbers], spikes(raw)
+
+
+def row(name, run):
+    seconds, (steps, rejected, iterations), found = run
+    print(f"{name:<26}{seconds:9.3f} s{steps:8}{rejected:9}{iterations:11}{1e6 * seconds / iterations:9.1f}{len(found):8}   "
+          f"{', '.join(f'{1e3 * t:.3f}' for t in found[:3])} ... {1e3 * found[-1]:.3f} ms")
+
+
+def main():
+    words = argparse.ArgumentParser()
+    words.add_argument("corpuscle")
+    words.add_argument("chip", type=Path)
+    words.add_argument("--until", type=float, default=0.332, help="of the press, for ngspice, s")
+    words.add_argument("--rounds", type=int, default=7)
+    words.add_argument("--keep", type=Path)
+    given = words.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = given.keep or Path(scratch)
+        folder.mkdir(parents=True, exist_ok=True)
+        chip = Chip(given.corpuscle, given.chip, folder)
+        print(f"{given.chip.stem} under the press\n" + " " * 32 + "cpu   steps rejected iterations  us each  spikes")
+        rounds = sorted((chip.ours("default", 1) for _ in range(given.rounds)), key=lambda run: run[0])
+        middle = statistics.median(run[0] for run in rounds)
+        row("corpuscle, 1 s of touch", rounds[0])
+        print(f"{'':<26}{middle:9.3f} s is the middle of {given.rounds} rounds")
+        tight = chip.ours("tight", 1, "reltol=1e-7 vntol=1e-8")
+        row("a hundredth of reltol", tight)
+        worst = max((abs(a - b) for a, b in zip(rounds[0][2], tight[2])), default=float("nan"))
+        same = "as many" if len(rounds[0][2]) == len(tight[2]) else "NOT as many"
+        print(f"{'':<26}{same} spikes, the furthest {1e6 * worst:.0f} us off")
+        mine, peer = chip.ours("part", given.until), chip.theirs(given.until)
+        row(f"corpuscle, {given.until:g} s of it", mine)
+        row(f"ngspice, {given.until:g} s of it", peer)
+        off = max((abs(a - b) for a, b in zip(mine[2], peer[2])), default=float("nan"))
+        print(f"{'':<26}ngspice over ours: whole {peer[0] / mine[0]:.0f}, an iteration "
+              f"{peer[0] / peer[1][2] / (mine[0] / mine[1][2]):.0f}; spikes {1e6 * off:.0f} us apart")
+
+
+main()
