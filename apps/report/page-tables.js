@@ -26,6 +26,16 @@ function fillRates(host, {columns, decimals, rows}, only) {
     if (wanted.length > MOST_ROWS) element(host, "p", "note", `the first ${MOST_ROWS} of ${wanted.length} rows`);
 }
 
+/// Versions of one receptor on the chosen channel.
+function showVersionsOf(table, channel) {
+    const section = document.getElementById("comparisons");
+    section.hidden = !table || !table.rows.length;
+    if (section.hidden) return;
+    section.querySelector("small").textContent = `The first of each receptor is what the others are held against. Spikes closer than ${quantity(2 / table.cost, "s", true)} ` +
+        `are matched, a shift is later; Victor-Purpura at ${quantity(table.cost, "Hz", true)}, van Rossum with ${quantity(table.tau, "s", true)}.`;
+    fillRates(section.querySelector(".scroll"), table, channel.name);
+}
+
 /// What was found of the recordings: the sentences, the worst first, and the numbers behind them.
 function showQuality({sentences, columns, rows}) {
     const section = document.getElementById("quality");
