@@ -76,25 +76,24 @@ class OverlayPanel extends TracePanel {
         element(this.heading, "span", "right-title", `${escaped(name)}${turned} <span class="unit">(${PREFIXES[power]}${unitText(trace.unit)})</span>`).style.color = color;
     }
 
-    under(context, area) {
-        super.under(context, area);
-        if (this.right) this.drawRight(context, area);
+    start(view) {
+        super.start(view);
+        if (this.right) this.axis = element(this.plot, "div", "right-axis");
     }
 
-    drawRight(context, area) {
+    draw(a, b, fit) {
+        super.draw(a, b, fit);
+        if (this.right && this.area.w >= 1) this.drawRight(this.area);
+    }
+
+    /// Round values of the right axis, each at the height where the left one has what it stands for.
+    drawRight({x, y, w, h}) {
         const {scale, color} = this.right, unit = this.rightScale;
         const ends = this.chart.yAxisRange().map((v) => scale.from(v) / unit);
-        const {values, decimals} = roundTicks(Math.min(...ends), Math.max(...ends), area.h / 32);
-        const x = area.x + area.w;
-        context.font = `${AXIS_FONT}px system-ui, sans-serif`;
-        context.textAlign = "left";
-        context.fillStyle = color;
-        context.fillRect(x, area.y, 1, area.h);
-        for (const v of values) {
-            const y = this.chart.toDomYCoord(scale.to(v * unit));
-            context.fillRect(x, Math.round(y), 4, 1);
-            context.fillText(v.toFixed(decimals).replace("-", "−"), x + 7, Math.max(area.y + 9, Math.min(area.y + area.h, y + 4)));
-        }
+        const {values, decimals} = roundTicks(Math.min(...ends), Math.max(...ends), h / 32);
+        const label = (v) => `<span style="top: ${this.chart.toDomYCoord(scale.to(v * unit)) - y}px">${v.toFixed(decimals).replace("-", "−")}</span>`;
+        Object.assign(this.axis.style, {left: `${x + w}px`, top: `${y}px`, height: `${h}px`, color});
+        this.axis.innerHTML = values.map(label).join("");
     }
 }
 

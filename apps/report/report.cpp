@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/template.hpp"
+#include "report/versions_document.hpp"
 #include "signal/version.hpp"
 
 namespace corpuscle {
@@ -59,39 +60,6 @@ Json table_document(const Summary& summary) {
         rows.push_back(std::move(row));
     }
     return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
-}
-
-/// Versions of one receptor: what the others are held against, then each of them. A column a phase, whichever input has it.
-Json comparisons_document(const Summary& summary) {
-    Json columns = {"receptor", "afferent", "channel", "spikes", "differ (%)"}, decimals = {nullptr, nullptr, nullptr, 0, 1};
-    Json rows = Json::array();
-    std::vector<std::string> phases;
-    for (const auto& c : summary.comparisons().rows())
-        for (const auto& p : c.phases)
-            if (std::find(phases.begin(), phases.end(), p.phase) == phases.end()) phases.push_back(p.phase);
-    for (const auto& p : phases) columns.push_back(p), decimals.push_back(0);
-    for (const auto& [name, places] :
-         {std::pair{"matched", 0}, {"mean shift (ms)", 2}, {"median shift (ms)", 2}, {"Victor-Purpura", 2}, {"van Rossum", 2}})
-        columns.push_back(name), decimals.push_back(places);
-    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
-    const auto counted = [&](Json row, const Comparison& c, std::size_t Comparison::Count::* which) {
-        for (const auto& phase : phases) {
-            const auto p = std::find_if(c.phases.begin(), c.phases.end(), [&](const auto& one) { return one.phase == phase; });
-            row.push_back(p == c.phases.end() ? Json(nullptr) : Json((*p).*which));
-        }
-        return row;
-    };
-    for (const auto& c : summary.comparisons().rows()) {
-        if (rows.empty() || rows.back()[0] != c.receptor || rows.back()[2] != c.channel) {
-            rows.push_back(counted({c.receptor, c.reference, c.channel, c.all.in_reference, nullptr}, c, &Comparison::Count::in_reference));
-            for (int k = 0; k < 5; ++k) rows.back().push_back(nullptr);
-        }
-        auto row = counted({c.receptor, c.afferent, c.channel, c.all.spikes, number(100 * c.all.excess())}, c, &Comparison::Count::spikes);
-        for (const double x : {1e3 * c.mean_shift, 1e3 * c.median_shift, c.victor_purpura, c.van_rossum}) row.push_back(number(x));
-        row.insert(row.end() - 4, c.matched);
-        rows.push_back(std::move(row));
-    }
-    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}, {"cost", Comparisons::cost}, {"tau", Comparisons::tau}};
 }
 
 /// What was found of the recordings, in words, and a row a channel in numbers; no rows for stimuli.
@@ -236,7 +204,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                      {"traces", traces_},
                      {"spikes", spikes_},
                      {"table", table_document(summary)},
-                     {"comparisons", comparisons_document(summary)},
+                     {"comparisons", versions_document(summary.comparisons())},
                      {"quality", quality_document(summary)},
                      {"remarks", remarks},
                      {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
