@@ -75,7 +75,7 @@ function spikePanels() {
     const colours = afferents.map(({name}, index) => ({name, color: afferentColour(index), index}));
     const overlaid = receptors.some(({members}) => members.length > 1);
     const trainsOf = (members) => members.map(({afferent, index}) => ({...colours[index], spikes: report.spikes(report.members(afferent)[0], channel)}));
-    const frequency = (trains, of) => new FrequencyPanel({host, input, name: `${of}frequency`, about: `${of}instantaneous frequency`, height: 150, trains,
+    const frequency = (trains, of) => new FrequencyPanel({host, input, name: `${of}frequency`, about: `${of}instantaneous frequency`, height: of ? 110 : 150, trains,
                                                           title: `${of}instantaneous frequency`});
     return [
         new RasterPanel({host, input, name: "raster", about: "spikes", lanes: lanes(input, channel), afferents: colours, named: !shown.traces.length,
