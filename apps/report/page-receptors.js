@@ -6,7 +6,7 @@ function receptorPanels({name, members}) {
     if (!traced.some(({traces}) => traces.length)) return [];
     const about = ({afferent}) => [report.data.copies ? "copy 1" : "", afferent.made_of, afferent.sentence].filter(Boolean).join(": ");
     if (members.length === 1) {
-        const host = section(name, about(members[0]), afferentColour(members[0].index));
+        const host = section(members[0].afferent.name, about(members[0]), afferentColour(members[0].index));
         return withTimes(traced[0].traces.length ? afferentPanels(host, traced[0], traced[0].traces) : []);
     }
     const host = section(name);

@@ -44,33 +44,42 @@ class ScaledTrace {
     at(t) { return this.trace.at(t); }
 }
 
-/// The mean of a trace's size.
-function meanSize(trace) {
+/// The mean of what is positive of a trace: of a current, what drives the membrane to fire.
+function meanDrive(trace) {
     const {lo, hi} = trace.pyramid.levels[0];
     let sum = 0, count = 0;
     for (let k = 0; k < lo.length; ++k) {
         const middle = (lo[k] + hi[k]) / 2;
-        if (Number.isFinite(middle)) [sum, count] = [sum + Math.abs(middle), count + 1];
+        if (Number.isFinite(middle)) [sum, count] = [sum + Math.max(middle, 0), count + 1];
     }
     return count ? sum / count : 0;
 }
 
-/// Where a membrane fires and where it is reset to: as its parameters say; else the ends of its shortest interval between two spikes,
-/// on whose way most samples move. Null if it fired less than twice.
+/// Where a membrane fires and where it is reset to: as its parameters say; else the ends of its way between two spikes, over the quicker
+/// intervals, for in longer ones it may rest. Null if it fired less than twice.
 function windowOf({afferent}, trace, spikes) {
     if (Number.isFinite(afferent.V_th) && Number.isFinite(afferent.V_reset)) return {fires: afferent.V_th, resets: afferent.V_reset};
-    const t = spikes.times, f = spikes.frequency.levels[0].lo;
-    if (t.length < 2) return null;
-    const k = f.reduce((best, value, one) => (value > f[best] ? one : best), 0);
-    const [i, j] = [t[k], t[k + 1]].map((time) => Math.floor((time - trace.t0) / trace.T));
-    const [low, high] = trace.range(i, j + 1);
-    let rises = 0;
-    for (let n = i + 1; n <= j; ++n) rises += Math.sign(trace.range(n, n + 1)[0] - trace.range(n - 1, n)[0]);
-    if (low === null || low === high) return null;
-    return rises < 0 ? {fires: low, resets: high} : {fires: high, resets: low};
+    const sample = (t) => Math.floor((t - trace.t0) / trace.T), t = spikes.times;
+    const intervals = Array.from(t.slice(1), (end, k) => [sample(t[k]), sample(end)]).filter(([i, j]) => j > i);
+    if (!intervals.length) return null;
+    const longest = 3 * Math.min(...intervals.map(([i, j]) => j - i));
+    const quick = intervals.filter(([i, j]) => j - i <= longest).slice(0, 1000);
+    const ranges = quick.map(([i, j]) => trace.range(i, j + 1));
+    const [low, high] = [Math.min(...ranges.map((range) => range[0])), Math.max(...ranges.map((range) => range[1]))];
+    if (!(low < high)) return null;
+    return rising(trace, quick, (low + high) / 2) ? {fires: high, resets: low} : {fires: low, resets: high};
 }
 
-/// Values that a tenth and ten times of each other still share an axis.
+/// Whether a membrane rises to fire: so go most of its samples between spikes; where these are few, it rests below `middle`.
+function rising(trace, intervals, middle) {
+    const [i, j] = intervals.reduce((longest, one) => (one[1] - one[0] > longest[1] - longest[0] ? one : longest));
+    if (j - i < 8 * trace.bucket) return trace.range(0, 1)[0] < middle;
+    let up = 0;
+    for (let n = i + trace.bucket; n <= j; n += trace.bucket) up += Math.sign(trace.range(n, n + 1)[0] - trace.range(n - trace.bucket, n - trace.bucket + 1)[0]);
+    return up > 0;
+}
+
+/// Currents less than ten times each other share an axis.
 const alike = (one, other) => one > 0 && other > 0 && one / other < 10 && other / one < 10;
 
 /// Scales of all members, the first one's first. Whoever is like an earlier one shares its scale; the others are given one by `make`.
@@ -78,15 +87,15 @@ function sharedScales(members, facts, like, make) {
     const scales = [];
     members.forEach((_, k) => {
         const earlier = facts.findIndex((fact, n) => n < k && facts[k] && fact && like(facts[k], fact));
-        scales.push(k === 0 || !facts[k] ? new Scale() : earlier >= 0 ? scales[earlier] : facts[0] ? make(facts[k], facts[0]) : new Scale());
+        scales.push(k === 0 || !facts[k] || !facts[0] ? new Scale() : earlier === 0 ? new Scale() : earlier > 0 ? scales[earlier] : make(facts[k], facts[0]));
     });
     return scales;
 }
 
-/// Currents of another size stand where their mean over the recording is the first one's; of the whole current, if it is shown.
+/// Currents of another size stand where their mean drive is the first one's; of the whole current, if it is shown.
 function currentScales(members, currents) {
-    const lead = currents.find((list) => isWhole(list[0].trace)) || currents[0] || [];
-    const means = members.map((member) => lead.filter((one) => one.member === member).map(({trace}) => meanSize(trace))[0]);
+    const lead = currents.reduce((best, list) => (list.length > best.length ? list : best), []);  // the whole comes first
+    const means = members.map((member) => lead.filter((one) => one.member === member).map(({trace}) => meanDrive(trace))[0]);
     return sharedScales(members, means, alike, (own, first) => new Scale(0, first / own));
 }
 
@@ -99,16 +108,20 @@ function membraneScales(members, windows) {
     });
 }
 
-/// What the reader must know of the right axes: [sentence].
+/// What the reader must know of the right axes, a sentence for each version that does not stand as it is.
 function scaleSentences(members, currents, membranes, windows) {
-    const {name, unit: first} = {name: members[0].afferent.name, unit: windows[0]};
+    const first = members[0].afferent.name;
+    const text = (value, unit) => quantity(value, unit, true);
+    const current = (scale) => `${text(scale.from(1e-6), "A")} stand where ${first} has ${text(1e-6, "A")}, so that the mean of what drives is the same`;
+    const membrane = (scale, {fires, resets}) =>
+        `its membrane ${scale.factor < 0 ? "falls to fire and is drawn upside down" : "is drawn"}: ${text(resets, "V")}, where a spike leaves it, at ` +
+        `${text(windows[0].resets, "V")}; ${text(fires, "V")}, where it fires, at ${text(windows[0].fires, "V")}`;
     return members.flatMap(({afferent}, k) => {
-        const said = [];
-        if (!currents[k].own) said.push(`${quantity(currents[k].from(1e-6), "A", true)} of current stand where ${name} has 1 µA, so that the mean is the same`);
-        if (!membranes[k].own)
-            said.push(`its membrane ${membranes[k].factor < 0 ? "falls to fire, and is drawn upside down" : "is drawn"}: ` +
-                      `${quantity(windows[k].resets, "V", true)}, where a spike leaves it, at ${quantity(first.resets, "V", true)}; ` +
-                      `${quantity(windows[k].fires, "V", true)}, where it fires, at ${quantity(first.fires, "V", true)}`);
-        return said.length ? [`${afferent.name} by the right axes: ${said.join("; ")}.`] : [];
+        const earlier = [currents, membranes].map((scales) => scales.indexOf(scales[k]));
+        const said = [[currents, current], [membranes, membrane]].flatMap(([scales, say], n) => (scales[k].own || earlier[n] < k ? [] : [say(scales[k], windows[k])]));
+        const shared = [...new Set(earlier.filter((n) => n < k).map((n) => members[n].afferent.name))];
+        if (shared.length) said.push(`the axes of ${shared.join(", ")}`);
+        if (windows[0] && !windows[k]) said.push("its membrane stands at the left as it is, for it fired less than twice");
+        return said.length ? [`${afferent.name}: ${said.join("; ")}.`] : [];
     });
 }

@@ -82,7 +82,7 @@ function spikePanels() {
                          pick: several ? (one) => show(input, one) : null, parted: several || copies || overlaid}),
         ...(copies ? [new PopulationPanel({host, input, name: "population", about: "rate of the population", height: 150,
                                            rates: colours.map((one, k) => ({...one, ...report.rate(afferents[k], channel)}))})] : []),
-        ...(overlaid && receptors.length > 1 ? receptors.map(({name, members}) => frequency(trainsOf(members), name + " "))
+        ...(overlaid && receptors.length > 1 ? receptors.map(({name, members}) => frequency(trainsOf(members), (members.length > 1 ? name : members[0].afferent.name) + " "))
                                              : [frequency(trainsOf(receptors.flatMap(({members}) => members)), "")]),
     ];
 }
