@@ -19,6 +19,8 @@ class FrequencyPanel extends Panel {
         return {series};
     }
 
+    valueTicks(lo, hi, pixels) { return super.valueTicks(lo, hi, 1.35 * pixels); }
+
     range(rows) {
         const high = rows && rows.length ? this.trains.reduce((m, _, k) => Math.max(m, greatest(rows, k + 1)), 0) : this.highest;
         return [(high || 1) * -0.04, (high || 1) * 1.08];

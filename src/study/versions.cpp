@@ -21,7 +21,7 @@ const NamedAfferent* named(const std::string& name) {
     return nullptr;
 }
 
-/// The least is held against: 0 the receptor itself, 1 another model, 2 a netlist.
+/// The lowest is what the others are held against: 0 the receptor itself, 1 another model, 2 a netlist.
 int rank(const AfferentPlan& plan, const std::string& receptor) { return plan.design ? 2 : plan.name == receptor ? 0 : 1; }
 
 }  // namespace
@@ -43,8 +43,9 @@ std::vector<Versions> versions_of(std::span<const AfferentPlan> plans) {
         at->members.push_back(k);
     }
     for (auto& v : all)
-        std::stable_sort(v.members.begin(), v.members.end(),
-                         [&](std::size_t a, std::size_t b) { return rank(plans[a], v.receptor) < rank(plans[b], v.receptor); });
+        std::sort(v.members.begin(), v.members.end(), [&](std::size_t a, std::size_t b) {
+            return std::pair(rank(plans[a], v.receptor), a) < std::pair(rank(plans[b], v.receptor), b);
+        });
     return all;
 }
 
