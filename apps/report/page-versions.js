@@ -55,8 +55,8 @@ function meanDrive(trace) {
     return count ? sum / count : 0;
 }
 
-/// Where a membrane fires and where it is reset to: as its parameters say; else the ends of its way between two spikes, over the quicker
-/// intervals, for in longer ones it may rest. Null if it fired less than twice.
+/// Where a membrane fires and where it is reset to: as its parameters say; else the ends of its way between two spikes, the middle ones of the
+/// quicker intervals, for in longer ones it may rest; of few samples the outermost ones. Null if it fired less than twice.
 function windowOf({afferent}, trace, spikes) {
     if (Number.isFinite(afferent.V_th) && Number.isFinite(afferent.V_reset)) return {fires: afferent.V_th, resets: afferent.V_reset};
     const sample = (t) => Math.floor((t - trace.t0) / trace.T), t = spikes.times;
@@ -64,8 +64,8 @@ function windowOf({afferent}, trace, spikes) {
     if (!intervals.length) return null;
     const longest = 3 * Math.min(...intervals.map(([i, j]) => j - i));
     const quick = intervals.filter(([i, j]) => j - i <= longest).slice(0, 1000);
-    const ranges = quick.map(([i, j]) => trace.range(i, j + 1));
-    const [low, high] = [Math.min(...ranges.map((range) => range[0])), Math.max(...ranges.map((range) => range[1]))];
+    const ends = [0, 1].map((end) => quick.map(([i, j]) => trace.range(i, j + 1)[end]).sort((one, other) => one - other));
+    const [low, high] = longest < 24 * trace.bucket ? [ends[0][0], ends[1].at(-1)] : ends.map((all) => all[all.length >> 1]);
     if (!(low < high)) return null;
     return rising(trace, quick, (low + high) / 2) ? {fires: high, resets: low} : {fires: low, resets: high};
 }

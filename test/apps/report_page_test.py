@@ -341,9 +341,12 @@ class Versions(Page):
         """Two points of the axis at the right: what they say in SI, and where they stand on the left one."""
         labels = self.js("""
             const chart = corpuscle.charts[arguments[0]], axis = document.querySelector(`[data-panel="${arguments[0]}"] .right-axis`);
-            return [...axis.children].map((one) => [one.textContent, chart.toDataYCoord(parseFloat(one.style.top) + chart.getArea().y)])""", panel)
+            return [...axis.children].map((one) => [one.textContent, chart.toDataYCoord(parseFloat(one.style.top) + chart.getArea().y),
+                                                    parseFloat(one.style.top) / chart.getArea().h])""", panel)
+        self.assertGreaterEqual(len(labels), 2, panel)
+        self.assertTrue(all(-0.01 < height < 1.01 for *_, height in labels), (panel, labels))
         prefix = re.search(r"\((.?)[AV]\)", self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] .right-title').text)[1]
-        return [(float(text.replace("−", "-")) * PREFIX[prefix], place) for text, place in (labels[0], labels[-1])]
+        return [(float(text.replace("−", "-")) * PREFIX[prefix], place) for text, place, _ in (labels[0], labels[-1])]
 
     def drawn(self, panel, column):
         return self.js("""
