@@ -86,11 +86,14 @@ class OverlayPanel extends TracePanel {
         if (this.right && this.area.w >= 1) this.drawRight(this.area);
     }
 
+    /// These panels are low: their numbers stand closer.
+    valueTicks(lo, hi, pixels) { return super.valueTicks(lo, hi, 1.4 * pixels); }
+
     /// Round values of the right axis, each at the height where the left one has what it stands for.
     drawRight({x, y, w, h}) {
         const {scale, color} = this.right, unit = this.rightScale;
         const ends = this.chart.yAxisRange().map((v) => scale.from(v) / unit);
-        const {values, decimals} = roundTicks(Math.min(...ends), Math.max(...ends), h / 32);
+        const {values, decimals} = roundTicks(Math.min(...ends), Math.max(...ends), h / 23);
         const label = (v) => `<span style="top: ${this.chart.toDomYCoord(scale.to(v * unit)) - y}px">${v.toFixed(decimals).replace("-", "−")}</span>`;
         Object.assign(this.axis.style, {left: `${x + w}px`, top: `${y}px`, height: `${h}px`, color});
         this.axis.innerHTML = values.map(label).join("");
