@@ -4,9 +4,11 @@
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
 corpuscle = build/release/corpuscle
+# The thesis's two receptors, each as equations and as a chip.
+touched = press --afferent sa1 --afferent circuits/sa1.cir --afferent fa1 --afferent circuits/fa1.cir
 
 demo: build
-	@$(corpuscle) respond press --afferent sa1 --afferent fa1 --out out/press --report
+	@$(corpuscle) respond $(touched) --out out/press --report
 	@echo "Spikes: out/press/spikes.csv   Page to look at: out/press/report.html"
 
 build: setup-run
@@ -48,7 +50,7 @@ install: build
 CORPUSCLE_DATA ?= ../shared/data
 draw = /usr/bin/python3 doc/picture.py $(corpuscle)
 pictures: release
-	$(draw) doc/press.png press
+	$(draw) doc/press.png $(touched)
 	$(draw) doc/pictures/grip.png $(CORPUSCLE_DATA)/grip_force_ati/grip_02_raw.csv --channel Fz --rate 242.64Hz --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz
 	$(draw) doc/pictures/insole.png $(CORPUSCLE_DATA)/gait_insole_vgrf/GaCo01_01.txt --layout examples/layouts/insole.csv --scale 0.008
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv

@@ -18,6 +18,7 @@
 #include "study/summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "versions_table.hpp"
 
 namespace corpuscle {
 namespace {
@@ -255,7 +256,8 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)
-        fmt::print("{}{}{}{}", inputs_table(summary), copies_line(job->population), rate_table(summary), outputs.told());
+        fmt::print("{}{}{}{}{}", inputs_table(summary), copies_line(job->population), rate_table(summary),
+                   versions_table(summary.comparisons()), outputs.told());
     if (!work->lost.empty()) {
         auto error = work->lost[0];
         error.sentence = fmt::format("{} of {} netlists on their channels did not converge; the first: {}", work->lost.size(),

@@ -5,10 +5,10 @@ const MARKS = ["●", "▲", "■", "◆"];
 
 /// f_k = 1 / (t[k+1] - t[k]) as a mark at t[k]; the last spike has none.
 class FrequencyPanel extends Panel {
-    constructor({trains, ...rest}) {
+    constructor({trains, title = "instantaneous frequency", ...rest}) {
         const highest = trains.reduce((high, {spikes}) => Math.max(high, spikes.frequency.range(0, spikes.count)[1] || 0), 0);
         const power = prefixPower(highest, "Hz");
-        super({...rest, scale: 10 ** power, title: titleHtml("instantaneous frequency", PREFIXES[power] + "Hz"), bottom: true,
+        super({...rest, scale: 10 ** power, title: titleHtml(title, PREFIXES[power] + "Hz"), bottom: true,
                series: trains.map(({name, color, index}) => ({label: name, html: escaped(name), color, mark: MARKS[index % 4], index}))});
         Object.assign(this, {trains: trains.map((one) => one.spikes), highest});
     }
@@ -18,6 +18,8 @@ class FrequencyPanel extends Panel {
             [label, {color, strokeWidth: 0, drawPoints: true, pointSize: 2.5, drawPointCallback: drawMark(index % 4)}]));
         return {series};
     }
+
+    valueTicks(lo, hi, pixels) { return super.valueTicks(lo, hi, 1.35 * pixels); }
 
     range(rows) {
         const high = rows && rows.length ? this.trains.reduce((m, _, k) => Math.max(m, greatest(rows, k + 1)), 0) : this.highest;

@@ -26,7 +26,7 @@ class Panel {
     /// `series`: [{label, html, color, width, dash}], one for each column of rows(). `scale`: what one unit of the axis is.
     /// `bottom` shows the time axis, `named` writes the phases' names.
     constructor({host, input, name, title, about, height, series, scale = 1, bottom = false, named = false}) {
-        Object.assign(this, {input, name, series, about, height, scale, named, axisHeight: bottom ? 22 : 16, bottom, dots: false});
+        Object.assign(this, {input, name, series, about, height, scale, named, axisHeight: bottom ? 22 : 16, bottom, dots: false, rightRoom: 14});
         this.root = element(host, "figure", "panel");
         this.root.dataset.panel = name;
         this.heading = element(this.root, "figcaption");
@@ -65,12 +65,17 @@ class Panel {
             interactionModel: {},  // the view has its own, for all panels at once
             pixelRatio: document.documentElement.classList.contains("printing") ? 2 : null,
             legend: "never", pointSize: 2.2, highlightCircleSize: 0, showLabelsOnHighlight: false,
-            axisLabelFontSize: AXIS_FONT, axisTickSize: 3, rightGap: 14, xAxisHeight: this.axisHeight,
+            axisLabelFontSize: AXIS_FONT, axisTickSize: 3, rightGap: view.rightRoom, xAxisHeight: this.axisHeight,
             gridLineColor: colour("grid"), gridLineWidth: 1, axisLineColor: colour("axis"), axisLineWidth: 1,
             ...this.options(),
         });
         this.hairline = element(this.plot, "div", "hairline");
         this.selection = element(this.plot, "div", "selection");
+    }
+
+    showTimes() {
+        Object.assign(this, {bottom: true, axisHeight: 22});
+        this.plot.style.height = this.height + this.axisHeight + "px";
     }
 
     options() { return {}; }

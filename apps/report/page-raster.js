@@ -5,7 +5,7 @@ const MOST_LABELS = 46;  // more lanes than this are too thin for a label each
 
 /// Each lane is an afferent on a channel: ticks while they stand apart, spikes per pixel as shade when they do not.
 class RasterPanel extends Panel {
-    /// `lanes`: [{afferent, label, color, spikes, channel, chosen}], the first at the top. `parted` draws a line between afferents.
+    /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top. `parted` draws a line between groups.
     constructor({lanes, pick, parted, afferents, named, ...rest}) {
         const tall = Math.min(24, 560 / lanes.length), strip = named ? 16 : 0;
         super({...rest, named, title: "spikes", height: strip + Math.max(40, tall * lanes.length), bottom: true,
@@ -46,7 +46,7 @@ class RasterPanel extends Panel {
         this.countSpikes(seen);
     }
 
-    /// The chosen channel's lanes are tinted; a line parts one afferent's lanes from the next one's.
+    /// The chosen channel's lanes are tinted; a line parts one group's lanes from the next one's.
     markLanes(context, area) {
         if (!this.parted) return;
         const [tint, rule] = [colour("chosen"), colour("rule")];
@@ -55,7 +55,7 @@ class RasterPanel extends Panel {
             context.fillStyle = tint;
             if (this.pick && lane.chosen) context.fillRect(area.x, y, area.w, Math.max(area.tall, 2));
             context.fillStyle = rule;
-            if (k && lane.afferent !== this.lanes[k - 1].afferent) context.fillRect(area.x, Math.round(y), area.w, 1);
+            if (k && lane.group !== this.lanes[k - 1].group) context.fillRect(area.x, Math.round(y), area.w, 1);
         });
     }
 

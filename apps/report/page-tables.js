@@ -16,14 +16,25 @@ function showRates(table, inputs, channel) {
     fill();
 }
 
-function fillRates(host, {columns, decimals, rows}, only) {
+function fillRates(host, {columns, decimals, rows}, only, parted = (row, before) => row[0] !== before[0]) {
     const wanted = rows.filter((row) => !only || row[columns.indexOf("channel")] === only);
     const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number" || Array.isArray(row[c])));
     const cell = (tag, c, text) => `<${tag}${numeric[c] ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${escaped(text)}</${tag}>`;
-    const line = (row, k) => `<tr${k && row[0] !== wanted[k - 1][0] ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value, decimals[c]))).join("")}</tr>`;
+    const line = (row, k) => `<tr${k && parted(row, wanted[k - 1]) ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value, decimals[c]))).join("")}</tr>`;
     host.innerHTML = `<table><thead><tr>${columns.map((name, c) => cell("th", c, name)).join("")}</tr></thead>
         <tbody>${wanted.slice(0, MOST_ROWS).map(line).join("")}</tbody></table>`;
     if (wanted.length > MOST_ROWS) element(host, "p", "note", `the first ${MOST_ROWS} of ${wanted.length} rows`);
+}
+
+/// Versions of one receptor on the chosen channel.
+function showVersionsOf(table, channel) {
+    const section = document.getElementById("comparisons");
+    section.hidden = !table || !table.rows.length;
+    if (section.hidden) return;
+    section.querySelector(".note").textContent = `The first of each receptor is what the others are held against. Spikes closer than ${quantity(2 / table.cost, "s", true)} ` +
+        `are matched; a positive shift is later than its. Victor-Purpura at ${quantity(table.cost, "Hz", true)}, van Rossum with ${quantity(table.tau, "s", true)}.`;
+    const isFirst = (row) => row[table.columns.indexOf("matched")] === null;
+    fillRates(section.querySelector(".scroll"), table, channel.name, isFirst);
 }
 
 /// What was found of the recordings: the sentences, the worst first, and the numbers behind them.

@@ -3,12 +3,12 @@
 
 /// Traces of one unit over time; the axis carries the prefix that suits the largest value.
 class TracePanel extends Panel {
-    /// `line`: {value, html} draws a thin dashed level, the threshold.
-    constructor({traces, line = null, title, ...rest}) {
+    /// `symbol` closes the title: "I_A". `line`: {value, html} draws a thin dashed level, the threshold.
+    constructor({traces, line = null, title, symbol = "", ...rest}) {
         const extent = extentOf(traces.map((trace) => trace.whole()), line);
         const power = prefixPower(Math.max(Math.abs(extent[0]), Math.abs(extent[1])), traces[0].unit);
         const unit = PREFIXES[power] + unitText(traces[0].unit);
-        super({...rest, scale: 10 ** power, title: titleHtml(title, unit)});
+        super({...rest, scale: 10 ** power, title: escaped(title) + symbolHtml(symbol) + titleHtml("", unit)});
         Object.assign(this, {traces, line, extent});
         if (line) this.legend({html: line.html, color: colour("level"), width: 1, dash: [5, 3]}).textContent = quantity(line.value, traces[0].unit, true);
     }
@@ -58,6 +58,45 @@ class TracePanel extends Panel {
 
     read(t) {
         this.traces.forEach((trace, k) => { this.values[k].textContent = rangeText(trace.at(t), trace.unit); });
+    }
+}
+
+/// One quantity of several versions. Those of another scale are read on an axis at the right, which is the first of them's.
+class OverlayPanel extends TracePanel {
+    /// `versions`: [{trace, scale, color, name}].
+    constructor({versions, title, symbol, ...rest}) {
+        const traces = versions.map(({trace, scale}) => (scale.own ? trace : new ScaledTrace(trace, scale)));
+        super({...rest, traces, title, symbol, series: versions.map(({name, color}, k) => ({label: name, html: escaped(name), color, width: k ? 1.3 : 2.2}))});
+        this.right = versions.find(({scale}) => !scale.own);
+        if (!this.right) return;
+        const {scale, color, name, trace} = this.right;
+        const power = prefixPower(Math.max(...this.extent.map((v) => Math.abs(scale.from(v)))), trace.unit);
+        Object.assign(this, {rightScale: 10 ** power, rightRoom: 58});
+        const turned = scale.factor < 0 ? ", upside down" : "";
+        element(this.heading, "span", "right-title", `${escaped(name)}${turned} <span class="unit">(${PREFIXES[power]}${unitText(trace.unit)})</span>`).style.color = color;
+    }
+
+    start(view) {
+        super.start(view);
+        if (this.right) this.axis = element(this.plot, "div", "right-axis");
+    }
+
+    draw(a, b, fit) {
+        super.draw(a, b, fit);
+        if (this.right && this.area.w >= 1) this.drawRight(this.area);
+    }
+
+    /// These panels are low: their numbers stand closer.
+    valueTicks(lo, hi, pixels) { return super.valueTicks(lo, hi, 1.4 * pixels); }
+
+    /// Round values of the right axis, each at the height where the left one has what it stands for.
+    drawRight({x, y, w, h}) {
+        const {scale, color} = this.right, unit = this.rightScale;
+        const ends = this.chart.yAxisRange().map((v) => scale.from(v) / unit);
+        const {values, decimals} = roundTicks(Math.min(...ends), Math.max(...ends), h / 23);
+        const label = (v) => `<span style="top: ${this.chart.toDomYCoord(scale.to(v * unit)) - y}px">${v.toFixed(decimals).replace("-", "−")}</span>`;
+        Object.assign(this.axis.style, {left: `${x + w}px`, top: `${y}px`, height: `${h}px`, color});
+        this.axis.innerHTML = values.map(label).join("");
     }
 }
 

@@ -13,6 +13,7 @@ class View {
         [this.begin, this.end] = [input.t0, endOf(input)];
         if (!keep) [this.a, this.b, this.cursor] = [this.begin, this.end, null];
         this.panels = panels;
+        this.rightRoom = Math.max(...panels.map((panel) => panel.rightRoom));  // one instant stands at one x in all of them
         for (const panel of panels) {
             panel.start(this);
             followMouse(panel, this);

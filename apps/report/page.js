@@ -4,6 +4,7 @@
 const report = new Report(JSON.parse(document.getElementById("data").textContent));
 const at = (id) => document.getElementById(id);
 const view = new View({span: at("span"), now: at("now")});
+const receptors = receptorsOf(report.data.afferents);
 const shown = {input: null, channel: null, traces: []};
 
 function showHeading({title, program, command, remarks}) {
@@ -22,10 +23,11 @@ function show(input, channel) {
     view.clear();
     at("figures").replaceChildren();
     labelWidth(input);
-    view.show([...forcePanels(), ...report.data.afferents.flatMap(afferentPanels), ...spikePanels()], input, keep);
+    view.show([...forcePanels(), ...receptors.flatMap(receptorPanels), ...spikePanels()], input, keep);
     scrollTo(0, scroll);
     showChoice(input, channel);
     showRates(report.data.table, report.data.inputs, channel);
+    showVersionsOf(report.data.comparisons, channel);
 }
 
 /// All panels leave the same room at their left, enough for the raster's labels.
@@ -57,61 +59,12 @@ function forcePanels() {
     if (!shown.traces.length) element(at("figures"), "p", "note", "No traces were kept for this channel; its spikes follow.");
     if (!traces.length) return [];
     const host = section("Stimulus", [shown.channel.name, shown.input.sentence].filter(Boolean).join(": "));
-    return byUnit(traces).map((group, k, all) => new TracePanel({
+    return byKind(traces).map(([, group], k, all) => new TracePanel({
         host, input: shown.input, traces: group, name: group[0].part, title: group.map((trace) => trace.part).join(", "),
         about: group.map((trace) => trace.part).join(", "), height: 120, bottom: k === all.length - 1, named: k === 0,
         series: group.map(({part}, n) => ({label: part, html: group.length > 1 ? symbolHtml(part) : "", width: 1.6,
                                            color: mixed(colour("ink"), colour("faint"), n / group.length)})),
     }));
-}
-
-/// Currents, membranes, and what else it has states of, a panel each.
-function afferentPanels(afferent, index) {
-    const traces = shown.traces.filter((trace) => trace.afferent === afferent.name);
-    if (!traces.length) return [];
-    const about = [report.data.copies ? "copy 1" : "", afferent.made_of, afferent.sentence].filter(Boolean).join(": ");
-    const host = section(afferent.name, about, afferentColour(index));
-    return byUnit(traces).map((group, k, all) => {
-        const {unit} = group[0];
-        const front = isFront(group[0], traces);
-        const title = (!front && {A: "current", V: "membrane"}[unit]) || group.map((trace) => trace.part).join(", ");
-        const hasLine = !front && unit === "V" && Number.isFinite(afferent.V_th);
-        group.sort((one, other) => isWhole(other) - isWhole(one));  // the whole first, so that its parts are drawn over it
-        return new TracePanel({
-            host, input: shown.input, traces: group, name: `${afferent.name} ${title}`, title,
-            about: `${afferent.name} ${title}: ${group.map((trace) => trace.part).join(", ")}`,
-            height: unit === "A" ? 130 : 110, bottom: k === all.length - 1,
-            line: hasLine ? {value: afferent.V_th, html: symbolHtml("V_th")} : null,
-            series: styles(group, afferentColour(index)),
-        });
-    });
-}
-
-function byUnit(traces) {
-    const groups = new Map();
-    for (const trace of traces) {
-        const key = isFront(trace, traces) ? trace.part : trace.unit;
-        groups.set(key, [...(groups.get(key) || []), trace]);
-    }
-    return [...groups.values()];
-}
-
-/// What a sensor, transducer or converter shows: all up to the force as it was read. A panel each.
-const isFront = (trace, traces) => traces.indexOf(trace) <= traces.findIndex(({part}) => part === "F_read");
-
-/// A total current or a membrane, and not one of the parts.
-const isWhole = (trace) => /^[Iu](_[+-])?$/.test(trace.part);
-
-/// Totals and membranes are bold in the afferent's colour; what they are made of is thinner, in its shades and in dashes.
-function styles(traces, base) {
-    const main = traces.filter(isWhole);
-    const bold = [{color: base, width: 2}, {color: mixed(base, colour("ink"), 0.55), width: 2, dash: traces[0].unit === "A" ? [6, 3] : null}];
-    const thin = [{color: mixed(base, colour("ink"), 0.55), width: 1}, {color: mixed(base, colour("ink"), 0.2), width: 1, dash: [6, 3]},
-                  {color: mixed(base, colour("ink"), 0.7), width: 1.2, dash: [2, 2]}, {color: mixed(base, colour("paper"), 0.35), width: 1}];
-    const parts = traces.filter((trace) => !isWhole(trace));
-    const pick = (list, k) => list[Math.min(k, list.length - 1)];
-    const look = (trace) => (isWhole(trace) ? pick(bold, main.indexOf(trace)) : pick(main.length ? thin : [...bold, ...thin], parts.indexOf(trace)));
-    return traces.map((trace) => ({label: trace.part, html: symbolHtml(trace.part), ...look(trace)}));
 }
 
 function spikePanels() {
@@ -120,13 +73,17 @@ function spikePanels() {
     const {copies} = report.data, several = input.channels.length > 1 && !copies;
     const host = section("Spikes", copies ? aboutCopies(copies) : several ? `all channels; click a row to see its channel. Counts and frequencies are of ${channel.name}.` : "");
     const colours = afferents.map(({name}, index) => ({name, color: afferentColour(index), index}));
+    const overlaid = receptors.some(({members}) => members.length > 1);
+    const trainsOf = (members) => members.map(({afferent, index}) => ({...colours[index], spikes: report.spikes(report.members(afferent)[0], channel)}));
+    const frequency = (trains, of) => new FrequencyPanel({host, input, name: `${of}frequency`, about: `${of}instantaneous frequency`, height: of ? 110 : 150, trains,
+                                                          title: `${of}instantaneous frequency`});
     return [
         new RasterPanel({host, input, name: "raster", about: "spikes", lanes: lanes(input, channel), afferents: colours, named: !shown.traces.length,
-                         pick: several ? (one) => show(input, one) : null, parted: several || copies}),
+                         pick: several ? (one) => show(input, one) : null, parted: several || copies || overlaid}),
         ...(copies ? [new PopulationPanel({host, input, name: "population", about: "rate of the population", height: 150,
                                            rates: colours.map((one, k) => ({...one, ...report.rate(afferents[k], channel)}))})] : []),
-        new FrequencyPanel({host, input, name: "frequency", about: "instantaneous frequency", height: 150,
-                            trains: colours.map((one, k) => ({...one, spikes: report.spikes(report.members(afferents[k])[0], channel)}))}),
+        ...(overlaid && receptors.length > 1 ? receptors.map(({name, members}) => frequency(trainsOf(members), (members.length > 1 ? name : members[0].afferent.name) + " "))
+                                             : [frequency(trainsOf(receptors.flatMap(({members}) => members)), "")]),
     ];
 }
 
@@ -143,11 +100,14 @@ function lanes(input, chosen) {
     const own = ({name}) => (name.startsWith(input.name + ":") ? name.slice(input.name.length + 1) : name);
     const several = input.channels.length > 1 && !report.data.copies;
     const channels = report.data.copies ? [chosen || input.channels[0]] : input.channels;
-    return report.data.afferents.flatMap((afferent, index) => {
-        const color = afferentColour(index);
-        return channels.flatMap((channel) => report.members(afferent).map((member) => ({
-            afferent: afferent.name, channel, chosen: channel === chosen, color, spikes: report.spikes(member, channel),
-            label: cut(several ? `${member.name} ${own(channel)}` : member.name)})));
+    const lane = (member, channel, {afferent, index}, group) => ({
+        afferent: afferent.name, group, channel, chosen: channel === chosen, color: afferentColour(index), spikes: report.spikes(member, channel),
+        label: cut(several ? `${member.name} ${own(channel)}` : member.name)});
+    return receptors.flatMap(({name, members}) => {
+        const lanesOf = (one, on, group) => on.flatMap((channel) => report.members(one.afferent).map((member) => lane(member, channel, one, group)));
+        const beside = members.length > 1 && several && report.data.afferents.length * channels.length <= MOST_LABELS;
+        return beside ? channels.flatMap((channel) => members.flatMap((one) => lanesOf(one, [channel], name + channel.id)))
+                      : members.flatMap((one) => lanesOf(one, channels, several || report.data.copies ? one.afferent.name : name));
     });
 }
 
@@ -186,7 +146,8 @@ function forPaper(on) {
 
 /// For tests, and for looking at a report from the browser's console.
 ///   charts                       the dygraphs shown, by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency",
-///                              and of copies "population"
+///                              of copies "population", of versions "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency": in these all values
+///                              stand on the left axis
 ///   valueAt(part, t, afferent)   of the chosen channel, at the sample nearest to t: a number; [least, greatest] where the
 ///                                trace keeps only these; null where there is no such trace. "force" has no afferent
 ///   window(), setWindow(a, b)    the seconds shown; setting draws at once

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/template.hpp"
+#include "report/versions_document.hpp"
 #include "signal/version.hpp"
 
 namespace corpuscle {
@@ -183,6 +184,8 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                 if (s.afferent == plan.name && s.parameter == (*plan.parameters)[k].row.name) parameters.back()["spread"] = s.deviation;
         }
         afferents.push_back({{"name", plan.name},
+                             {"receptor", receptor_of(plan)},
+                             {"netlist", plan.design != nullptr},
                              {"made_of", plan.made_of()},
                              {"sentence", plan.sentence},
                              {"V_th", level(first_[a], "V_th")},
@@ -201,6 +204,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                      {"traces", traces_},
                      {"spikes", spikes_},
                      {"table", table_document(summary)},
+                     {"comparisons", versions_document(summary.comparisons())},
                      {"quality", quality_document(summary)},
                      {"remarks", remarks},
                      {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};

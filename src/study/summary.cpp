@@ -128,7 +128,7 @@ Result<void> Summary::begin(const Input& input) {
     for (const auto& p : inputs_.back().phases) stretches.push_back({p.from, p.to, input.source.cycle()});
     if (stretches.empty()) stretches.push_back({.cycle = input.source.cycle()});
     tally_ = Tally(std::move(stretches), input.units());
-    return {};
+    return comparisons_.begin(input);
 }
 
 Result<void> Summary::block(const Input& input, const Answered& answered) {
@@ -137,7 +137,7 @@ Result<void> Summary::block(const Input& input, const Answered& answered) {
         for (std::size_t k = 0; k < answered.force.count; ++k)
             facts.least = std::min(facts.least, channel[k]), facts.greatest = std::max(facts.greatest, channel[k]);
     for (const auto& s : answered.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
-    return {};
+    return comparisons_.block(input, answered);
 }
 
 Result<void> Summary::end(const Input& input, std::int64_t samples) {
@@ -150,7 +150,7 @@ Result<void> Summary::end(const Input& input, std::int64_t samples) {
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
             for (std::size_t p = 0; p < std::max<std::size_t>(facts.phases.size(), 1); ++p)
                 rows_.push_back(row(input, c, groups[g], groups[g + 1], p));
-    return {};
+    return comparisons_.end(input, samples);
 }
 
 /// Of the afferents from ... to - 1, which are one, or the copies of one.
@@ -190,6 +190,7 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
     for (const auto& i : inputs_) out["inputs"].push_back(input_document(i));
     out["rates"] = Json::array();
     for (const auto& r : rows_) out["rates"].push_back(row_document(r));
+    if (!comparisons_.rows().empty()) out["comparisons"] = comparisons_.document();
     out["work"] = {{"samples", work.samples}, {"afferent_steps", work.afferent_steps},
                    {"spikes", work.spikes},   {"capped_steps", work.capped_steps},
                    {"clipped", work.clipped}, {"overflowed", work.overflowed}};

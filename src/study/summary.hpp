@@ -8,6 +8,7 @@
 
 #include "measure/measures.hpp"
 #include "model/spread.hpp"
+#include "study/comparisons.hpp"
 #include "study/respond.hpp"
 
 namespace corpuscle {
@@ -61,6 +62,8 @@ public:
 
     const std::vector<RateRow>& rows() const { return rows_; }
     const std::vector<InputFacts>& inputs() const { return inputs_; }
+    /// Of who has several versions.
+    const Comparisons& comparisons() const { return comparisons_; }
     /// The measures (by number) that have a value in some row: the columns of a table.
     std::vector<std::size_t> columns() const;
     /// The summary as a document; the same input and options give the same bytes.
@@ -72,6 +75,7 @@ private:
     Clock since_start_;  // of the input at work, its first sample at 0 s
     Tally tally_;        // by that clock
     std::vector<RateRow> rows_;
+    Comparisons comparisons_;
 
     RateRow row(const Input&, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const;
 };

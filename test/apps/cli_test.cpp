@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "support/places.hpp"
 #include "support/program.hpp"
 
 namespace corpuscle {
@@ -24,6 +25,25 @@ TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
     EXPECT_NE(ran.out.find("Nothing was written"), std::string::npos);
     EXPECT_EQ(ran.err, "");
     EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
+    const Folder folder;
+    const auto chip = test::root() + "/circuits/sa1.cir";
+    const auto ran = run(folder, "respond press --afferent sa1 --afferent '" + chip + "' --afferent fa1 --out answer");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto table = ran.out.substr(std::min(ran.out.find("version "), ran.out.size()));
+    EXPECT_NE(table.find("by phase   differ (%)  matched  shift (ms)  Victor-Purpura  van Rossum\n"), std::string::npos) << ran.out;
+    EXPECT_NE(table.find(" 15  0 5 9 1 0\n"), std::string::npos) << "what it is held against\n" << table;
+    EXPECT_NE(table.find(" 14  0 5 8 1 0          -7       14 "), std::string::npos) << table;
+    EXPECT_NE(table.find("Against the first of each; matched within 20 ms"), std::string::npos) << table;
+    EXPECT_EQ(table.find("fa1"), std::string::npos) << "has one version\n" << table;
+    const auto said = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
+    EXPECT_EQ(said["cost_Hz"], 100.0);
+    ASSERT_EQ(said["pairs"].size(), 1u);
+    EXPECT_EQ(said["pairs"][0]["afferent"], chip);
+    EXPECT_NEAR(said["pairs"][0]["excess"].get<double>(), 14.0 / 15 - 1, 1e-12);
+    EXPECT_EQ(run(folder, "respond press").out.find("Victor"), std::string::npos) << "nobody has two versions";
 }
 
 TEST(Program, WritesWhatIsAskedForTheSameTwice) {

@@ -29,12 +29,13 @@ DATA = re.compile(r'(<script type="application/json" id="data">)(.*?)(</script>)
 PREFIX = {"f": 1e-15, "p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1, "k": 1e3, "M": 1e6}
 
 CORPUSCLE, OUT = None, None
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def respond(name, *arguments):
     """A report made by the program."""
     path = OUT / name
-    subprocess.run([CORPUSCLE, "respond", "press", *arguments, "--report", str(path), "--quiet"], check=True)
+    subprocess.run([CORPUSCLE, "respond", "press", *arguments, "--report", str(path), "--quiet"], check=True, cwd=ROOT)
     return path
 
 
@@ -328,6 +329,142 @@ class Press(Page):
         self.browser.set_window_size(1200, 900)
 
 
+class Versions(Page):
+    """Both receptors as a model and as a chip."""
+    CHIP = "circuits/sa1.cir"
+
+    @classmethod
+    def report(cls):
+        return respond("versions.html", "--afferent", "sa1", "--afferent", "fa1,circuits/sa1.cir", "--afferent", "circuits/fa1.cir")
+
+    def right_axis(self, panel):
+        """Two points of the axis at the right: what they say in SI, and where they stand on the left one."""
+        labels = self.js("""
+            const chart = corpuscle.charts[arguments[0]], axis = document.querySelector(`[data-panel="${arguments[0]}"] .right-axis`);
+            return [...axis.children].map((one) => [one.textContent, chart.toDataYCoord(parseFloat(one.style.top) + chart.getArea().y),
+                                                    parseFloat(one.style.top) / chart.getArea().h])""", panel)
+        self.assertGreaterEqual(len(labels), 2, panel)
+        self.assertTrue(all(-0.01 < height < 1.01 for *_, height in labels), (panel, labels))
+        prefix = re.search(r"\((.?)[AV]\)", self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] .right-title').text)[1]
+        return [(float(text.replace("−", "-")) * PREFIX[prefix], place) for text, place, _ in (labels[0], labels[-1])]
+
+    def drawn(self, panel, column):
+        return self.js("""
+            const chart = corpuscle.charts[arguments[0]];
+            return Array.from({length: chart.numRows()}, (_, row) => [chart.getValue(row, 0), chart.getValue(row, arguments[1])])""", panel, column)
+
+    def test_each_quantity_has_a_panel_for_both(self):
+        self.assertEqual(self.panels(), ["force", "sa1 I", "sa1 I_A", "sa1 I_B", "sa1 I_C", "sa1 u", "circuits/sa1.cir nodes", "fa1 I", "fa1 u", "fa1 current",
+                                         "circuits/fa1.cir nodes", "raster", "sa1 frequency", "fa1 frequency"])
+        self.assertEqual({name: count for name, count in self.inked().items() if count < 80}, {})
+        self.screenshot("versions.png")
+
+    def test_one_instant_stands_at_one_place_in_all_panels(self):
+        areas = self.js("return Object.values(corpuscle.charts).map((chart) => [chart.getArea().x, chart.getArea().w])")
+        self.assertEqual(areas, [areas[0]] * len(areas))
+
+    def test_the_right_axis_says_what_is_drawn(self):
+        for panel, part in (("sa1 I", "i(vi)"), ("sa1 I_B", "i(vib)"), ("sa1 u", "v(u)")):
+            (low, at_low), (high, at_high) = self.right_axis(panel)
+            T = self.input["T"]
+            for t in (0.1, 0.33, 0.6, 0.9):
+                k = round((t - self.input["t0"]) / T)
+                self.js("corpuscle.setWindow(arguments[0], arguments[1])", t - 20 * T, t + 20 * T)
+                place = min(self.drawn(panel, 2), key=lambda row: abs(row[0] - t))[1]
+                value = trace(self.data, part, self.CHIP)[0][k]
+                self.assertAlmostEqual(low + (place - at_low) * (high - low) / (at_high - at_low), value, delta=5e-3 * abs(high - low), msg=(panel, t))
+                self.hover(panel, t)
+                self.assertAlmostEqual(si(self.readout(panel, self.CHIP)), value, delta=2e-3 * abs(value) + 1e-15, msg=(panel, t))
+
+    def test_both_membranes_fire_at_one_height_the_chips_falling(self):
+        fires = self.js("return corpuscle.valueAt('v(u)', arguments[0], arguments[1])", spike_times(self.data, self.CHIP)[3] - self.input["T"], self.CHIP)
+        (low, at_low), (high, at_high) = self.right_axis("sa1 u")
+        self.assertLess((at_high - at_low) / (high - low), 0, "upside down")
+        self.assertIn("upside down", self.browser.find_element(By.CSS_SELECTOR, '[data-panel="sa1 u"] .right-title').text)
+        self.assertAlmostEqual(at_low + (fires - low) * (at_high - at_low) / (high - low), self.data["afferents"][0]["V_th"], delta=0.02)
+        self.assertLess(fires, 0.27)
+
+    def test_the_mean_of_what_drives_is_the_same_and_said(self):
+        mean = lambda values: sum(max(v, 0) for v in values) / len(values)
+        model, chip = mean(trace(self.data, "I", "sa1")[0]), mean(trace(self.data, "i(vi)", self.CHIP)[0])
+        (low, at_low), (high, at_high) = self.right_axis("sa1 I_A")
+        self.assertAlmostEqual((high - low) / (at_high - at_low) / (chip / model), 1, delta=0.02)
+        note = self.browser.find_element(By.CSS_SELECTOR, "#figures .note").text.replace("\u00a0", " ")
+        self.assertIn(f"{1e12 * chip / model * 1e-6:.4g} pA stand where sa1 has 1 µA", note)
+
+    def test_the_glitches_at_the_chips_spikes_are_seen(self):
+        times, T = spike_times(self.data, self.CHIP), self.input["T"]
+        for t in times[3:8]:
+            rows = [v for s, v in self.drawn("sa1 I", 2) if v is not None and t <= s < t + 4e-3]
+            before = [v for s, v in self.drawn("sa1 I", 2) if v is not None and t - 4e-3 < s < t - 5 * T]
+            self.assertGreater(max(rows), 1.2 * max(before))
+
+    def test_a_version_has_one_colour_everywhere(self):
+        swatches = self.js("""
+            const colours = {};
+            for (const item of document.querySelectorAll("#figures [data-series]")) {
+                const mark = item.firstChild, style = getComputedStyle(mark);
+                (colours[item.dataset.series] ||= new Set()).add(mark.className === "mark" ? style.color : style.borderTopColor);
+            }
+            return Object.fromEntries(Object.entries(colours).map(([name, all]) => [name, [...all]]))""")
+        mine = [swatches[name] for name in ("sa1", "fa1", self.CHIP, "circuits/fa1.cir")]
+        self.assertEqual([len(one) for one in mine], [1] * 4)
+        self.assertEqual(len({one[0] for one in mine}), 4)
+
+    def test_rows_of_one_receptor_stand_together(self):
+        labels = [label.text for label in self.browser.find_elements(By.CSS_SELECTOR, '[data-panel="raster"] .dygraph-axis-label-y')]
+        self.assertEqual(labels, ["sa1", self.CHIP, "fa1", "circuits/fa1.cir"])
+
+    def test_the_table_of_versions_counts_the_spikes(self):
+        section = self.browser.find_element(By.ID, "comparisons")
+        columns = [cell.text for cell in section.find_elements(By.CSS_SELECTOR, "thead th")]
+        rows = [dict(zip(columns, (cell.text for cell in row.find_elements(By.TAG_NAME, "td")))) for row in section.find_elements(By.CSS_SELECTOR, "tbody tr")]
+        self.assertEqual([row["afferent"] for row in rows], ["sa1", self.CHIP, "fa1", "circuits/fa1.cir"])
+        for row in rows:
+            times = spike_times(self.data, row["afferent"])
+            self.assertEqual(int(row["spikes"]), len(times))
+            for phase in self.input["phases"]:
+                self.assertEqual(int(row[phase["name"]]), sum(phase["from"] <= t < phase["to"] for t in times))
+        share = 100 * (len(spike_times(self.data, self.CHIP)) / len(spike_times(self.data, "sa1")) - 1)
+        self.assertEqual(rows[1]["differ (%)"], f"{share:.1f}".replace("-", "−"))
+        self.assertEqual((rows[0]["matched"], rows[0]["differ (%)"]), ("–", "–"))
+
+
+class NetlistsAlone(Page):
+    @classmethod
+    def report(cls):
+        """A chip, and another of half the current and the same membrane; no model."""
+        def change(data):
+            chip = next(one for one in data["afferents"] if one["netlist"])
+            data["afferents"] = [chip, {**chip, "name": "sa1-macro"}]
+            data["traces"] = [r for r in data["traces"] if r["afferent"] != "sa1"]
+            for record in [r for r in data["traces"] if r["afferent"]]:
+                half = 0.5 if record["unit"] == "A" else 1
+                data["traces"].append({**record, "afferent": "sa1-macro", "data": coded("f", [v * half for v in numbers("f", record["data"])])})
+            data["spikes"] = [r for r in data["spikes"] if r["afferent"] != "sa1"]
+            data["spikes"] += [{**r, "afferent": "sa1-macro"} for r in data["spikes"]]
+        return doctored(respond("chip.html", "--afferent", "sa1,circuits/sa1.cir"), "netlists-alone.html", change)
+
+    def test_what_is_of_one_size_shares_an_axis(self):
+        self.assertEqual(self.panels(), ["force", "sa1 i(vi)", "sa1 i(via)", "sa1 i(vib)", "sa1 i(vic)", "sa1 v(u)", "circuits/sa1.cir nodes", "sa1-macro nodes",
+                                         "raster", "frequency"])
+        self.assertEqual(self.browser.find_elements(By.CLASS_NAME, "right-axis"), [])
+        self.hover("sa1 i(via)", 0.5)
+        chip, macro = (si(self.readout("sa1 i(via)", name)) for name in ("circuits/sa1.cir", "sa1-macro"))
+        self.assertAlmostEqual(macro / chip, 0.5, places=3)
+
+
+class NetlistByItself(Page):
+    @classmethod
+    def report(cls):
+        return respond("spiker.html", "--afferent", "circuits/spiker.cir")
+
+    def test_its_membrane_stands_apart_from_its_other_nodes(self):
+        self.assertEqual(self.panels(), ["force", "circuits/spiker.cir membrane", "circuits/spiker.cir nodes", "raster", "frequency"])
+        self.assertGreater(min(self.inked().values()), 80)
+        self.assertFalse(self.browser.find_element(By.ID, "comparisons").is_displayed())
+
+
 class TwoChannels(Page):
     @classmethod
     def report(cls):
@@ -527,6 +664,6 @@ class Studies(unittest.TestCase):
             self.assertGreater(min(points), 2)
 
 if __name__ == "__main__":
-    CORPUSCLE, OUT = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    CORPUSCLE, OUT = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
     OUT.mkdir(parents=True, exist_ok=True)
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -1,0 +1,52 @@
+#include "study/versions.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "study/afferents.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::string in_lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// The afferent of the catalogue that goes by this name or another of its names; null if there is none.
+const NamedAfferent* named(const std::string& name) {
+    for (const auto& a : named_afferents())
+        if (a.name == name || std::find(a.other_names.begin(), a.other_names.end(), name) != a.other_names.end()) return &a;
+    return nullptr;
+}
+
+/// The lowest is what the others are held against: 0 the receptor itself, 1 another model, 2 a netlist.
+int rank(const AfferentPlan& plan, const std::string& receptor) { return plan.design ? 2 : plan.name == receptor ? 0 : 1; }
+
+}  // namespace
+
+std::string receptor_of(const AfferentPlan& plan) {
+    const auto whole = names_netlist(plan.name) ? std::filesystem::path(plan.name).stem().string() : plan.name;
+    const auto name = in_lower_case(whole);
+    if (const auto* a = named(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);
+    const auto* begun = named(name.substr(0, name.find_first_of("-_")));
+    return begun ? std::string(begun->name) : whole;
+}
+
+std::vector<Versions> versions_of(std::span<const AfferentPlan> plans) {
+    std::vector<Versions> all;
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+        const auto receptor = receptor_of(plans[k]);
+        auto at = std::find_if(all.begin(), all.end(), [&](const Versions& v) { return v.receptor == receptor; });
+        if (at == all.end()) at = all.insert(at, {receptor, {}});
+        at->members.push_back(k);
+    }
+    for (auto& v : all)
+        std::sort(v.members.begin(), v.members.end(), [&](std::size_t a, std::size_t b) {
+            return std::pair(rank(plans[a], v.receptor), a) < std::pair(rank(plans[b], v.receptor), b);
+        });
+    return all;
+}
+
+}  // namespace corpuscle
