@@ -1,6 +1,10 @@
 #include "study/cost_document.hpp"
 
+#include <array>
 #include <nlohmann/json.hpp>
+
+#include "circuit/afferent.hpp"
+#include "circuit/trace.hpp"
 
 namespace corpuscle {
 namespace {
@@ -13,10 +17,31 @@ Json document_of(const circuit::Area& a) {
 }
 
 Json document_of(const circuit::Cost& cost, const circuit::Powers& p) {
+    Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"own_W", p.own}};
+    if (p.blocks.empty()) return out;  // a mean over what was answered
     Json sources = Json::object(), blocks = Json::object();
     for (std::size_t k = 0; k < p.sources.size(); ++k) sources[cost.sources[k]] = p.sources[k];
     for (std::size_t k = 0; k < p.blocks.size(); ++k) blocks[cost.blocks[k].name] = p.blocks[k];
-    return {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"own_W", p.own}, {"sources_W", sources}, {"blocks_W", blocks}};
+    out["sources_W"] = sources, out["blocks_W"] = blocks;
+    return out;
+}
+
+/// At rest under this force.
+Result<circuit::Cost> cost_under(const circuit::CircuitDesign& design, double force) {
+    auto bench = circuit::TestBench::make(design.circuit);
+    if (!bench) return bench.error();
+    circuit::Trace trace;
+    trace.append(std::array{force});
+    (*bench)->system.hear(&trace);
+    return circuit::cost_of(**bench);
+}
+
+/// Of an afferent's copies, which follow each other, of so many.
+Spent spent_by(const Work& work, std::size_t afferent, std::size_t of) {
+    Spent out;
+    const std::size_t copies = work.spent.size() / of;
+    for (std::size_t k = 0; k < copies; ++k) out += work.spent[afferent * copies + k];
+    return out;
 }
 
 }  // namespace
@@ -41,6 +66,23 @@ Json document_of(const circuit::Cost& cost) {
             per_mW[when] = {{"own", p.own > 0 ? Json(1e-3 / p.own) : Json()},
                             {"delivered", p.supplies > 0 ? Json(1e-3 / p.supplies) : Json()}};
         out["receptors"] = {{"per_mm2", cost.area().total() > 0 ? Json(cost.per_mm2()) : Json()}, {"per_mW", per_mW}};
+    }
+    return out;
+}
+
+Json costs_of(std::span<const AfferentPlan> afferents, const Work& work, double force) {
+    Json out = Json::array();
+    for (std::size_t a = 0; a < afferents.size(); ++a) {
+        const auto* design = dynamic_cast<const circuit::CircuitDesign*>(afferents[a].design.get());
+        if (design == nullptr) continue;
+        auto cost = cost_under(*design, force);
+        if (!cost) continue;  // it does not rest there; what came of it is told elsewhere
+        if (const auto spent = spent_by(work, a, afferents.size()); spent.seconds > 0) {
+            const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
+            cost->power.emplace_back("mean", circuit::Powers{supplies, sensor, supplies - sensor, {}, {}});
+        }
+        out.push_back({{"afferent", afferents[a].name}, {"rest_N", force}});
+        out.back().update(document_of(*cost));
     }
     return out;
 }

@@ -31,6 +31,7 @@ private:
         State state;
         std::vector<Spike> spikes = {};
         std::int64_t capped = 0, clipped = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;
+        Spent spent = {};
         std::optional<Error> error = {};
         bool lost = false;  // a netlist that did not converge: it says no more
     };

@@ -110,6 +110,22 @@ Powers PowerMeter::at(std::span<const double> x, double t) const {
     return out;
 }
 
+PowerMeter::Delivered PowerMeter::delivered(std::span<const double> x, double t) const {
+    Delivered out;
+    double power = 0;
+    const auto at = [&](int unknown) { return unknown < 0 ? 0 : x[static_cast<std::size_t>(unknown)]; };
+    for (const auto k : sources_) {
+        const auto& u = system_.devices()[k]->unknowns;
+        if (u.size() == 3)  // a voltage source, whose current is an unknown
+            power = (at(u[0]) - at(u[1])) * at(u[2]);
+        else
+            current(k, x, t, power);
+        out.supplies -= power;
+    }
+    for (const auto k : sensors_) out.sensor += std::abs(current(k, x, t, power)) * supply_;
+    return out;
+}
+
 std::vector<std::string> PowerMeter::sources() const {
     std::vector<std::string> out;
     for (const auto k : sources_) out.push_back(system_.devices()[k]->name);

@@ -47,6 +47,11 @@ public:
     PowerMeter(const System&, std::span<const double> x, double gmin);
 
     Powers at(std::span<const double> x, double t = 0) const;
+    /// Of that what sources deliver, and of that what is the sensor's, W: for a look at every step.
+    struct Delivered {
+        double supplies = 0, sensor = 0;
+    };
+    Delivered delivered(std::span<const double> x, double t) const;
     const Blocks& blocks() const { return blocks_; }
     std::vector<std::string> sources() const;
     double supply() const { return supply_; }  ///< V: of the source that delivers most
