@@ -205,6 +205,7 @@ window.corpuscle = {
 
 showHeading(report.data);
 showParameters(report.data.afferents);
+showCosts(report.data.costs, report.data.afferents);
 showQuality(report.data.quality);
 showVersions(report.data.versions);
 connect();
