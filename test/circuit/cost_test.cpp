@@ -246,6 +246,26 @@ TEST(Cost, TheDocumentHasTheSheetAndTheTableHasItsWords) {
         EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
 }
 
+TEST(Cost, RespondTellsTheSheetAtRestAndTheMeanOverWhatWasAnswered) {
+    const Folder folder;
+    const std::string chip = "'" + test::root() + "/circuits/sa1.cir'", words = "respond press --json --afferent sa1," + chip;
+    const auto ran = test::run(folder, words + " -j1");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto costs = nlohmann::json::parse(ran.out)["costs"];
+    ASSERT_EQ(costs.size(), 1U) << "equations cost nothing that is known";
+    EXPECT_TRUE(costs[0]["afferent"].get<std::string>().ends_with("sa1.cir"));
+    EXPECT_EQ(costs[0]["rest_N"], 0.2);
+    const auto c = cost_in_time(file("sa1.cir"));
+    for (const auto& [word, of] : {std::pair{"delivered_W", &Powers::supplies}, {"sensor_W", &Powers::sensor}, {"own_W", &Powers::own}}) {
+        EXPECT_NEAR(costs[0]["power"]["op"][word].get<double>(), c.powers("rest")->*of, 1e-4 * c.powers("rest")->*of) << word;
+        // it goes on at rest for some milliseconds after the press
+        EXPECT_NEAR(costs[0]["power"]["mean"][word].get<double>(), c.powers("mean")->*of, 3e-3 * c.powers("mean")->*of) << word;
+    }
+    EXPECT_NEAR(costs[0]["receptors"]["per_mm2"].get<double>(), c.per_mm2(), 1e-9 * c.per_mm2());
+    EXPECT_EQ(ran.out, test::run(folder, words + " -j2").out);
+    EXPECT_FALSE(nlohmann::json::parse(test::run(folder, "respond press --json").out).contains("costs"));
+}
+
 TEST(Cost, OfManyEachHasItsLine) {
     const Folder folder;
     folder.write("x.cir", "t\n.param r=1k\nvdd vdd 0 1\nr1 vdd 0 {r}\n.op\n.step param r list 1k 2k\n");

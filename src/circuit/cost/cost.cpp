@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "circuit/device/values.hpp"
 
@@ -40,8 +41,8 @@ void leak(const TestBench& bench, std::span<const double> x, const Blocks& block
             block.worst = one, block.worst_name = circuit.elements[one.element].name;
         if (one.off && out.smallest_bias > 0 && one.current > worth_telling * out.smallest_bias) out.leaks.push_back(std::move(one));
     }
-    std::stable_sort(out.leaks.begin(), out.leaks.end(), [](const Leak& a, const Leak& b) {
-        return a.onto.empty() != b.onto.empty() ? b.onto.empty() : a.current > b.current;
+    std::sort(out.leaks.begin(), out.leaks.end(), [](const Leak& a, const Leak& b) {
+        return std::tuple(a.onto.empty(), -a.current, a.element) < std::tuple(b.onto.empty(), -b.current, b.element);
     });
     for (const auto& one : out.leaks) out.leaking.push_back(circuit.elements[one.element].name);
 }
