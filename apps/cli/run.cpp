@@ -8,7 +8,7 @@
 
 #include "budget_words.hpp"
 #include "circuit/analyses.hpp"
-#include "circuit/force_order.hpp"
+#include "circuit/cost/accountant.hpp"
 #include "circuit/run.hpp"
 #include "circuit/variants.hpp"
 #include "curve_files.hpp"
@@ -205,26 +205,6 @@ Result<void> prepare(std::unique_ptr<TestBench>& bench, const Variant& variant, 
     if (variant.draw) bench->draw(*variant.draw);
     return {};
 }
-
-/// Looks at a run for what it costs.
-class Accountant {
-    TestBench& bench_;
-    std::optional<PowerMeter> meter_;
-    std::optional<PowerOverTime> over_;
-
-public:
-    explicit Accountant(TestBench& bench) : bench_(bench) {}
-    Result<void> watch(RunOrders& orders) {
-        const auto rest = bench_.rest();
-        if (!rest) return rest.error();
-        auto phases = force_phases(*bench_.circuit);
-        if (!phases) return phases.error();
-        meter_.emplace(bench_.system, rest->x, bench_.tolerances.gmin);
-        orders.unknowns = &over_.emplace(*meter_, std::move(*phases));
-        return {};
-    }
-    Result<Cost> found() const { return cost_of(bench_, &*over_); }
-};
 
 Result<void> run_all(Variants& variants, const RunWords& words, const Common& common, Report& report, CurveFiles& files) {
     const auto count = variants.count();

@@ -176,6 +176,7 @@ function connect() {
 /// Colours are read from the style sheet when figures are made, so other colours need other figures.
 function recolour() {
     showParameters(report.data.afferents);
+    showCosts(report.data.costs, report.data.afferents);
     show(shown.input, shown.channel);
 }
 

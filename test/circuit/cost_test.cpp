@@ -4,9 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "circuit/cost/cost.hpp"
+#include "circuit/cost/accountant.hpp"
 #include "circuit/device/constants.hpp"
-#include "circuit/force_order.hpp"
 #include "netlist_runner.hpp"
 #include "support/program.hpp"
 
@@ -40,15 +39,11 @@ Cost cost(std::shared_ptr<const Circuit> circuit) {
 /// With its transients.
 Cost cost_in_time(std::shared_ptr<const Circuit> circuit) {
     auto bench = bench_of(std::move(circuit));
-    const auto rest = bench->rest();
-    auto phases = force_phases(*bench->circuit);
-    EXPECT_TRUE(rest && phases);
-    const PowerMeter meter(bench->system, rest->x, bench->tolerances.gmin);
-    PowerOverTime over(meter, std::move(*phases));
+    Accountant accountant(*bench);
     RunOrders orders;
-    orders.unknowns = &over;
+    if (const auto watched = accountant.watch(orders); !watched) ADD_FAILURE() << watched.error().text();
     if (const auto ran = run(*bench, orders); !ran) ADD_FAILURE() << ran.error().text();
-    auto found = cost_of(*bench, &over);
+    auto found = accountant.found();
     if (!found) return ADD_FAILURE() << found.error().text(), Cost();
     return std::move(*found);
 }
