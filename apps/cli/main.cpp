@@ -226,6 +226,7 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
         "is asked of it:" +
         known + run_examples);
     verb.add_option("NETLIST", w.netlist, "a SPICE netlist")->required();
+    verb.add_flag("--budget", w.budget, "what the circuit costs, too: power, area and leakage, block by block");
     verb.add_option("--out,-o", w.out, "write what was found: x.raw, as ngspice's (binary), or x.csv")->type_name("FILE")->group("Output");
     verb.add_flag("--ascii", w.ascii, "the .raw file in letters")->group("Output");
     add_common(verb, common);

@@ -98,9 +98,9 @@ std::vector<std::string> Outputs::names() const {
 }
 
 Result<void> Outputs::commit(const Summary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
-                             const std::string& document, const std::string& command) {
+                             const std::string& document, const std::string& command, const nlohmann::ordered_json& costs) {
     if (report_)
-        if (auto ok = put(report_file_, report_->page(summary, afferents, command, warnings)); !ok) return ok;
+        if (auto ok = put(report_file_, report_->page(summary, afferents, command, warnings, costs)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};

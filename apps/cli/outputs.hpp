@@ -34,7 +34,7 @@ public:
     /// What is written into the directory, by name.
     std::vector<std::string> names() const;
     Result<void> commit(const Summary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings,
-                        const std::string& document, const std::string& command);
+                        const std::string& document, const std::string& command, const nlohmann::ordered_json& costs);
     std::string told() const;
 };
 

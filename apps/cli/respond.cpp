@@ -250,9 +250,10 @@ Result<void> run(const RespondWords& w, const Common& common) {
     for (const auto& warning : work_warnings(*work)) warn(*job, warning);
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     if (job->population.copies > 0) answer["copies"] = document_of(job->population);
+    const auto costs = answer.value("costs", nlohmann::ordered_json::array());
     answer["files"] = outputs.names();
     const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes
-    if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command); !ok) return ok;
+    if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command, costs); !ok) return ok;
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)

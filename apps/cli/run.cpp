@@ -6,10 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "budget_words.hpp"
 #include "circuit/analyses.hpp"
+#include "circuit/cost/accountant.hpp"
 #include "circuit/run.hpp"
 #include "circuit/variants.hpp"
 #include "curve_files.hpp"
+#include "study/cost_document.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -45,6 +48,7 @@ struct Done {
     Variant variant;
     RunOutcome outcome;
     std::vector<Plot> plots;  ///< for the document: all that is saved, or but for what went into a file point by point
+    std::optional<Cost> cost = {};
 };
 
 Json document_of(const Done& done) {
@@ -69,6 +73,7 @@ Json document_of(const Done& done) {
                 {"expectations", expectations},         {"warnings", remarks}};
     for (const auto& a : outcome.analyses)
         if (a.findings.spikes) out["spikes"].push_back(*a.findings.spikes);  // a list each .tran
+    if (done.cost) out["budget"] = corpuscle::document_of(*done.cost);
     return out;
 }
 
@@ -87,13 +92,14 @@ void print(const Done& done) {
     }
     if (!done.outcome.numbers.empty() || !done.outcome.expectations.empty()) fmt::print("\n");
     print_numbers(done.outcome);
+    if (done.cost) fmt::print("\n{}", budget_text(*done.cost));
 }
 
 /// Of many: a line each, its measures.
 void print_line(const Done& done) {
     fmt::print("{}:", done.variant.label);
     for (const auto& [name, value] : done.outcome.numbers) fmt::print("  {} = {:.6e}", name, value);
-    fmt::print("\n");
+    fmt::print("{}\n", done.cost ? budget_line(*done.cost) : "");
     for (const auto& a : done.outcome.analyses) fmt::print("{}", a.printed);
 }
 
@@ -218,7 +224,9 @@ Result<void> run_all(Variants& variants, const RunWords& words, const Common& co
             progress.at((static_cast<double>(k) + variant_share.of(word, share)) / static_cast<double>(count));
             return interrupted();
         };
-        auto found = circuit::run(*bench, orders);
+        Accountant accountant(*bench);
+        const auto watched = words.budget ? accountant.watch(orders) : Result<void>();
+        auto found = watched ? circuit::run(*bench, orders) : watched.error();
         if (interrupted()) return Error{Code::interrupted, "interrupted"};
         progress.at(static_cast<double>(k + 1) / static_cast<double>(count));
         if (!found && found.error().code == Code::not_converged && count > 1) {
@@ -231,7 +239,13 @@ Result<void> run_all(Variants& variants, const RunWords& words, const Common& co
             return error;
         }
         auto plots = words.out.empty() ? std::move(gathered.plots) : found->plots();
-        report.add({std::move(*variant), std::move(*found), std::move(plots)});
+        Done done{std::move(*variant), std::move(*found), std::move(plots)};
+        if (words.budget) {
+            auto cost = accountant.found();
+            if (!cost) return cost.error();
+            done.cost = std::move(*cost);
+        }
+        report.add(done);
     }
     return {};
 }

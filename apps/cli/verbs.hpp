@@ -41,7 +41,7 @@ struct StudyWords {
 
 struct RunWords {
     std::string netlist, out;
-    bool ascii = false;
+    bool ascii = false, budget = false;
 };
 
 struct ExportWords {

@@ -47,6 +47,30 @@ function showQuality({sentences, columns, rows}) {
     fillRates(section.querySelector(".scroll"), {columns, decimals: [], rows}, null);
 }
 
+/// What afferents cost that are netlists, block by block.
+function showCosts(costs, afferents) {
+    const section = document.getElementById("costs");
+    section.hidden = !costs || !costs.length;
+    if (section.hidden) return;
+    section.querySelector(".columns").innerHTML = costs.map((cost) => costTable(cost, afferents.findIndex((one) => one.name === cost.afferent))).join("");
+}
+
+const squareMicrons = (area) => (area ? (area * 1e12).toFixed(0) : "–");
+
+function costTable({afferent, rest_N, power, area, blocks, receptors}, index) {
+    const text = (value, unit) => escaped(quantity(value, unit, true));
+    const row = (head, cells) => `<tr><th scope="row">${head}</th>${cells.map((cell) => `<td class="number">${cell}</td>`).join("")}</tr>`;
+    const head = ["block", `power at rest (${text(rest_N, "N")})`, "area (µm²)", "leaks, off"].map((cell) => `<th scope="col">${cell}</th>`).join("");
+    const told = blocks.filter((one) => one.area.total_m2 || Math.abs(power.op.blocks_W[one.block]) > 1e-6 * power.op.delivered_W);
+    const rows = told.map((one) => row(escaped(one.block), [text(power.op.blocks_W[one.block], "W"), squareMicrons(one.area.total_m2),
+        one.worst_leak ? text(one.worst_leak.current_A, "A") : "–"]));
+    const mean = power.mean ? `; on the mean ${text(power.mean.delivered_W, "W")}, of it ${text(power.mean.sensor_W, "W")}` : "";
+    const many = receptors ? ` A mm² holds ${text(receptors.per_mm2, "")} of them.` : "";
+    return `<table class="costs"><caption><span class="chip" style="background: ${afferentColour(index)}"></span>${escaped(afferent)}
+        <span class="unit">delivered at rest ${text(power.op.delivered_W, "W")}, of it for the sensor's current ${text(power.op.sensor_W, "W")}${mean}.${many}</span></caption>
+        <thead><tr>${head}</tr></thead><tbody>${rows.join("")}${row("all", [text(power.op.delivered_W, "W"), squareMicrons(area.total_m2), ""])}</tbody></table>`;
+}
+
 function showParameters(afferents) {
     const section = document.getElementById("parameters");
     const told = afferents.map((one, index) => ({...one, index})).filter((one) => one.parameters && one.parameters.length);

@@ -136,6 +136,7 @@ function connect() {
 /// Colours are read from the style sheet when figures are made, so other colours need other figures.
 function recolour() {
     showParameters(report.data.afferents);
+    showCosts(report.data.costs, report.data.afferents);
     show(shown.input, shown.channel);
 }
 
@@ -166,6 +167,7 @@ window.corpuscle = {
 
 showHeading(report.data);
 showParameters(report.data.afferents);
+showCosts(report.data.costs, report.data.afferents);
 showQuality(report.data.quality);
 showVersions(report.data.versions);
 connect();

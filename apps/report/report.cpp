@@ -171,7 +171,7 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
 }
 
 std::string Report::page(const Summary& summary, std::span<const AfferentPlan> plans, const std::string& command,
-                         const std::vector<std::string>& warnings) const {
+                         const std::vector<std::string>& warnings, const Json& costs) const {
     std::string title;
     for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
     Json afferents = Json::array(), remarks = Json::array();
@@ -208,6 +208,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                      {"quality", quality_document(summary)},
                      {"remarks", remarks},
                      {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
+    document["costs"] = costs;
     if (population_.copies > 0)
         document["copies"] = {{"count", population_.copies},
                               {"shown", std::min(population_.copies, most_copies)},

@@ -26,8 +26,9 @@ public:
     Result<void> block(const Input&, const Answered&) override;
     Result<void> end(const Input&, std::int64_t samples) override;
 
-    std::string page(const Summary&, std::span<const AfferentPlan>, const std::string& command,
-                     const std::vector<std::string>& warnings) const;
+    /// `costs`: as costs_of() has them.
+    std::string page(const Summary&, std::span<const AfferentPlan>, const std::string& command, const std::vector<std::string>& warnings,
+                     const nlohmann::ordered_json& costs) const;
 
 private:
     using Json = nlohmann::ordered_json;

@@ -105,10 +105,12 @@ Result<void> CircuitAfferent::respond_on(Rig& rig, std::span<const double> force
         rig.hear(force);
     }
     const auto before = rig.work();
+    rig.spent();  // of whoever was at it before
     const auto from = state.step - delay_;
     state.step += static_cast<std::int64_t>(force.size());
     auto done = go_on(rig, from, state.step - delay_, answer);
     const auto& work = rig.work();
+    answer.spent += rig.spent();
     answer.steps += work.steps - before.steps, answer.rejected += work.rejected - before.rejected;
     answer.iterations += work.iterations - before.iterations;
     state.values.clear();

@@ -65,7 +65,7 @@ Result<Trace> trace_of(Source& source, const Command& c) {
     }
 }
 
-Result<Trace> read(const Command& c) {
+Result<std::unique_ptr<Source>> source_of(const Command& c) {
     if (c.words.empty()) return wrong(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
     const auto how = asked(c);
     if (!how) return how.error();
@@ -73,20 +73,38 @@ Result<Trace> read(const Command& c) {
     if (!source) return wrong(c, 0, source.error().sentence);
     for (const auto& wish : how->wishes)
         if (!wish.used) return wrong(c, 0, fmt::format("{}: no stimulus '{}' takes part", wish.text(), wish.of));
-    return trace_of(**source, c);
+    return source;
 }
 
-}  // namespace
-
-Result<std::optional<Trace>> force_order(const Circuit& circuit) {
+/// The line, if there is one.
+Result<const Command*> line_of(const Circuit& circuit) {
     const Command* found = nullptr;
     for (const auto& c : circuit.commands) {
         if (c.name != "force") continue;
         if (found) return bad_input(fmt::format(".force: there is one already, in line {}", found->place.line), c.place);
         found = &c;
     }
-    if (!found) return std::optional<Trace>();
-    auto trace = read(*found);
+    return found;
+}
+
+}  // namespace
+
+Result<std::vector<Phase>> force_phases(const Circuit& circuit) {
+    const auto line = line_of(circuit);
+    if (!line) return line.error();
+    if (!*line) return std::vector<Phase>();
+    const auto source = source_of(**line);
+    if (!source) return source.error();
+    return (*source)->phases();
+}
+
+Result<std::optional<Trace>> force_order(const Circuit& circuit) {
+    const auto line = line_of(circuit);
+    if (!line) return line.error();
+    if (!*line) return std::optional<Trace>();
+    auto source = source_of(**line);
+    if (!source) return source.error();
+    auto trace = trace_of(**source, **line);
     if (!trace) return trace.error();
     return std::optional<Trace>(std::move(*trace));
 }

@@ -28,6 +28,7 @@ Result<std::unique_ptr<Rig>> Rig::make(const CircuitDesign& design, double T, co
     system.hear(&rig->trace_);
     auto rest = beginning(*rig->bench_, design.times.uic);
     rig->rest_ = rest ? std::move(rest->x) : beginning(*rig->bench_, true)->x;
+    rig->meter_.emplace(system, rig->rest_, rig->bench_->tolerances.gmin);
     auto plan = design.plan;
     plan.stop = rig->clocked_ ? end_of_clock : end_of_time;
     rig->transient_.emplace(system, rig->bench_->newton, plan);
@@ -38,7 +39,7 @@ Result<std::unique_ptr<Rig>> Rig::make(const CircuitDesign& design, double T, co
 Result<void> Rig::begin(std::span<const double> force) {
     trace_ = Trace(trace_.T());
     trace_.append(force);
-    origin_ = 0, coming_.reset();
+    origin_ = 0, coming_.reset(), now_.reset();
     auto x = beginning(*bench_, design_.times.uic, rest_);
     if (!x) {
         auto error = x.error();
@@ -54,14 +55,25 @@ Result<void> Rig::step() {
     if (clocked_ && transient_->time() >= end_of_clock)
         return bad_input(fmt::format("a netlist with sources that go by time runs for {:g} s at the most", end_of_clock),
                          {design_.circuit->file});
+    const double from = transient_->time();
+    if (!now_) now_ = meter_->delivered(transient_->x(), from);
     const auto stepped = transient_->step(trace_.known());
     if (!stepped) return stepped.error();
     if (!*stepped) return bad_input("a step depends on force that has not come yet", {design_.circuit->file});  // never, see delay()
+    spend(from);
     const auto spike = design_.output.within(*transient_);
     if (!spike) return {};
     const double at = *spike / trace_.T(), before = std::ceil(at) - 1;
     coming_ = {origin_ + static_cast<std::int64_t>(before) + 1, at - before, 0};
     return {};
+}
+
+/// What the last step took, as if power went straight.
+void Rig::spend(double from) {
+    const double to = transient_->time(), half = (to - from) / 2;
+    const auto then = *now_;
+    now_ = meter_->delivered(transient_->x(), to);
+    spent_ += {to - from, half * (then.supplies + now_->supplies), half * (then.sensor + now_->sensor)};
 }
 
 void Rig::shift() {
@@ -154,6 +166,7 @@ bool Rig::restore(std::span<const double> values, std::int64_t samples) {
     coming_ = spike ? std::optional(at) : std::nullopt;
     start_ = in.many(static_cast<std::size_t>(bench_->system.size()));
     TransientState s;
+    now_.reset(), spent_ = {};
     read(in, s);
     if (!in.good || !trace_.restore(in.rest()) || trace_.end() + origin_ != samples) return false;
     if (!transient_->begin(start_)) return false;

@@ -2,6 +2,7 @@
 // A circuit on its way through a force that comes block by block.
 
 #include "circuit/afferent.hpp"
+#include "circuit/cost/power.hpp"
 #include "circuit/trace.hpp"
 
 namespace corpuscle::circuit {
@@ -15,6 +16,9 @@ class Rig {
     std::unique_ptr<TestBench> bench_;
     Trace trace_;
     std::optional<Transient> transient_;
+    std::optional<PowerMeter> meter_;
+    std::optional<PowerMeter::Delivered> now_;  // at the last step's end, once it was looked at
+    Spent spent_;
     bool clocked_ = false;         // some other source goes by the time since the beginning
     std::vector<double> rest_;     // at 0 N
     std::vector<double> start_;    // at the first force
@@ -23,6 +27,7 @@ class Rig {
 
     Rig(const CircuitDesign& design, double T) : design_(design), trace_(T) {}
     void shift();
+    void spend(double from);
 
 public:
     static Result<std::unique_ptr<Rig>> make(const CircuitDesign&, double T, const std::optional<Draw>& chip);
@@ -40,6 +45,8 @@ public:
     /// At a sample in its last step, or at the beginning.
     double shown(const Wanted&, std::int64_t sample) const;
     const TransientWork& work() const { return transient_->work(); }
+    /// Since this was last asked.
+    Spent spent() { return std::exchange(spent_, {}); }
 
     void save(std::vector<double>& out);
     /// False: this cannot be what save() gave after so many samples.

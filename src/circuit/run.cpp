@@ -81,6 +81,7 @@ class Passing final : public PointSink {
     Narrow narrow_;
     std::optional<KeptPlot> kept_;
     std::vector<double> last_;
+    PointSink* unknowns_ = nullptr;
     bool begun_ = false;
 
 public:
@@ -94,6 +95,9 @@ public:
 
     Result<void> begin(const Plot& head) override {
         analysed_.last = head;
+        unknowns_ = analysed_.command->name == "tran" ? orders_.unknowns : nullptr;
+        if (unknowns_)
+            if (auto ok = unknowns_->begin(head); !ok) return ok;
         if (auto ok = measures_.begin(analysed_.command->name, head); !ok) return ok;
         if (printed_)
             if (auto ok = printed_->begin(head); !ok) return ok;
@@ -108,6 +112,8 @@ public:
         last_.assign(row.begin(), row.end());
         measures_.point(row[0], row);
         if (printed_) printed_->point(row);
+        if (unknowns_)
+            if (auto ok = unknowns_->point(row); !ok) return ok;
         if (kept_)
             if (auto ok = kept_->point(row); !ok) return ok;
         return orders_.curves ? orders_.curves->point(narrow_.point(row)) : Result<void>();

@@ -46,8 +46,9 @@ public:
 struct RunOrders {
     std::function<bool(std::string_view word, double share)> stop{};  ///< asked now and then, told what is at work and how far it is
     CurveSink* curves = nullptr;
-    bool keep = true;   ///< a transient's points stay in memory, as a plot of its findings
-    bool print = true;  ///< columns are made for .print
+    PointSink* unknowns = nullptr;  ///< sees a transient's points, all unknowns of each
+    bool keep = true;               ///< a transient's points stay in memory, as a plot of its findings
+    bool print = true;              ///< columns are made for .print
 };
 Result<RunOutcome> run(TestBench&, const RunOrders& = {});
 Result<RunOutcome> run(std::shared_ptr<const Circuit>, const RunOrders& = {});

@@ -44,6 +44,16 @@ struct State {
 std::vector<std::byte> pack(const State&);
 Result<State> unpack(std::span<const std::byte>);
 
+/// What a circuit took while it was at work.
+struct Spent {
+    double seconds = 0;
+    double supplies = 0, sensor = 0;  ///< J that its sources delivered, and of that what its sensor's current took
+    Spent& operator+=(const Spent& more) {
+        seconds += more.seconds, supplies += more.supplies, sensor += more.sensor;
+        return *this;
+    }
+};
+
 /// Where an afferent puts its answer.
 struct Answer {
     std::vector<Spike>& spikes;  ///< appended in time order; the unit is the caller's
@@ -55,6 +65,7 @@ struct Answer {
     std::int64_t clipped = 0;                              ///< samples beyond what a sensor's electronics or a converter can tell
     std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words, kept at the largest
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of a circuit: in time, those taken again, and Newton's
+    Spent spent = {};
 };
 
 /// Which of several channels that share their electronics: a converter takes them in turn.

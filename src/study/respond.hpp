@@ -54,7 +54,8 @@ struct Work {
     std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: in time, those taken again, and Newton's
     std::vector<std::string> outside;                      ///< what did not stay where an afferent works as designed
-    std::vector<Error> lost;                               ///< a netlist that did not converge, and when: it said no more on its channel
+    std::vector<Spent> spent;  ///< of each afferent that is a circuit, over its channels; empty if none goes alone
+    std::vector<Error> lost;   ///< a netlist that did not converge, and when: it said no more on its channel
 };
 
 struct RespondOptions {

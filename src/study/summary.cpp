@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "signal/version.hpp"
+#include "study/cost_document.hpp"
 
 namespace corpuscle {
 namespace {
@@ -197,6 +198,9 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
     if (work.steps > 0 || !work.lost.empty())
         out["work"]["circuits"] = {
             {"steps", work.steps}, {"rejected", work.rejected}, {"iterations", work.iterations}, {"not_converged", work.lost.size()}};
+    double least = INFINITY;
+    for (const auto& i : inputs_) least = std::min(least, i.least);
+    if (auto costs = costs_of(afferents, work, least); !costs.empty()) out["costs"] = std::move(costs);
     out["warnings"] = warnings;
     return out;
 }

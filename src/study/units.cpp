@@ -161,6 +161,7 @@ void Units::answer_single(Single& single) {
         single.error = of_unit(ok.error(), u);
     single.capped = answer.capped, single.clipped = answer.clipped, single.overflowed = answer.overflowed;
     single.steps = answer.steps, single.rejected = answer.rejected, single.iterations = answer.iterations;
+    single.spent = answer.spent;
 }
 
 /// One whose answer is behind the force has heard so much more of it before the first block.
@@ -214,6 +215,8 @@ Result<void> Units::answer_singles(Pool& pool, Work& work) {
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
         work.capped_steps += s.capped, work.clipped += s.clipped, work.overflowed += s.overflowed;
         work.steps += s.steps, work.rejected += s.rejected, work.iterations += s.iterations;
+        work.spent.resize(afferents_.size());
+        work.spent[s.unit % afferents_.size()] += s.spent;
     }
     return {};
 }

@@ -34,6 +34,7 @@ private:
         std::vector<Spike> spikes = {};
         std::int64_t capped = 0, clipped = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;
         std::vector<Outside> outside = {};  // of each of the afferent's ranges
+        Spent spent = {};
         std::optional<Error> error = {};
         bool lost = false;  // a netlist that did not converge: it says no more
     };

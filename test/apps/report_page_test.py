@@ -641,6 +641,23 @@ class Recorded(Page):
         self.assertAlmostEqual(float(cells["force_max (N)"]), 18, delta=0.01)
 
 
+class Costs(Page):
+    @classmethod
+    def report(cls):
+        return respond("costs.html", "--afferent", f"sa1,{pathlib.Path(__file__).resolve().parents[2] / 'circuits/spiker.cir'}")
+
+    def test_a_netlist_has_its_table_of_costs_and_equations_have_none(self):
+        section = self.browser.find_element(By.ID, "costs")
+        self.assertTrue(section.is_displayed())
+        table, = section.find_elements(By.TAG_NAME, "table")
+        self.assertIn("spiker.cir", table.text)
+        cost, = self.data["costs"]
+        power = cost["power"]["op"]
+        self.assertAlmostEqual(sum(power["blocks_W"].values()) / power["delivered_W"], 1, places=5)
+        last = table.find_elements(By.TAG_NAME, "tr")[-1].find_elements(By.TAG_NAME, "td")
+        self.assertEqual(last[1].text, f'{cost["area"]["total_m2"] * 1e12:.0f}')
+
+
 del Page  # not a test by itself
 
 

@@ -1,0 +1,43 @@
+#include "circuit/cost/area.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/device/values.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double um = 1e-6, most_rows = 4096;
+constexpr double around_W = 0.5 * um, around_L = 0.96 * um;     // of an island beyond its channel
+constexpr double between_W = 0.28 * um, between_L = 0.54 * um;  // of two units: diffusions apart; a shared one with its contacts
+
+}  // namespace
+
+Area& Area::operator+=(const Area& more) {
+    gates += more.gates, arrays += more.arrays, apart += more.apart, capacitors += more.capacitors;
+    return *this;
+}
+
+double rectangle_area(double W, double L, double rows, double columns) {
+    return (rows * W + (rows - 1) * between_W + around_W) * (columns * L + (columns - 1) * between_L + around_L);
+}
+
+double array_area(double W, double L, double units) {
+    double least = rectangle_area(W, L, 1, std::ceil(units));
+    for (double rows = 2; rows <= std::min(std::ceil(units), most_rows); ++rows)
+        least = std::min(least, rectangle_area(W, L, rows, std::ceil(units / rows)));
+    return least;
+}
+
+Area area_of(const Element& e) {
+    Area out;
+    if (e.letter == 'c' && !e.formula) out.capacitors = std::abs(e.value) * value_or(e.values, "m", 1) / capacitor_density;
+    if (e.letter != 'm') return out;
+    const double W = value_or(e.values, "w", 1 * um), L = value_or(e.values, "l", 1 * um);
+    const double units = value_or(e.values, "m", 1) * value_or(e.values, "stack", 1);
+    out.gates = units * W * L, out.arrays = array_area(W, L, units), out.apart = units * rectangle_area(W, L, 1, 1);
+    return out;
+}
+
+}  // namespace corpuscle::circuit

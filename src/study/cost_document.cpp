@@ -1,0 +1,90 @@
+#include "study/cost_document.hpp"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "circuit/afferent.hpp"
+#include "circuit/trace.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json document_of(const circuit::Area& a) {
+    return {
+        {"gates_m2", a.gates}, {"arrays_m2", a.arrays}, {"apart_m2", a.apart}, {"capacitors_m2", a.capacitors}, {"total_m2", a.total()}};
+}
+
+Json document_of(const circuit::Cost& cost, const circuit::Powers& p) {
+    Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"own_W", p.own}};
+    if (p.blocks.empty()) return out;  // a mean over what was answered
+    Json sources = Json::object(), blocks = Json::object();
+    for (std::size_t k = 0; k < p.sources.size(); ++k) sources[cost.sources[k]] = p.sources[k];
+    for (std::size_t k = 0; k < p.blocks.size(); ++k) blocks[cost.blocks[k].name] = p.blocks[k];
+    out["sources_W"] = sources, out["blocks_W"] = blocks;
+    return out;
+}
+
+/// At rest under this force.
+Result<circuit::Cost> cost_under(const circuit::CircuitDesign& design, double force) {
+    auto bench = circuit::TestBench::make(design.circuit);
+    if (!bench) return bench.error();
+    circuit::Trace trace;
+    trace.append(std::array{force});
+    (*bench)->system.hear(&trace);
+    return circuit::cost_of(**bench);
+}
+
+/// Of an afferent's copies, which follow each other, of so many.
+Spent spent_by(const Work& work, std::size_t afferent, std::size_t of) {
+    Spent out;
+    const std::size_t copies = work.spent.size() / of;
+    for (std::size_t k = 0; k < copies; ++k) out += work.spent[afferent * copies + k];
+    return out;
+}
+
+}  // namespace
+
+Json document_of(const circuit::Cost& cost) {
+    Json power = Json::object(), blocks = Json::array(), leaks = Json::array();
+    for (const auto& [when, p] : cost.power) power[when] = document_of(cost, p);
+    for (const auto& b : cost.blocks) {
+        blocks.push_back({{"block", b.name}, {"arrays", b.transistors}, {"units", b.units}, {"area", document_of(b.area)}});
+        if (!b.worst_name.empty()) blocks.back()["worst_leak"] = {{"transistor", b.worst_name}, {"current_A", b.worst.current}};
+    }
+    for (std::size_t k = 0; k < cost.leaks.size(); ++k) {
+        leaks.push_back({{"transistor", cost.leaking[k]}, {"current_A", cost.leaks[k].current}});
+        if (!cost.leaks[k].onto.empty()) leaks.back()["onto"] = cost.leaks[k].onto;
+    }
+    Json out = {{"supply_V", cost.supply}, {"power", power}, {"area", document_of(cost.area())}, {"blocks", blocks}};
+    out["unsized_elements"] = cost.unsized;
+    out["smallest_bias_A"] = cost.smallest_bias, out["off_leaks"] = leaks;
+    if (cost.is_receptor) {
+        Json per_mW = Json::object();
+        for (const auto& [when, p] : cost.power)
+            per_mW[when] = {{"own", p.own > 0 ? Json(1e-3 / p.own) : Json()},
+                            {"delivered", p.supplies > 0 ? Json(1e-3 / p.supplies) : Json()}};
+        out["receptors"] = {{"per_mm2", cost.area().total() > 0 ? Json(cost.per_mm2()) : Json()}, {"per_mW", per_mW}};
+    }
+    return out;
+}
+
+Json costs_of(std::span<const AfferentPlan> afferents, const Work& work, double force) {
+    Json out = Json::array();
+    for (std::size_t a = 0; a < afferents.size(); ++a) {
+        const auto* design = dynamic_cast<const circuit::CircuitDesign*>(afferents[a].design.get());
+        if (design == nullptr) continue;
+        auto cost = cost_under(*design, force);
+        if (!cost) continue;  // it does not rest there; what came of it is told elsewhere
+        if (const auto spent = spent_by(work, a, afferents.size()); spent.seconds > 0) {
+            const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
+            cost->power.emplace_back("mean", circuit::Powers{supplies, sensor, supplies - sensor, {}, {}});
+        }
+        out.push_back({{"afferent", afferents[a].name}, {"rest_N", force}});
+        out.back().update(document_of(*cost));
+    }
+    return out;
+}
+
+}  // namespace corpuscle
