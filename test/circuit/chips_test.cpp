@@ -1,0 +1,188 @@
+// The thesis's chips, transistor by transistor: what they answer to force, as the thesis tells and beside its models.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "circuit/afferent.hpp"
+#include "circuit/netlist_runner.hpp"
+#include "corpuscle.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// What one chip did under one touch.
+struct Heard {
+    std::vector<double> spikes;                        // s
+    std::map<std::string, std::vector<double>> shown;  // what .save names, a value a sample
+    std::vector<Outside> outside;
+    std::optional<Error> error;
+
+    std::size_t between(double from, double to) const {
+        return static_cast<std::size_t>(std::count_if(spikes.begin(), spikes.end(), [&](double t) { return t >= from && t < to; }));
+    }
+};
+
+Heard heard(const std::string& file, const Touch& touch, const Values& parameters = {}) {
+    Heard out;
+    const auto netlist = Netlist::read(corpuscle::test::root() + "/circuits/" + file);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text(), out;
+    auto circuit = netlist->elaborate(parameters);
+    if (!circuit) return ADD_FAILURE() << circuit.error().text(), out;
+    const auto design = CircuitDesign::of(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!design) return ADD_FAILURE() << design.error().text(), out;
+    const auto afferent = (*design)->make(1 / touch.rate, false);
+    const auto delay = static_cast<std::size_t>(afferent->delay());
+    auto force = touch.force;
+    force.insert(force.end(), delay, force.back());
+    std::vector<std::vector<double>> curves(afferent->probes().size(), std::vector<double>(force.size()));
+    std::vector<double*> probes;
+    for (auto& c : curves) probes.push_back(c.data());
+    std::vector<Spike> spikes;
+    out.outside.resize(afferent->ranges().size());
+    auto state = afferent->start();
+    Answer answer{spikes, 0, probes, out.outside};
+    if (auto ok = afferent->respond(force, state, answer); !ok) out.error = ok.error();
+    for (const auto& s : spikes) out.spikes.push_back((static_cast<double>(s.step) - 1 + s.offset) / touch.rate);
+    for (std::size_t p = 0; p < curves.size(); ++p) {
+        curves[p].erase(curves[p].begin(), curves[p].begin() + static_cast<std::ptrdiff_t>(delay));
+        out.shown[std::string(afferent->probes()[p].name)] = std::move(curves[p]);
+    }
+    return out;
+}
+
+std::vector<double> spikes_of(const Ran& ran) {
+    for (const auto& a : ran.analyses())
+        if (a.findings.spikes) return *a.findings.spikes;
+    return ADD_FAILURE() << ran.title() << ": no spikes", std::vector<double>();
+}
+
+constexpr double up = 0.25, held = 0.375, down = 0.625, rest = 0.75;  // s, of the press
+
+TEST(SaChip, FiresUnderThePressAsItsModelDoes) {
+    const auto press = stimulus("press");
+    const auto model = respond("sa1", press);
+    for (const char* file : {"sa1.cir", "sa1_biased.cir"}) {
+        const auto chip = heard(file, press);
+        EXPECT_EQ(chip.between(0, up), 0U) << "silent at rest";
+        ASSERT_GT(chip.between(up, held), 2U);
+        const auto first = std::find_if(chip.spikes.begin(), chip.spikes.end(), [](double t) { return t >= held; });
+        for (auto t = first + 1; t + 1 < chip.spikes.end() && t[1] < down; ++t)
+            EXPECT_GT(t[1] - t[0], t[0] - t[-1]) << "slows on the plateau, at " << *t;
+        EXPECT_GT(chip.between(down - 0.05, down), 0U) << "goes on to the plateau's end";
+        EXPECT_LE(chip.between(down, 1), 1U) << "and after it fires once at the most";
+        EXPECT_NEAR(static_cast<double>(chip.spikes.size()), static_cast<double>(model.spikes.size()),
+                    0.25 * static_cast<double>(model.spikes.size()));
+    }
+}
+
+TEST(FaChip, FiresInBothRampsAndNotAtTheEndOfThePlateau) {
+    const auto press = stimulus("press");
+    const auto model = respond("fa1", press);
+    for (const char* file : {"fa1.cir", "fa1_biased.cir"}) {
+        const auto chip = heard(file, press);
+        EXPECT_EQ(chip.between(0, up), 0U);
+        EXPECT_GT(chip.between(up, held), 0U);
+        EXPECT_EQ(chip.between(down - 0.1, down), 0U);
+        EXPECT_GT(chip.between(down, rest), 0U);
+        EXPECT_NEAR(static_cast<double>(chip.spikes.size()), static_cast<double>(model.spikes.size()),
+                    0.25 * static_cast<double>(model.spikes.size()));
+    }
+}
+
+/// As printed, I_A is too small to hold the plateau above the leak (errata S10a), and FA-I's ramps are 8 to 3 (S15).
+TEST(Chips, AsPrintedFireOtherwise) {
+    const auto press = stimulus("press");
+    const auto sa1 = heard("sa1.cir", press, {{"as_printed", 1}}), fa1 = heard("fa1.cir", press, {{"as_printed", 1}});
+    EXPECT_GE(sa1.between(up, held), 3U);
+    EXPECT_EQ(sa1.between(held + 0.05, 1), 0U);
+    EXPECT_GT(fa1.between(up, held), 2 * fa1.between(down, rest));
+    EXPECT_GT(fa1.spikes.size(), 12U);
+}
+
+/// The membrane falls from V_H to V_L, a spike fills it again; it goes beyond by what the trigger's delay lets pass (thesis 4.4).
+TEST(Chips, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
+    const auto trigger = ran_file("schmitt.cir");
+    const double V_L = trigger.number("v_l"), V_H = trigger.number("v_h");
+    for (const char* file : {"sa1.cir", "fa1.cir"}) {
+        auto touch = stimulus("press", {}, 100e3);
+        const auto chip = heard(file, touch);
+        const auto& u = chip.shown.at("v(u)");
+        const auto sample = [&](double t) { return u.begin() + static_cast<std::ptrdiff_t>(std::lround(t * touch.rate)); };
+        const auto [least, most] = std::minmax_element(sample(chip.spikes[0]), sample(chip.spikes[chip.between(0, down) - 1]));
+        EXPECT_GT(*least, V_L - 2e-3) << file;
+        EXPECT_LT(*least, V_L + 2e-3) << file;
+        EXPECT_GT(*most, V_H) << file << ": while it is filled the trigger is late";
+        EXPECT_LT(*most, V_H + 15e-3) << file;
+    }
+}
+
+/// "At each firing event the membrane potential u charges very fast, causing glitches in the input signal I" (thesis 4.4).
+TEST(Chips, ChargingMakesGlitchesInTheCurrent) {
+    const auto press = stimulus("press", {}, 100e3);
+    const auto chip = heard("sa1.cir", press);
+    const auto& current = chip.shown.at("i(vi)");
+    const auto largest = [&](double from, double to) {
+        const auto at = [&](double t) { return current.begin() + static_cast<std::ptrdiff_t>(t * press.rate); };
+        return *std::max_element(at(from), at(to));
+    };
+    for (std::size_t k = 1; k + 1 < chip.between(0, down); ++k) {
+        const double t = chip.spikes[k];
+        EXPECT_GT(largest(t, t + 2e-3), 3 * largest(t - 3e-3, t - 1e-3)) << t;
+    }
+}
+
+/// 0.05 to 40 N, quick and slow: the search always ends, and a chip that is pressed beyond its range says so.
+TEST(Chips, ConvergeUnderAnyForceAndTellThatTheyAreSaturated) {
+    for (const char* file : {"sa1.cir", "fa1.cir"}) {
+        for (const double force : {0.05, 0.5, 10.0, 40.0}) {
+            const auto press = heard(file, stimulus("press", {fmt::format("press.F_max={}", force)}));
+            const auto step = heard(file, stimulus("step", {fmt::format("step.F_max={}", force), "step.t_hold=0.2", "step.t_rest=0.1"}));
+            EXPECT_FALSE(press.error || step.error) << file << ' ' << force;
+            EXPECT_EQ(press.outside[0].samples > 0, force > 6) << file << ' ' << force;
+        }
+        for (const double f : {1.0, 60.0, 500.0}) {
+            const auto sine = heard(file, stimulus("sine", {fmt::format("sine.f={}", f), "sine.duration=0.1", "sine.F_mean=2"}, 20e3));
+            EXPECT_FALSE(sine.error) << file << ' ' << f;
+        }
+    }
+}
+
+TEST(Chips, RestSilentlyForHours) {
+    for (const char* file : {"sa1.cir", "fa1.cir"}) {
+        const auto quiet = heard(file, stimulus("step", {"step.t_rest=600", "step.t_hold=0.3", "step.F_max=4"}, 100));
+        EXPECT_FALSE(quiet.error);
+        EXPECT_EQ(quiet.between(0, 600), 0U);
+        EXPECT_GT(quiet.between(600, 600.3), 3U) << "and then feel";
+    }
+}
+
+TEST(Chips, OutliveATornSensor) {
+    const auto press = stimulus("press");
+    for (const char* file : {"sa1.cir", "fa1.cir"}) {
+        const auto open = heard(file, press, {{"r_0", 1e15}, {"r_1gf", 1e15}}), shorted = heard(file, press, {{"r_0", 1}, {"r_1gf", 1}});
+        EXPECT_FALSE(open.error || shorted.error);
+        EXPECT_TRUE(open.spikes.empty()) << "nothing is felt";
+        EXPECT_GT(shorted.outside[1].samples, 9000) << "the amplifier cannot hold the sensor's voltage, and this is told";
+    }
+}
+
+/// Tolerances a hundred times tighter move no spike by 0.2 ms.
+TEST(Chips, SpikesAreExact) {
+    for (const std::string file : {"sa1.cir", "fa1.cir"}) {
+        const auto folder = corpuscle::test::root() + "/circuits/";
+        auto text = corpuscle::test::read_file(folder + file);
+        text.replace(text.rfind(".end"), 4, ".options reltol=1e-7 vntol=1e-8 spikecheck=0\n.end");
+        for (auto at = text.find("'parts/"); at != std::string::npos; at = text.find("'parts/", at + 1)) text.insert(at + 1, folder);
+        const auto usual = spikes_of(ran_file(file)), tight = spikes_of(ran(text));
+        ASSERT_EQ(usual.size(), tight.size());
+        for (std::size_t k = 0; k < tight.size(); ++k) EXPECT_NEAR(usual[k], tight[k], 0.2e-3) << file << ' ' << k;
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
