@@ -1,0 +1,223 @@
+// Every array of the chips' netlists against the sizes that the thesis prints, tables 1 to 9, 16, 19 and 20, slips included.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+#include <sstream>
+
+#include "netlist_runner.hpp"
+#include "printed_tables.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+std::vector<std::string> words(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> out;
+    for (std::string word; in >> word;) out.push_back(word);
+    return out;
+}
+
+/// "M1A-E" names five, "M3A,C" two.
+int letters_of(const std::string& name) {
+    if (const auto to = name.find('-'); to != std::string::npos) return name[to + 1] - name[to - 1] + 1;
+    return name.find(',') != std::string::npos ? 2 : 1;
+}
+
+double named(const Element& e, const char* name, double otherwise) {
+    const auto found = e.values.find(name);
+    return found == e.values.end() ? otherwise : found->second;
+}
+
+/// m, n, W, L of an array, lengths in um.
+std::vector<std::pair<std::string, double>> size_of(const Element& e) {
+    return {{"m", named(e, "m", 1)}, {"n", named(e, "stack", 1)}, {"W", 1e6 * named(e, "w", 0)}, {"L", 1e6 * named(e, "l", 0)}};
+}
+
+/// Circuits as the tables size them; with a part's name only those that include it, its text as given.
+class Circuits {
+    std::map<std::string, Circuit> circuits_;
+
+    void read(const std::string& name, const Values& parameters, const std::string& part, const std::string& text_of_part) {
+        const auto path = fmt::format("{}/circuits/{}.cir", test::root(), name);
+        const auto text = text_of(path);
+        if (!text) return ADD_FAILURE() << text.error().text(), void();
+        if (text->find("'parts/" + part) == std::string::npos && !part.empty()) return;
+        const auto netlist = Netlist::parse(*text, path, [&](const std::string& file) -> Result<std::string> {
+            if (!part.empty() && file.ends_with("/" + part)) return text_of_part;
+            return circuit::text_of(file);
+        });
+        if (!netlist) return ADD_FAILURE() << netlist.error().text(), void();
+        auto circuit = netlist->elaborate(name == "sa1" || name == "fa1" ? parameters : Values());
+        if (!circuit) return ADD_FAILURE() << circuit.error().text(), void();
+        circuits_.emplace(name, std::move(*circuit));
+    }
+
+public:
+    explicit Circuits(const Values& parameters, const std::string& part = "", const std::string& text_of_part = "") {
+        std::set<std::string> names;
+        for (const auto& stand : stands) names.insert(stand.circuit);
+        for (const auto& name : names) read(name, parameters, part, text_of_part);
+    }
+    bool have(const std::string& name) const { return circuits_.contains(name); }
+    const Circuit& operator[](const std::string& name) const { return circuits_.at(name); }
+};
+
+/// What differs from the tables, each a sentence; `used` gathers the errata that were needed, `sized` the devices found in each circuit.
+struct Compared {
+    std::vector<std::string> differences;
+    std::set<const Otherwise*> used;
+    std::map<std::string, std::set<std::string>> sized;
+
+    explicit Compared(const Circuits& circuits) {
+        for (const auto& stand : stands)
+            for (const auto& row : rows)
+                if (std::string_view(row.table) == stand.table && circuits.have(stand.circuit))
+                    for (const auto& local : words(row.devices)) device(circuits[stand.circuit], stand, row, local);
+    }
+    void device(const Circuit& circuit, const Stand& stand, const Row& row, const std::string& local) {
+        const auto name = stand.path + local;
+        sized[stand.circuit].insert(name);
+        const int k = circuit.element(name);
+        if (k < 0) return differences.push_back(fmt::format("table {} {}: {}.cir has no {}", row.table, row.name, stand.circuit, name));
+        const double printed[] = {double(row.m), double(row.n), row.W, row.L};
+        const auto size = size_of(circuit.elements[static_cast<std::size_t>(k)]);
+        for (std::size_t j = 0; j < 4; ++j)
+            if (const double wanted = wanted_of(row, local, size[j].first, printed[j]); std::abs(size[j].second - wanted) > 1e-9)
+                differences.push_back(fmt::format("table {} {}: {} is printed as {}, {}.cir has {} in {}, for which there is no erratum",
+                                                  row.table, row.name, size[j].first, printed[j], stand.circuit, size[j].second, name));
+    }
+    double wanted_of(const Row& row, const std::string& local, const std::string& what, double printed) {
+        for (const auto& other : otherwise) {
+            if (std::string_view(other.table) != row.table || std::string_view(other.name) != row.name || what != other.what) continue;
+            const auto devices = words(other.device);
+            if (std::find(devices.begin(), devices.end(), local) == devices.end()) continue;
+            used.insert(&other);
+            return other.built;
+        }
+        return printed;
+    }
+};
+
+Values as_printed(double yes) { return {{"as_printed", yes}}; }
+
+TEST(Tables, SizeEveryArrayOfTheCircuitsButForTheErrata) {
+    const Compared compared{Circuits(as_printed(1))};
+    EXPECT_TRUE(compared.differences.empty()) << fmt::format("{}", fmt::join(compared.differences, "\n"));
+    for (const auto& other : otherwise)
+        EXPECT_TRUE(compared.used.contains(&other))
+            << "table " << other.table << " " << other.name << ": nothing is built otherwise by " << other.erratum;
+}
+
+TEST(Tables, HaveADeviceForEveryLetterThatIsPrinted) {
+    for (const auto& row : rows) {
+        const auto devices = static_cast<int>(words(row.devices).size());
+        int letters = letters_of(row.name);
+        for (const auto& lack : without)
+            if (std::string_view(lack.table) == row.table && std::string_view(lack.name) == row.name) letters -= lack.letters;
+        const bool of_both_sources =
+            std::string_view(row.table) == "6" && std::string_view(row.devices).find("xrectc") != std::string_view::npos;
+        const bool a_mirror = std::string_view(row.table) == "4" && std::string_view(row.name) == "M3";
+        if (!of_both_sources && !a_mirror) {
+            EXPECT_EQ(devices, letters) << "table " << row.table << " " << row.name;
+        }
+    }
+}
+
+TEST(Tables, KnowEveryTransistorOfTheChips) {
+    const Circuits circuits(as_printed(1));
+    const Compared compared(circuits);
+    for (const auto* chip : {"sa1", "fa1"})
+        for (const auto& e : circuits[chip].elements)
+            if (e.letter == 'm') {
+                EXPECT_TRUE(compared.sized.at(chip).contains(e.name)) << chip << ".cir: no table sizes " << e.name;
+            }
+}
+
+TEST(Tables, WidthsTellPFromN) {
+    const Circuits circuits(as_printed(0));
+    for (const auto* chip : {"sa1", "fa1"})
+        for (const auto& e : circuits[chip].elements)
+            if (e.letter == 'm') {
+                const auto& type = circuits[chip].models[static_cast<std::size_t>(e.model)].type;
+                EXPECT_EQ(type == "pmos", e.values.at("w") > 5e-6) << chip << ": " << e.name << " is " << type;
+            }
+}
+
+/// What differs between two elements of one name: "m 2 -> 12".
+std::vector<std::string> changes(const Element& a, const Element& b) {
+    std::vector<std::string> out;
+    for (const auto& [name, value] : a.values)
+        if (named(b, name.c_str(), value) != value)
+            out.push_back(fmt::format("{} {} {:g} -> {:g}", a.name, name, value, b.values.at(name)));
+    if (a.value != b.value) out.push_back(fmt::format("{} {:g} -> {:g}", a.name, a.value, b.value));
+    if (a.waveform.dc != b.waveform.dc) out.push_back(fmt::format("{} dc {:g} -> {:g}", a.name, a.waveform.dc, b.waveform.dc));
+    return out;
+}
+
+std::vector<std::string> as_intended(const char* chip) {
+    const Circuits printed(as_printed(1)), intended(as_printed(0));
+    std::vector<std::string> out;
+    EXPECT_EQ(printed[chip].elements.size(), intended[chip].elements.size());
+    for (std::size_t k = 0; k < printed[chip].elements.size(); ++k) {
+        const auto& here = printed[chip].elements[k];
+        const auto& there = intended[chip].elements[k];
+        EXPECT_EQ(here.name, there.name);
+        EXPECT_EQ(here.values.size(), there.values.size()) << here.name;
+        for (auto& change : changes(here, there)) out.push_back(std::move(change));
+    }
+    return out;
+}
+
+// S9a: I_C's gain 2; S10a: I_A six times; the leak and the membrane with them.
+TEST(Tables, OfSa1AsIntendedOtherSizesAreThoseOfTheStaticAndTheSlowPath) {
+    EXPECT_EQ(as_intended("sa1"),
+              (std::vector<std::string>{"xrectc.mp1a m 2 -> 4", "xrectc.mn2a m 2 -> 4", "xrectc.mp1b m 2 -> 4", "xrectc.mn2b m 2 -> 4",
+                                        "xsummer.mn3b m 2 -> 12", "xcco.cu 1.8e-12 -> 4.5e-12", "ilk dc 5e-12 -> 7e-12"}));
+}
+
+// S15: the falling force's gain 6.
+TEST(Tables, OfFa1AsIntendedOtherSizesAreThoseOfTheFallingForce) {
+    EXPECT_EQ(as_intended("fa1"), (std::vector<std::string>{"xrect.mp1b m 3 -> 6", "xrect.mn2b m 3 -> 6", "xcco.cu 5.4e-12 -> 1.44e-11",
+                                                            "ilk dc 5e-12 -> 1e-11"}));
+}
+
+/// A part's text, and another one of it: line by line each number of an array's size moved by a unit of its.
+struct Moved {
+    std::string file, was, line, text;
+};
+
+std::vector<Moved> moved_sizes(const std::string& file) {
+    const auto text = text_of(test::root() + "/circuits/parts/" + file);
+    std::vector<Moved> out;
+    for (std::size_t at = 0; text && at < text->size(); at = text->find('\n', at) + 1) {
+        const auto end = text->find('\n', at);
+        const auto line = text->substr(at, end - at);
+        if (!line.starts_with('m')) continue;
+        for (const auto* what : {" w=", " l=", " m=", " stack="}) {
+            const auto place = line.find(what);
+            if (place == std::string::npos) continue;
+            const auto digit = place + std::string_view(what).size();
+            if (line[digit] == '{') continue;  // whoever calls the part says it
+            auto other = line;
+            other.insert(digit, "1");
+            auto whole = *text;
+            out.push_back({file, line, other, whole.replace(at, line.size(), other)});
+        }
+    }
+    return out;
+}
+
+TEST(Tables, NoSizeInThePartsChangesUnnoticed) {
+    int count = 0;
+    for (const auto* file : {"transducer.inc", "transconductor.inc", "trigger.inc", "signal.inc", "oscillator.inc"})
+        for (const auto& moved : moved_sizes(file)) {
+            const Circuits circuits(as_printed(1), moved.file, moved.text);
+            EXPECT_FALSE(Compared(circuits).differences.empty()) << moved.file << ": '" << moved.was << "' as '" << moved.line << "'";
+            ++count;
+        }
+    EXPECT_GT(count, 300);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
