@@ -24,7 +24,8 @@ std::uint64_t mark_of(const Circuit& c) {
         for (const auto& [name, value] : all) text(name), real(value);
     };
     const auto formula = [&](const Formula& f) {
-        const auto written = f.text([](const FormulaInput& in) { return fmt::format("{}({},{})", static_cast<int>(in.kind), in.name, in.minus); });
+        const auto written =
+            f.text([](const FormulaInput& in) { return fmt::format("{}({},{})", static_cast<int>(in.kind), in.name, in.minus); });
         if (written) text(*written);
     };
     for (const auto& e : c.elements) {
@@ -182,6 +183,11 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     design->plan.longest = design->times.longest.value_or(longest_step);
     design->mark = mark_of(*design->circuit);
     return std::shared_ptr<const CircuitDesign>(std::move(design));
+}
+
+std::vector<std::pair<std::string, std::string>> CircuitDesign::words() const {
+    if (!netlist || netlist->changes().corner.empty()) return {};
+    return {{"corner", netlist->changes().corner}};
 }
 
 std::unique_ptr<Afferent> CircuitDesign::make(double dt, bool sampled, std::uint32_t copy) const {

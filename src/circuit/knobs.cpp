@@ -112,10 +112,11 @@ private:
         }
         const std::vector<std::string_view> views(known.begin(), known.end());
         const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
-        return refused(knob, fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
-                                         circuit_.file, knob.name, did_you_mean(typed, views),
-                                         params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")), names_.size(),
-                                         names_.empty() ? "none" : short_name(names_.back(), pieces_in(names_.back()), Last::element)));
+        return refused(
+            knob,
+            fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})", circuit_.file,
+                        knob.name, did_you_mean(typed, views), params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")),
+                        names_.size(), names_.empty() ? "none" : short_name(names_.back(), pieces_in(names_.back()), Last::element)));
     }
 
     Result<void> device(const Knob& knob, const Element& e, std::string_view number) {
@@ -136,15 +137,17 @@ private:
         for (const auto& n : known)
             if (!n.name.empty()) names.push_back(n.name);
         if (number.empty() || names.empty())
-            return refused(knob, fmt::format("{} is {}; no one number is its value", e.name, e.formula ? "a formula" : "not of one number"));
-        return refused(knob, fmt::format("{} has no '{}'{} (it has {})", e.name, number, did_you_mean(number, names), fmt::join(names, ", ")));
+            return refused(knob,
+                           fmt::format("{} is {}; no one number is its value", e.name, e.formula ? "a formula" : "not of one number"));
+        return refused(knob,
+                       fmt::format("{} has no '{}'{} (it has {})", e.name, number, did_you_mean(number, names), fmt::join(names, ", ")));
     }
 
     Result<void> array(const Knob& knob, const Element& e) {
         const auto size = array_of(knob.value);
         if (!size || size->first != std::floor(size->first) || size->second != std::floor(size->second))
-            return refused(knob, fmt::format("'{}' is no array; write columns x units in series, such as 8x4, or set {}.w, {}.l ...", knob.value,
-                                             knob.name, knob.name));
+            return refused(knob, fmt::format("'{}' is no array; write columns x units in series, such as 8x4, or set {}.w, {}.l ...",
+                                             knob.value, knob.name, knob.name));
         for (const auto& n : numbers_of(e)) {
             if (n.name == "m" && !(size->first >= 1)) return refused(knob, fmt::format("{} columns; there is at least one", size->first));
             if (n.name == "stack" && !(size->second >= 1))
@@ -159,10 +162,11 @@ private:
     Result<void> put(const Knob& knob, const Element& e, const Number& number, double value) {
         const bool own = number.name == "dc" || number.name == std::string_view(&e.letter, 1);
         if (!(value >= number.low && value <= number.high))
-            return refused(knob, number.high == any && number.low >= 0
-                                     ? fmt::format("{} must {}", format_quantity(value, number.unit), number.low > 0 ? "be above 0" : "not be below 0")
-                                     : fmt::format("{} is outside [{}, {}]", format_quantity(value, number.unit),
-                                                   format_quantity(number.low, number.unit), format_quantity(number.high, number.unit)));
+            return refused(
+                knob, number.high == any && number.low >= 0
+                          ? fmt::format("{} must {}", format_quantity(value, number.unit), number.low > 0 ? "be above 0" : "not be below 0")
+                          : fmt::format("{} is outside [{}, {}]", format_quantity(value, number.unit),
+                                        format_quantity(number.low, number.unit), format_quantity(number.high, number.unit)));
         if (e.letter == 'r' && (own || number.name.empty()) && value == 0) return refused(knob, "a resistor of 0 ohm");
         changes_.numbers[e.name].insert_or_assign(own && e.letter != 'm' ? "" : std::string(number.name), value);
         return {};

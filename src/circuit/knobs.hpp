@@ -12,8 +12,8 @@ namespace corpuscle::circuit {
 /// case; of a device's path the end is enough and SPICE's letters may be left out.
 struct Knob {
     std::string name, value;
-    std::string said;                ///< as it was asked for: "--set sa1-circuit.C_u=4pF"
-    bool parameter_alone = false;    ///< not a device: --supply
+    std::string said;              ///< as it was asked for: "--set sa1-circuit.C_u=4pF"
+    bool parameter_alone = false;  ///< not a device: --supply
 };
 
 /// The netlist of a name or path with the knobs set, the later before the earlier; `traces` as traced() has them.

@@ -19,7 +19,8 @@ struct Asked {
 Result<Asked> read(std::string_view word) {
     const auto text = trimmed(word);
     const auto open = text.find('(');
-    if (open == std::string_view::npos && !text.empty() && text.find_first_of(") \t") == std::string_view::npos) return Asked{false, text, ""};
+    if (open == std::string_view::npos && !text.empty() && text.find_first_of(") \t") == std::string_view::npos)
+        return Asked{false, text, ""};
     const bool formed = open == 1 && text.ends_with(')') && (lower(text[0]) == 'v' || lower(text[0]) == 'i');
     Asked out;
     if (formed) {

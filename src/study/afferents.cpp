@@ -1,6 +1,7 @@
 #include "study/afferents.hpp"
 
 #include <fmt/format.h>
+#include <cmath>
 #include <deque>
 #include <limits>
 
@@ -19,28 +20,42 @@ struct Told {
     std::vector<Parameter> parameters;
     std::vector<double> values;
 
-    void add(std::string name, std::string sentence, double value, bool set) {
+    void add(std::string name, std::string sentence, double initial, double value, bool set, bool one_for_all = true) {
         constexpr double any = std::numeric_limits<double>::max();
         const auto& kept = words.emplace_back(std::move(name));
-        parameters.push_back({{kept, "", value, -any, any, words.emplace_back(std::move(sentence)), ""}, "netlist", set});
+        parameters.push_back({{kept, "", initial, -any, any, words.emplace_back(std::move(sentence)), "", one_for_all}, "netlist", set});
         values.push_back(value);
     }
 };
 
-/// A netlist's parameters, then what else is set of it.
-void tell(AfferentPlan& plan, const CircuitDesign& design) {
+/// A device's number as it stands in a circuit; "" is its value. NaN: it says none.
+double number_of(const circuit::Circuit& c, std::string_view element, std::string_view name) {
+    const int k = c.element(element);
+    if (k < 0) return std::nan("");
+    const auto& e = c.elements[static_cast<std::size_t>(k)];
+    if (const auto said = e.values.find(name); said != e.values.end()) return said->second;
+    if (!name.empty()) return std::nan("");
+    return e.letter == 'v' || e.letter == 'i' ? e.waveform.dc : e.value;
+}
+
+/// A netlist's parameters, then what else is set of it; the defaults are those of the netlist as it is written.
+Result<void> tell(AfferentPlan& plan, const CircuitDesign& design) {
     auto told = std::make_shared<Told>();
     const auto& changes = design.netlist->changes();
-    const auto written = design.netlist->parameters();
-    for (const auto& [name, value] : design.circuit->parameters)
-        if (const auto text = written.find(name); text != written.end())
-            told->add(name, fmt::format(".param {}={}", name, text->second), value, changes.parameters.contains(name));
+    const auto plain = design.netlist->with({}).elaborate();
+    if (!plain) return plain.error();
+    for (const auto& [name, text] : design.netlist->parameters())
+        told->add(name, fmt::format(".param {}={}", name, text), plain->parameters.at(name), design.circuit->parameters.at(name),
+                  changes.parameters.contains(name), false);
     for (const auto& [element, numbers] : changes.numbers)
-        for (const auto& [name, value] : numbers) told->add(name.empty() ? element : element + "." + name, "a device's own", value, true);
-    if (changes.temperature) told->add("temp", "temperature, degrees Celsius", *changes.temperature, true);
-    if (changes.mismatch) told->add("mismatch", "seed of the chip's own thresholds and currents", static_cast<double>(*changes.mismatch), true);
+        for (const auto& [name, value] : numbers)
+            told->add(name.empty() ? element : element + "." + name, "a device's own", number_of(*plain, element, name), value, true);
+    if (changes.temperature) told->add("temp", "temperature, degrees Celsius", plain->temperature, *changes.temperature, true);
+    if (changes.mismatch)
+        told->add("mismatch", "seed of the chip's own thresholds and currents", std::nan(""), static_cast<double>(*changes.mismatch), true);
     plan.values = told->values;
     plan.parameters = {told, &told->parameters};
+    return {};
 }
 
 /// What of the traces asked for the circuit has, as .save has it.
@@ -86,7 +101,7 @@ Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Wish> w
     plan.name = name;
     plan.sentence = (*design)->title();
     plan.design = *design;
-    tell(plan, **design);
+    if (auto ok = tell(plan, **design); !ok) return ok.error();
     return plan;
 }
 
@@ -124,7 +139,8 @@ Result<void> remake(AfferentPlan& copy, const AfferentPlan& original) {
     if (!design || copy.values == original.values) return {};
     auto changes = design->netlist->changes();
     for (std::size_t k = 0; k < copy.values.size(); ++k)
-        if (copy.values[k] != original.values[k]) changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].row.name), copy.values[k]);
+        if (copy.values[k] != original.values[k])
+            changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].row.name), copy.values[k]);
     const auto made = CircuitDesign::of(design->netlist->with(std::move(changes)));
     if (!made) {
         auto error = made.error();

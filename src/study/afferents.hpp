@@ -14,10 +14,10 @@ inline bool names_netlist(std::string_view text) {
 
 /// What is asked of every netlist that takes part.
 struct OfNetlists {
-    std::vector<circuit::Knob> knobs;
-    std::vector<std::string> traces;   ///< shown in place of what .save names, by those that have one of them
-    mutable std::vector<bool> traced;  ///< of each: some netlist has it
-    mutable std::string hint;          ///< what one that nobody has may have meant
+    std::vector<circuit::Knob> knobs = {};
+    std::vector<std::string> traces = {};   ///< shown in place of what .save names, by those that have one of them
+    mutable std::vector<bool> traced = {};  ///< of each: some netlist has it
+    mutable std::string hint = {};          ///< what one that nobody has may have meant
     mutable bool used = false;
 };
 

@@ -82,13 +82,13 @@ struct Circuit {
 
 /// What is set of a netlist from outside, over what it says.
 struct Changes {
-    std::string corner;                                 ///< the section that its libraries are read for; "": those that it names
-    Values parameters;                                  ///< .param of the top level
-    std::map<std::string, Values, std::less<>> numbers; ///< of elements, by their names with their paths; "" is the value of R C L V I ...
-    std::optional<double> temperature;                  ///< C
-    std::optional<std::uint64_t> mismatch;              ///< the seed of the chip that is drawn; then .mc is left out
-    std::vector<std::string> saved;                     ///< as if a .save named them
-    bool saved_alone = false;                           ///< in place of every .save
+    std::string corner;                                  ///< the section that its libraries are read for; "": those that it names
+    Values parameters;                                   ///< .param of the top level
+    std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by their names with their paths; "" is the value of R C L V I ...
+    std::optional<double> temperature;                   ///< C
+    std::optional<std::uint64_t> mismatch;               ///< the seed of the chip that is drawn; then .mc is left out
+    std::vector<std::string> saved;                      ///< as if a .save named them
+    bool saved_alone = false;                            ///< in place of every .save
 };
 
 /// The statements of a netlist and of all files it includes.

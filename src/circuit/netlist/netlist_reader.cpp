@@ -62,7 +62,8 @@ public:
     /// The netlist itself; then whether its libraries knew the corner.
     Result<void> read_all(std::string_view text, const std::string& path) {
         if (auto ok = read(text, path, ""); !ok || corner_.empty() || cornered_) return ok;
-        if (libraries_.empty()) return bad_input(fmt::format("no line .lib 'file' section, so there is no corner '{}' to be had", corner_), {path});
+        if (libraries_.empty())
+            return bad_input(fmt::format("no line .lib 'file' section, so there is no corner '{}' to be had", corner_), {path});
         return bad_input(fmt::format("no corner '{}': library {}", corner_, fmt::join(libraries_, "; ")), {path});
     }
 
