@@ -15,6 +15,7 @@
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
+#include "signal/text.hpp"
 #include "study/afferents.hpp"
 #include "study/summary.hpp"
 #include "terminal.hpp"
@@ -61,6 +62,12 @@ Result<std::vector<Wish>> spread_wishes(const RespondWords& w) {
     return wishes;
 }
 
+/// A netlist's parameters have no capitals.
+std::vector<Wish> in_small_letters(std::vector<Wish> wishes) {
+    for (auto& w : wishes) w.parameter = lower(w.parameter);
+    return wishes;
+}
+
 /// Puts the copies of every afferent in its place, if copies are asked for.
 Result<void> populate(Job& job, const RespondWords& w) {
     const auto wishes = spread_wishes(w);
@@ -68,7 +75,9 @@ Result<void> populate(Job& job, const RespondWords& w) {
     job.population.copies = w.copies;
     if (w.copies == 0) job.copies = job.afferents;
     for (std::size_t a = 0; w.copies > 0 && a < job.afferents.size(); ++a) {
-        auto spreads = spreads_for(job.afferents[a], w.afferents[a], *wishes);
+        const auto own = job.afferents[a].design ? in_small_letters(*wishes) : *wishes;
+        auto spreads = spreads_for(job.afferents[a], w.afferents[a], own);
+        for (std::size_t k = 0; k < own.size(); ++k) (*wishes)[k].used |= own[k].used;
         if (!spreads) return spreads.error();
         auto copies = copies_of(job.afferents[a], w.copies, *spreads, w.seed);
         if (!copies) return copies.error();

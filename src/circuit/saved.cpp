@@ -1,6 +1,7 @@
 #include "circuit/saved.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace corpuscle::circuit {
 namespace {
@@ -38,6 +39,7 @@ Result<std::vector<Saved>> saved_of(const System& system) {
             }
             auto named = c;
             named.words[k] = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
+            if (std::any_of(out.begin(), out.end(), [&](const Saved& s) { return s.name == named.words[k]; })) continue;
             if (const int device = device_in(system, named.words[k]); device >= 0) {
                 out.push_back({named.words[k], {}, device});
                 continue;

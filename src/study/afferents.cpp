@@ -1,11 +1,11 @@
 #include "study/afferents.hpp"
 
 #include <fmt/format.h>
-#include <cmath>
 #include <deque>
 #include <limits>
 
 #include "circuit/afferent.hpp"
+#include "circuit/device/uicm_card.hpp"
 #include "circuit/traced.hpp"
 #include "signal/text.hpp"
 
@@ -28,14 +28,17 @@ struct Told {
     }
 };
 
-/// A device's number as it stands in a circuit; "" is its value. NaN: it says none.
+/// A device's number as it stands in a circuit, or as it is where nobody says it; "" is its value.
 double number_of(const circuit::Circuit& c, std::string_view element, std::string_view name) {
     const int k = c.element(element);
-    if (k < 0) return std::nan("");
+    if (k < 0) return 0;
     const auto& e = c.elements[static_cast<std::size_t>(k)];
     if (const auto said = e.values.find(name); said != e.values.end()) return said->second;
-    if (!name.empty()) return std::nan("");
-    return e.letter == 'v' || e.letter == 'i' ? e.waveform.dc : e.value;
+    if (name.empty()) return e.letter == 'v' || e.letter == 'i' ? e.waveform.dc : e.value;
+    if (e.letter == 'm')
+        for (const auto& f : circuit::UicmInstance::fields)
+            if (f.name == name) return circuit::UicmInstance{}.*f.at;
+    return name == "m" || name == "area" ? 1 : name == "temp" ? c.temperature : 0;
 }
 
 /// A netlist's parameters, then what else is set of it; the defaults are those of the netlist as it is written.
@@ -44,15 +47,17 @@ Result<void> tell(AfferentPlan& plan, const CircuitDesign& design) {
     const auto& changes = design.netlist->changes();
     const auto plain = design.netlist->with({}).elaborate();
     if (!plain) return plain.error();
-    for (const auto& [name, text] : design.netlist->parameters())
-        told->add(name, fmt::format(".param {}={}", name, text), plain->parameters.at(name), design.circuit->parameters.at(name),
-                  changes.parameters.contains(name), false);
+    for (const auto& [name, written] : design.netlist->parameters())
+        if (written.own || changes.parameters.contains(name))
+            told->add(name, fmt::format(".param {}={}", name, written.text), plain->parameters.at(name),
+                      design.circuit->parameters.at(name), changes.parameters.contains(name), false);
     for (const auto& [element, numbers] : changes.numbers)
         for (const auto& [name, value] : numbers)
             told->add(name.empty() ? element : element + "." + name, "a device's own", number_of(*plain, element, name), value, true);
     if (changes.temperature) told->add("temp", "temperature, degrees Celsius", plain->temperature, *changes.temperature, true);
     if (changes.mismatch)
-        told->add("mismatch", "seed of the chip's own thresholds and currents", std::nan(""), static_cast<double>(*changes.mismatch), true);
+        told->add("mismatch", "seed of the chip's own thresholds and currents", static_cast<double>(*changes.mismatch),
+                  static_cast<double>(*changes.mismatch), true);
     plan.values = told->values;
     plan.parameters = {told, &told->parameters};
     return {};

@@ -273,8 +273,15 @@ private:
         flat_.circuit.commands.push_back(std::move(out));
     }
 
+    /// A netlist expects what it is as it is written.
     void change_commands(Circuit& c) const {
         const auto& changes = flat_.changes;
+        const auto expectation =
+            std::find_if(c.commands.begin(), c.commands.end(), [](const Command& one) { return one.name == "expect"; });
+        if (changes.numbers_changed() && expectation != c.commands.end()) {
+            c.remarks.push_back(bad_input("it is not as it is written, so what it expects is left out", expectation->place));
+            std::erase_if(c.commands, [](const Command& one) { return one.name == "expect"; });
+        }
         std::erase_if(c.commands, [&](const Command& one) {
             return (changes.saved_alone && one.name == "save") || (changes.mismatch && one.name == "mc");
         });

@@ -70,10 +70,11 @@ const Changes& Netlist::changes() const {
     return changes_ ? *changes_ : none;
 }
 
-std::map<std::string, std::string, std::less<>> Netlist::parameters() const {
-    std::map<std::string, std::string, std::less<>> out;
+std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() const {
+    std::map<std::string, Parameter, std::less<>> out;
     if (parsed_)
-        for (const auto& [name, text] : parsed_->top.parameters) out.emplace(name, text.view());
+        for (const auto& [name, text] : parsed_->top.parameters)
+            out.emplace(name, Parameter{std::string(text.view()), text.place().file == parsed_->file});
     return out;
 }
 

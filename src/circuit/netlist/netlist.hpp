@@ -88,7 +88,8 @@ struct Changes {
     std::optional<double> temperature;                   ///< C
     std::optional<std::uint64_t> mismatch;               ///< the seed of the chip that is drawn; then .mc is left out
     std::vector<std::string> saved;                      ///< as if a .save named them
-    bool saved_alone = false;                            ///< in place of every .save
+    bool numbers_changed() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch; }
+    bool saved_alone = false;  ///< in place of every .save
 };
 
 /// The statements of a netlist and of all files it includes.
@@ -108,8 +109,12 @@ public:
     /// The same with what is set of it. Its corner is of parse() alone.
     Netlist with(Changes) const;
     const Changes& changes() const;
-    /// .param of the top level, as they are written: "2*c_u".
-    std::map<std::string, std::string, std::less<>> parameters() const;
+    /// .param of the top level.
+    struct Parameter {
+        std::string text;  ///< as it is written: "2*c_u"
+        bool own;          ///< in the netlist itself, not in a file that it reads
+    };
+    std::map<std::string, Parameter, std::less<>> parameters() const;
 
     /// The flat circuit. `parameters` overrule .param of the top level, and what is set.
     Result<Circuit> elaborate(const Values& parameters = {}) const;
