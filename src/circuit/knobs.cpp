@@ -57,6 +57,11 @@ std::vector<Number> numbers_of(const Element& e) {
     }
 }
 
+bool has_number(const Element& e, std::string_view name) {
+    const auto all = numbers_of(e);
+    return std::any_of(all.begin(), all.end(), [&](const Number& n) { return n.name == name; });
+}
+
 /// "8x4" as 8 and 4.
 std::optional<std::pair<double, double>> array_of(std::string_view text) {
     const auto cross = text.find_first_of("xX");
@@ -106,9 +111,10 @@ private:
         known.insert(known.end(), parameters_.begin(), parameters_.end());
         const auto typed = lower(knob.name);
         const auto dot = typed.rfind('.');
-        for (const auto name : names_) {
-            known.push_back(short_name(name, pieces, Last::element));
-            if (dot != std::string::npos) known.push_back(short_name(name, pieces - 1, Last::element) + typed.substr(dot));
+        for (const auto& e : circuit_.elements) {
+            known.push_back(short_name(e.name, pieces, Last::element));
+            if (dot != std::string::npos && has_number(e, std::string_view(typed).substr(dot + 1)))
+                known.push_back(short_name(e.name, pieces - 1, Last::element) + typed.substr(dot));
         }
         const std::vector<std::string_view> views(known.begin(), known.end());
         const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
