@@ -19,6 +19,7 @@ constexpr const char* about = "Corpuscle: artificial touch. Force goes in, nerve
 constexpr const char* first_steps = R"(First steps:
   corpuscle respond press                                the thesis's experiment through SA-I and FA-I
   corpuscle respond press --report press.html            ... and a page to look at
+  corpuscle respond press --afferent sa1,sa1-circuit     ... of a model beside its chip, transistor by transistor
   corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
   corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
   corpuscle run circuits/inverter.cir                    a netlist's analyses, transistor by transistor
