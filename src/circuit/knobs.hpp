@@ -16,7 +16,7 @@ struct Knob {
     bool parameter_alone = false;  ///< not a device: --supply
 };
 
-/// The netlist of a name or path with the knobs set, the later before the earlier; `traces` as traced() has them.
+/// The netlist of a name or path with the knobs set; a later one goes before an earlier one.
 Result<Netlist> tuned(const std::string& name_or_path, std::span<const Knob>);
 
 /// A number with the unit that people gave it, in SI: "4pF" is {4e-12, "F"}. M is mega here, and m milli.
