@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "circuit/carried.hpp"
 #include "circuit/export/ngspice.hpp"
 #include "io/output.hpp"
 #include "terminal.hpp"
@@ -32,7 +33,7 @@ Result<void> export_netlist(const ExportWords& words, const Common& common) {
     std::error_code ignored;
     if (!words.out.empty() && std::filesystem::equivalent(words.netlist, words.out, ignored))
         return bad_usage(fmt::format("export -o {}: that is the netlist itself; name another file", words.out));
-    const auto netlist = Netlist::read(words.netlist);
+    const auto netlist = open_netlist(words.netlist);
     if (!netlist) return netlist.error();
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "circuit/analyses.hpp"
@@ -12,6 +14,7 @@
 #include "model/catalog.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
+#include "study/afferents.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -44,6 +47,13 @@ std::vector<Entry> entries_of(const std::vector<Card>& cards) {
     return entries;
 }
 
+/// For as long as the program runs: rows speak of names that a plan holds.
+template <class T>
+const std::shared_ptr<T>& kept(const std::shared_ptr<T>& held) {
+    static std::vector<std::shared_ptr<T>> all;
+    return all.emplace_back(held);
+}
+
 std::vector<Entry> afferent_entries() {
     std::vector<Entry> entries;
     for (const auto& a : named_afferents()) {
@@ -55,6 +65,15 @@ std::vector<Entry> afferent_entries() {
                            *plan->parameters,
                            {a.other_names.begin(), a.other_names.end()}});
     }
+    for (const auto& c : circuit::carried_netlists)
+        if (const auto plan = plan_any_afferent(c.name, {}))
+            entries.push_back(
+                {plan->name,
+                 plan->made_of(),
+                 std::string(plan->sentence) + "; settable, too: temp, corner, mismatch, every array and device (doc/circuits.md)",
+                 std::string(c.file),
+                 *kept(plan->parameters),
+                 {}});
     entries.push_back({"path/own.cir",
                        "netlist",
                        "any netlist that says where force goes in (a source with FORCE) and what a spike is (.spike)",
@@ -124,7 +143,12 @@ Result<std::vector<Section>> chosen(const std::vector<std::string>& what) {
     return out;
 }
 
-std::string range(const Row& r) { return fmt::format("[{}, {}]", format_quantity(r.low, r.unit), format_quantity(r.high, r.unit)); }
+bool bounded(const Row& r) { return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max(); }
+
+std::string range(const Row& r) {
+    if (!bounded(r)) return "";
+    return fmt::format("[{}, {}]", format_quantity(r.low, r.unit), format_quantity(r.high, r.unit));
+}
 
 std::string text_of(const Entry& e) {
     std::string text = fmt::format("  {}{}: {}\n", e.name, e.made_of.empty() ? "" : fmt::format(" ({})", e.made_of), e.sentence);
@@ -146,8 +170,8 @@ Json document_of(const Entry& e) {
         out["parameters"].push_back({{"name", p.row.name},
                                      {"default", p.row.initial},
                                      {"unit", p.row.unit},
-                                     {"low", p.row.low},
-                                     {"high", p.row.high},
+                                     {"low", bounded(p.row) ? Json(p.row.low) : Json(nullptr)},
+                                     {"high", bounded(p.row) ? Json(p.row.high) : Json(nullptr)},
                                      {"sentence", p.row.sentence},
                                      {"source", p.row.source},
                                      {"of", p.of}});

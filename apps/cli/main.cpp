@@ -19,6 +19,7 @@ constexpr const char* about = "Corpuscle: artificial touch. Force goes in, nerve
 constexpr const char* first_steps = R"(First steps:
   corpuscle respond press                                the thesis's experiment through SA-I and FA-I
   corpuscle respond press --report press.html            ... and a page to look at
+  corpuscle respond press --afferent sa1,sa1-circuit     ... of a model beside its chip, transistor by transistor
   corpuscle respond touch.csv --unit mN --out answer     a recording of your own: spikes.csv, summary.json
   corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
   corpuscle run circuits/inverter.cir                    a netlist's analyses, transistor by transistor
@@ -32,14 +33,16 @@ constexpr const char* respond_examples =
     R"(FORCE is a file of numbers in columns (- for standard input), or a stimulus by name: press, ramp-hold, step, sine,
 chirp, noise, grating, or a sum of them: press+noise (a shorter one holds its last value). AFFERENT is a name (sa1 fa1
 sa2 fa2 sa1-kim fa1-lee; TouchSim's SA1 RA PC too) or a transduction and a neuron: sa1b+izhikevich; before either may
-stand a sensor, a transducer, a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b; or the path of a netlist with a force
-input and a spike output: circuits/spiker.cir. 'corpuscle list' shows them all, with
-every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
+stand a sensor, a transducer, a converter: fsr+f2i+sa1, fsr+f2v+adc+sa1b+lif-b; or a chip, transistor by transistor:
+sa1-circuit fa1-circuit, or the path of any netlist with a force input and a spike output. Of netlists anything can be
+set: a .param, an array, any number of a device. 'corpuscle list' shows them all, with every parameter. A value without a unit is in SI: press.t_hold=0.25 is 0.25 s.
 
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
   corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
   corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
+  corpuscle respond press --afferent sa1,sa1-circuit --corner ss --temp 85 --supply 0.65V
+  corpuscle respond press --afferent sa1-circuit --set sa1-circuit.C_u=4pF --set sa1-circuit.summer.N3B=8x4 --trace 'vf,i(N3B)' -o answer
   corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out answer --report
   corpuscle respond eskin.csv --rate 100Hz --scale 40      a clock that comes in bursts: rows taken as even
   corpuscle respond grip.csv --rate 250Hz --scale 0.002 --range 0..4095 --despike 200 --notch 50Hz     torn, and with hum
@@ -73,6 +76,7 @@ asks for more than the usual accuracy. A .tran's file grows as it goes, and Ctrl
 Examples:
   corpuscle run circuits/divider.cir
   corpuscle run circuits/spiker.cir -o spiker.raw
+  corpuscle run sa1-circuit --corner ff --temp 85 --set summer.N3B=8x4 --trace 'vf,u,i(N3B)' -o sa1.csv
   corpuscle run amplifier.cir -o amplifier.raw
   corpuscle run amplifier.cir -o amplifier.csv --json)";
 
@@ -89,6 +93,25 @@ Examples:
 void add_common(CLI::App& verb, Common& common) {
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
     verb.add_flag("--quiet,-q", common.quiet, "print no table, no progress and no remarks; warnings stay");
+}
+
+void add_netlist_words(CLI::App& verb, NetlistWords& w) {
+    const auto group = "Netlists";
+    verb.add_option("--supply", w.supply, "its .param supply, such as 0.65V")->type_name("VOLTAGE")->group(group);
+    verb.add_option("--temp", w.temp, "its temperature, in degrees Celsius")->type_name("DEGREES")->group(group);
+    verb.add_option("--corner", w.corner,
+                    "the section its libraries are read for: tt ss ff sf fs, or mc (then --mismatch draws the process, too)")
+        ->type_name("CORNER")
+        ->group(group);
+    verb.add_option("--mismatch", w.mismatch, "one chip, each transistor with a threshold and current of its own, in place of .mc")
+        ->type_name("SEED")
+        ->group(group);
+    verb.add_option("--trace", w.traces,
+                    "show these in place of what .save names: vf, v(a,b), i(vdd), i(N3B): into a device's drain or first end, channel and "
+                    "junction, without what charges take; of a path the end is enough: rectb.o")
+        ->allow_extra_args(false)
+        ->type_name("WHAT,WHAT")
+        ->group(group);
 }
 
 void add_respond(CLI::App& app, RespondWords& w, Common& common) {
@@ -182,6 +205,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
                        ->expected(0, 1)
                        ->type_name("[FILE.html]")
                        ->group("Output");
+    add_netlist_words(verb, w.netlists);
     add_common(verb, common);
     verb.callback([&w, report] {
         w.report = report->count() > 0;
@@ -225,8 +249,13 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
         "what\n"
         "is asked of it:" +
         known + run_examples);
-    verb.add_option("NETLIST", w.netlist, "a SPICE netlist")->required();
+    verb.add_option("NETLIST", w.netlist, "a SPICE netlist, or one by name: sa1-circuit, fa1-circuit")->required();
+    verb.add_option("--set,-s", w.settings,
+                    "a .param, an array (summer.N3B=8x4), a device's value (cco.cu=4pF) or any number (N3B.w=1.2um)")
+        ->allow_extra_args(false)
+        ->type_name("NAME=VALUE");
     verb.add_flag("--budget", w.budget, "what the circuit costs, too: power, area and leakage, block by block");
+    add_netlist_words(verb, w.netlists);
     verb.add_option("--out,-o", w.out, "write what was found: x.raw, as ngspice's (binary), or x.csv")->type_name("FILE")->group("Output");
     verb.add_flag("--ascii", w.ascii, "the .raw file in letters")->group("Output");
     add_common(verb, common);
@@ -235,7 +264,7 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
 void add_export(CLI::App& app, ExportWords& w, Common& common) {
     auto& verb = *app.add_subcommand("export", "a netlist as another simulator's deck, for a second opinion");
     verb.footer(export_examples);
-    verb.add_option("NETLIST", w.netlist, "a SPICE netlist")->required();
+    verb.add_option("NETLIST", w.netlist, "a SPICE netlist, or one by name: sa1-circuit, fa1-circuit")->required();
     verb.add_option("--for", w.target, "whose deck: ngspice (39, as Debian has it)")
         ->check(CLI::IsMember({"ngspice"}))
         ->capture_default_str()

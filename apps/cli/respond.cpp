@@ -10,10 +10,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "netlist_words.hpp"
 #include "outputs.hpp"
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
+#include "signal/text.hpp"
 #include "study/afferents.hpp"
 #include "study/summary.hpp"
 #include "terminal.hpp"
@@ -61,6 +63,12 @@ Result<std::vector<Wish>> spread_wishes(const RespondWords& w) {
     return wishes;
 }
 
+/// A netlist's parameters have no capitals.
+std::vector<Wish> in_small_letters(std::vector<Wish> wishes) {
+    for (auto& w : wishes) w.parameter = lower(w.parameter);
+    return wishes;
+}
+
 /// Puts the copies of every afferent in its place, if copies are asked for.
 Result<void> populate(Job& job, const RespondWords& w) {
     const auto wishes = spread_wishes(w);
@@ -68,10 +76,14 @@ Result<void> populate(Job& job, const RespondWords& w) {
     job.population.copies = w.copies;
     if (w.copies == 0) job.copies = job.afferents;
     for (std::size_t a = 0; w.copies > 0 && a < job.afferents.size(); ++a) {
-        auto spreads = spreads_for(job.afferents[a], w.afferents[a], *wishes);
+        const auto own = job.afferents[a].design ? in_small_letters(*wishes) : *wishes;
+        auto spreads = spreads_for(job.afferents[a], w.afferents[a], own);
+        for (std::size_t k = 0; k < own.size(); ++k) (*wishes)[k].used |= own[k].used;
         if (!spreads) return spreads.error();
         auto copies = copies_of(job.afferents[a], w.copies, *spreads, w.seed);
         if (!copies) return copies.error();
+        for (auto& copy : *copies)
+            if (auto ok = remake(copy, job.afferents[a]); !ok) return ok;
         std::move(copies->begin(), copies->end(), std::back_inserter(job.copies));
         std::move(spreads->begin(), spreads->end(), std::back_inserter(job.population.spreads));
     }
@@ -103,6 +115,29 @@ Result<void> check_wishes(const Job& job) {
     return {};
 }
 
+/// What is asked of netlists must have found one.
+Result<void> check_netlist_words(const NetlistWords& w, const OfNetlists& asked) {
+    if (const auto said = said_of(w); !said.empty() && !asked.used)
+        return bad_usage(fmt::format("{}: no netlist takes part; try --afferent sa1-circuit", said));
+    for (std::size_t k = 0; k < asked.traces.size(); ++k)
+        if (!asked.traced[k])
+            return bad_input(
+                fmt::format("--trace {}: no netlist that takes part has such a node or device{}", asked.traces[k], asked.hint));
+    return {};
+}
+
+Result<void> plan_afferents(Job& job, const RespondWords& w) {
+    const OfNetlists asked{knobs_of(w.netlists), traces_of(w.netlists)};
+    for (const auto& name : w.afferents) {
+        auto plan = plan_any_afferent(name, job.wishes, asked);
+        if (!plan) return plan.error();
+        if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == plan->name; }))
+            return bad_usage(fmt::format("--afferent {}: given twice", name));
+        job.afferents.push_back(std::move(*plan));
+    }
+    return check_netlist_words(w.netlists, asked);
+}
+
 Result<Job> prepare(const RespondWords& w, bool quiet) {
     Job job;
     if (w.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
@@ -111,13 +146,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
         if (!wish) return wish.error();
         job.wishes.push_back(std::move(*wish));
     }
-    for (const auto& name : w.afferents) {
-        auto plan = plan_any_afferent(name, job.wishes);
-        if (!plan) return plan.error();
-        if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == plan->name; }))
-            return bad_usage(fmt::format("--afferent {}: given twice", name));
-        job.afferents.push_back(std::move(*plan));
-    }
+    if (auto ok = plan_afferents(job, w); !ok) return ok.error();
     if (auto ok = populate(job, w); !ok) return ok.error();
     auto options = recording_options(w);
     if (!options) return options.error();
@@ -270,8 +299,15 @@ Result<void> run(const RespondWords& w, const Common& common) {
 
 }  // namespace
 
-int respond(const RespondWords& words, const Common& common) {
+int respond(const RespondWords& asked, const Common& common) {
     catch_interrupt();
+    auto words = asked;
+    if (!words.netlists.traces.empty()) {
+        if (words.out.empty() && !words.report)
+            return fail(bad_usage(
+                fmt::format("{} needs --out DIR or --report to be written into", said_of({{}, {}, {}, {}, words.netlists.traces}))));
+        words.traces |= !words.out.empty();
+    }
     const auto done = run(words, common);
     return done ? 0 : fail(done.error());
 }

@@ -10,8 +10,10 @@
 #include "circuit/analyses.hpp"
 #include "circuit/cost/accountant.hpp"
 #include "circuit/run.hpp"
+#include "circuit/traced.hpp"
 #include "circuit/variants.hpp"
 #include "curve_files.hpp"
+#include "netlist_words.hpp"
 #include "study/cost_document.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -195,13 +197,13 @@ public:
 };
 
 /// Makes the bench of a variant, if the last one's does not serve.
-Result<void> prepare(std::unique_ptr<TestBench>& bench, const Variant& variant, bool first) {
+Result<void> prepare(std::unique_ptr<TestBench>& bench, const Variant& variant, bool brief) {
     if (!bench || bench->circuit != variant.circuit) {
         auto made = TestBench::make(variant.circuit);
         if (!made) return made.error();
         bench = std::move(*made);
     }
-    bench->brief = !first || variant.draw;
+    bench->brief = brief;
     if (variant.draw) bench->draw(*variant.draw);
     return {};
 }
@@ -213,7 +215,7 @@ Result<void> run_all(Variants& variants, const RunWords& words, const Common& co
     for (std::size_t k = 0; k < count; ++k) {
         auto variant = variants.at(k);
         if (!variant) return variant.error();
-        if (auto ok = prepare(bench, *variant, k == 0); !ok) return ok;
+        if (auto ok = prepare(bench, *variant, k > 0 || variants.draws()); !ok) return ok;
         Share variant_share(*variant->circuit);
         Gathered gathered;
         RunOrders orders;
@@ -259,8 +261,39 @@ void keep_what_there_is(CurveFiles& files) {
         fmt::print(stderr, "corpuscle: warning: {}\n", *remark);
 }
 
+/// "summer.N3B=8x4"
+Result<Knob> knob_of(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+        return bad_usage(fmt::format("--set {}: write NAME=VALUE, such as 'C_u=4pF'", text));
+    return Knob{text.substr(0, equals), text.substr(equals + 1), "--set " + text};
+}
+
+/// The netlist with what is set of it, and with what is to be saved beside its own.
+Result<Netlist> netlist_of(const RunWords& words) {
+    auto knobs = knobs_of(words.netlists);
+    for (const auto& text : words.settings) {
+        auto knob = knob_of(text);
+        if (!knob) return knob.error();
+        knobs.push_back(std::move(*knob));
+    }
+    auto netlist = tuned(words.netlist, knobs);
+    if (!netlist || words.netlists.traces.empty()) return netlist;
+    const auto circuit = netlist->elaborate();
+    if (!circuit) return circuit.error();
+    auto changes = netlist->changes();
+    for (const auto& word : traces_of(words.netlists)) {
+        const auto found = traced(*circuit, word);
+        if (!found) return found.error();
+        if (!*found)
+            return bad_input(fmt::format("--trace {}: {} has no such node or device{}", word, words.netlist, meant_trace(*circuit, word)));
+        changes.saved.push_back(**found);
+    }
+    return netlist->with(std::move(changes));
+}
+
 Result<void> run_netlist(const RunWords& words, const Common& common) {
-    const auto netlist = Netlist::read(words.netlist);
+    const auto netlist = netlist_of(words);
     if (!netlist) return netlist.error();
     auto variants = Variants::of(*netlist);
     if (!variants) return variants.error();

@@ -13,7 +13,14 @@ struct Common {
     std::string command;  ///< as it was typed, for the report
 };
 
+/// What is set of every netlist that takes part, and shown of it.
+struct NetlistWords {
+    std::optional<std::string> supply, temp, corner, mismatch;
+    std::vector<std::string> traces;
+};
+
 struct RespondWords {
+    NetlistWords netlists;
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads, channels;
     std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise,
         bin;
@@ -40,6 +47,8 @@ struct StudyWords {
 };
 
 struct RunWords {
+    NetlistWords netlists;
+    std::vector<std::string> settings;
     std::string netlist, out;
     bool ascii = false, budget = false;
 };

@@ -23,13 +23,21 @@ std::uint64_t mark_of(const Circuit& c) {
     const auto values = [&](const Values& all) {
         for (const auto& [name, value] : all) text(name), real(value);
     };
+    const auto formula = [&](const Formula& f) {
+        const auto written =
+            f.text([](const FormulaInput& in) { return fmt::format("{}({},{})", static_cast<int>(in.kind), in.name, in.minus); });
+        if (written) text(*written);
+    };
     for (const auto& e : c.elements) {
         text(e.name), values(e.values), real(e.value), real(e.waveform.dc), number(static_cast<std::uint64_t>(e.waveform.shape));
         number(static_cast<std::uint64_t>(e.model));
         for (const int n : e.nodes) number(static_cast<std::uint64_t>(n));
         for (const double x : e.waveform.numbers) real(x);
+        if (e.formula) formula(*e.formula);
     }
     for (const auto& m : c.models) text(m.type), values(m.values);
+    for (const auto* starts : {&c.ic, &c.nodesets})
+        for (const auto& [node, value] : *starts) number(static_cast<std::uint64_t>(node)), real(value);
     values(c.options), real(c.temperature);
     for (const auto& command : c.commands)
         if (command.name == "tran" || command.name == "spike")
@@ -74,7 +82,7 @@ public:
           delay_(static_cast<std::int64_t>(std::ceil(2.1 * design_->plan.longest / dt)) + Trace::lag + 2),
           format_(fmt::format("netlist {:016x}/1{}, T = {} s", design_->mark,
                               chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
-        for (const auto& s : design_->shown) probes_.push_back({s.name, s.name[0] == 'v' ? "V" : "A"});
+        for (const auto& s : design_->shown) probes_.push_back({s.name, s.is_voltage() ? "V" : "A"});
         for (const auto& w : design_->kept) ranges_.push_back(w.range());
     }
 
@@ -130,9 +138,9 @@ Result<void> CircuitAfferent::go_on(Rig& rig, std::int64_t from, std::int64_t to
     for (std::int64_t sample = from;;) {
         for (; sample < to && rig.at(sample); ++sample) {
             for (std::size_t p = 0; p < answer.probes.size(); ++p)
-                answer.probes[p][static_cast<std::size_t>(sample - from)] = rig.shown(design_->shown[p].of, sample);
+                answer.probes[p][static_cast<std::size_t>(sample - from)] = rig.shown(design_->shown[p], sample);
             for (std::size_t k = 0; sample >= 0 && k < answer.outside.size(); ++k)
-                if (auto& o = answer.outside[k]; !design_->kept[k].holds(rig.shown(design_->kept[k].of, sample)))
+                if (auto& o = answer.outside[k]; !design_->kept[k].holds(rig.shown(design_->kept[k].what, sample)))
                     o = {o.samples + 1, o.first < 0 ? sample : o.first};
         }
         if (sample == to) return {};
@@ -143,12 +151,14 @@ Result<void> CircuitAfferent::go_on(Rig& rig, std::int64_t from, std::int64_t to
 
 }  // namespace
 
-Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::read(const std::string& path) {
-    const auto netlist = Netlist::read(path);
-    if (!netlist) return netlist.error();
-    auto circuit = netlist->elaborate();
+Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(const Netlist& netlist) {
+    auto circuit = netlist.elaborate();
     if (!circuit) return circuit.error();
-    return of(std::make_shared<const Circuit>(std::move(*circuit)));
+    auto made = of(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!made) return made;
+    const auto design = std::const_pointer_cast<CircuitDesign>(*made);
+    design->netlist = netlist;
+    return made;
 }
 
 Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<const Circuit> circuit) {
@@ -178,15 +188,23 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
         if (!times) return times.error();
         design->times = *times;
     }
+    if (circuit->mismatch) design->chips = Chips{1, *circuit->mismatch};
     if (shown->empty()) shown->push_back({output->value().text, output->value().of});
-    design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown), design->kept = std::move(*kept);
+    design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown),
+    design->kept = std::move(*kept);
     design->plan.longest = design->times.longest.value_or(longest_step);
     design->mark = mark_of(*design->circuit);
     return std::shared_ptr<const CircuitDesign>(std::move(design));
 }
 
+std::vector<std::pair<std::string, std::string>> CircuitDesign::words() const {
+    if (!netlist || netlist->changes().corner.empty()) return {};
+    return {{"corner", netlist->changes().corner}};
+}
+
 std::unique_ptr<Afferent> CircuitDesign::make(double dt, bool sampled, std::uint32_t copy) const {
-    const auto chip = chips && copy > 0 ? std::optional(chips->draw(copy - 1)) : std::nullopt;
+    const bool drawn = chips && (copy > 0 || circuit->mismatch);
+    const auto chip = drawn ? std::optional(chips->draw(copy > 0 ? copy - 1 : 0)) : std::nullopt;
     return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
 }
 

@@ -85,10 +85,10 @@ void Rig::shift() {
     origin_ += samples;
 }
 
-double Rig::shown(const Wanted& wanted, std::int64_t sample) const {
-    if (sample <= 0) return wanted.of(start_);
+double Rig::shown(const Saved& saved, std::int64_t sample) const {
+    if (sample <= 0) return saved.seen(bench_->system, [&](int u) { return u < 0 ? 0 : start_[static_cast<std::size_t>(u)]; });
     const double t = place(sample);
-    return transient_->between(t, wanted.plus) - transient_->between(t, wanted.minus);
+    return saved.seen(bench_->system, [&](int u) { return transient_->between(t, u); });
 }
 
 /// What save() gave, number by number; once something is missing or impossible, all that follows is 0.

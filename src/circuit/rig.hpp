@@ -43,7 +43,7 @@ public:
     /// Whether it has come to this sample.
     bool at(std::int64_t sample) const { return transient_->time() >= place(sample); }
     /// At a sample in its last step, or at the beginning.
-    double shown(const Wanted&, std::int64_t sample) const;
+    double shown(const Saved&, std::int64_t sample) const;
     const TransientWork& work() const { return transient_->work(); }
     /// Since this was last asked.
     Spent spent() { return std::exchange(spent_, {}); }

@@ -9,6 +9,7 @@
 #include "circuit/measure.hpp"
 #include "circuit/narrow.hpp"
 #include "circuit/netlist/number.hpp"
+#include "circuit/own_currents.hpp"
 #include "circuit/print.hpp"
 #include "circuit/saved.hpp"
 #include "circuit/solve/topology.hpp"
@@ -77,6 +78,7 @@ class Passing final : public PointSink {
     RunOutcome& out_;
     Measures& measures_;
     Analysed& analysed_;
+    OwnCurrents currents_;
     std::optional<PrintedSteps> printed_;
     Narrow narrow_;
     std::optional<KeptPlot> kept_;
@@ -85,15 +87,18 @@ class Passing final : public PointSink {
     bool begun_ = false;
 
 public:
-    Passing(const Circuit& circuit, const RunOrders& orders, RunOutcome& out, Measures& measures, Analysed& analysed)
-        : orders_(orders), out_(out), measures_(measures), analysed_(analysed) {
+    Passing(const Circuit& circuit, const RunOrders& orders, RunOutcome& out, Measures& measures, Analysed& analysed,
+            const OwnCurrents& currents)
+        : orders_(orders), out_(out), measures_(measures), analysed_(analysed), currents_(currents) {
         const auto& c = *analysed.command;
         if (orders.print && c.name == "tran") printed_.emplace(circuit, word_of(c, 2), word_of(c, 0), word_of(c, 1));
         if (orders.keep) kept_.emplace();
     }
     bool begun() const { return begun_; }
 
-    Result<void> begin(const Plot& head) override {
+    Result<void> begin(const Plot& unknowns) override {
+        Plot head = unknowns;
+        currents_.add_to(head);
         analysed_.last = head;
         unknowns_ = analysed_.command->name == "tran" ? orders_.unknowns : nullptr;
         if (unknowns_)
@@ -107,7 +112,8 @@ public:
         const auto narrow = narrow_.begin(head, out_.saved);
         return orders_.curves ? orders_.curves->begin(narrow) : Result<void>();
     }
-    Result<void> point(std::span<const double> row) override {
+    Result<void> point(std::span<const double> unknowns) override {
+        const auto row = currents_.point(unknowns);
         ++analysed_.points;
         last_.assign(row.begin(), row.end());
         measures_.point(row[0], row);
@@ -131,9 +137,9 @@ public:
 
 /// One analysis, its plots measured, printed and handed on.
 Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& c, const RunOrders& orders, Measures& measures,
-                     RunOutcome& out) {
+                     const OwnCurrents& currents, RunOutcome& out) {
     Analysed now{&c, {}, 0, {}, {}};
-    Passing passing(*bench.circuit, orders, out, measures, now);
+    Passing passing(*bench.circuit, orders, out, measures, now, currents);
     if (orders.stop) bench.stop = [&](double share) { return orders.stop(c.name, share); };
     bench.points = &passing;
     auto found = analysis.run(bench, c);
@@ -145,6 +151,7 @@ Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& 
     if (passing.begun()) {
         passing.put_into(now.findings);
     } else if (!now.findings.plots.empty()) {
+        for (auto& plot : now.findings.plots) (void)currents.complete(plot);
         const auto& plot = now.findings.plots[0];
         now.points = plot.points();
         if (auto ok = measures.see(c.name, plot); !ok) return ok;
@@ -174,11 +181,12 @@ Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
     const auto saved = saved_of(bench.system);
     if (!saved) return saved.error();
     for (const auto& curve : *saved) out.saved.push_back(curve.name);
+    const OwnCurrents currents(bench.system, *saved);
     Measures measures(*circuit);
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);
         if (analysis == nullptr) continue;
-        if (auto ok = analyse(bench, *analysis, c, orders, measures, out); !ok) {
+        if (auto ok = analyse(bench, *analysis, c, orders, measures, currents, out); !ok) {
             auto error = ok.error();
             if (error.place.line == 0 && (error.place.file.empty() || error.place.file == circuit->file)) error.place = c.place;
             return error;

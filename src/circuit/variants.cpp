@@ -155,6 +155,7 @@ Result<Variant> Variants::at(std::size_t number) {
     const std::size_t draws = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % draws;
     if (auto ok = step(number / draws); !ok) return ok.error();
     Variant out{last_->label, last_->circuit, {}};
+    if (out.circuit->mismatch) out.draw = Chips{1, *out.circuit->mismatch}.draw(0);
     if (!this->draws()) return out;
     out.draw = chips_.draw(chip);
     out.label += fmt::format("{}mc={}", out.label.empty() ? "" : " ", chip + 1);

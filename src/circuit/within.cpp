@@ -19,7 +19,7 @@ Result<Within> read(const System& system, const Command& c) {
     if (!low) return low.error();
     if (!high) return high.error();
     if (!(*low < *high)) return wrong(c, 1, fmt::format(".within: {:g} to {:g}: the first must be below the second", *low, *high));
-    Within out{c.words[0], *of, *low, *high, "", c.place};
+    Within out{{c.words[0], *of}, *low, *high, "", c.place};
     if (c.words.size() > 3) {
         const std::string_view word = c.words[3];
         if (word.size() < 3 || word.front() != '"' || word.back() != '"')

@@ -1,7 +1,7 @@
 #pragma once
 // .within: where a circuit works as it was designed.
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/saved.hpp"
 #include "signal/afferent.hpp"
 
 namespace corpuscle::circuit {
@@ -9,13 +9,12 @@ namespace corpuscle::circuit {
 /// .within v(NODE[,NODE]) LOW HIGH ["what it means to be outside"]: a voltage (or i(V), a current) that stays between two values as long as
 /// the circuit does what it was designed for. What leaves is told; nothing is stopped.
 struct Within {
-    std::string text;  ///< "v(vf)"
-    Wanted of;
+    Saved what;
     double low, high;
     std::string sentence;  ///< "", if the netlist says nothing
     Place place;
 
-    Range range() const { return {text, text[0] == 'i' ? "A" : "V", low, high, sentence}; }
+    Range range() const { return {what.name, what.is_voltage() ? "V" : "A", low, high, sentence}; }
     bool holds(double x) const { return x >= low && x <= high; }
 };
 Result<std::vector<Within>> within_of(const System&);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "signal/error.hpp"
@@ -105,6 +106,8 @@ public:
     virtual ~Design() = default;
     virtual std::string_view kind() const = 0;   ///< "netlist"
     virtual std::string_view title() const = 0;  ///< what it says of itself
+    /// What is set of it and is no number: {"corner", "ss"}.
+    virtual std::vector<std::pair<std::string, std::string>> words() const { return {}; }
     /// For samples dt apart, s; sampled: spikes come on the samples; copy: its number among copies that may differ, from 1, or 0.
     virtual std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy) const = 0;
 };

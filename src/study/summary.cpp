@@ -19,11 +19,16 @@ void add(Json& object, std::string key, Json value) { object.get_ref<Json::objec
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json afferent_document(const AfferentPlan& plan) {
-    if (plan.design) return {{"name", plan.name}, {"made_of", plan.made_of()}, {"title", plan.sentence}};
     Json parameters = Json::object();
     for (std::size_t k = 0; k < plan.values.size(); ++k) {
         const auto& p = (*plan.parameters)[k];
         parameters[std::string(p.row.name)] = {{"value", plan.values[k]}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+    }
+    if (plan.design) {
+        Json out = {{"name", plan.name}, {"made_of", plan.made_of()}, {"title", plan.sentence}};
+        for (const auto& [name, word] : plan.design->words()) out[name] = word;
+        out["parameters"] = std::move(parameters);
+        return out;
     }
     return {{"name", plan.name},
             {"made_of", plan.made_of()},

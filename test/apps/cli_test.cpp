@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "circuit/carried.hpp"
 #include "support/places.hpp"
 #include "support/program.hpp"
 
@@ -235,7 +236,7 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
     const auto document = Json::parse(ran.out);
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"of", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run(folder, "list --json").out);
-    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + 1);  // and netlists
+    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::carried_netlists) + 1);  // and any netlist
     for (const auto& card : receptor_cards())
         EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) {
             return e["name"] == card.name;

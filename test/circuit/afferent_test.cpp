@@ -375,7 +375,9 @@ TEST_F(Responding, ANetlistThatCannotBeReadIsRefused) {
     EXPECT_EQ(bad.status, 1);
     EXPECT_NE(bad.err.find("bad.cir:3:"), std::string::npos) << bad.err;
     EXPECT_EQ(corpuscle::test::run(folder, words("spiker.cir,spiker.cir")).status, 2);
-    EXPECT_EQ(corpuscle::test::run(folder, words("spiker.cir", "--set spiker.cir.vdd=1")).status, 2);
+    const auto unknown = corpuscle::test::run(folder, words("spiker.cir", "--set spiker.cir.vddd=1"));
+    EXPECT_EQ(unknown.status, 1);
+    EXPECT_NE(unknown.err.find("--set spiker.cir.vddd=1: spiker.cir has no parameter or device 'vddd'"), std::string::npos) << unknown.err;
 }
 
 }  // namespace

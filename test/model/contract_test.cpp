@@ -87,7 +87,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
                 const auto size = std::min(sizes[n % sizes.size()], f.size() - k);
                 std::vector<double*> here;
                 for (auto& p : probes) here.push_back(p.data() + k);
-                Answer answer{out, 3, here, 0};
+                Answer answer{out, 3, here};
                 state = test::sure(unpack(pack(state)));  // and saved and resumed between blocks
                 RC_ASSERT(static_cast<bool>(a->respond(std::span(f).subspan(k, size), state, answer)));
                 k += size;

@@ -37,7 +37,7 @@ public:
     }
     void look(double t, std::span<const double> x) {
         for (auto& one : all_) {
-            if (one.range.holds(one.range.of.of(x))) continue;
+            if (one.range.holds(one.range.what.of.of(x))) continue;
             if (one.outside == 0) one.first = t;
             one.outside += t - before_;
         }
@@ -92,9 +92,10 @@ Result<void> tell(TestBench& bench, const Asked& asked, std::vector<double> spik
             if (!error) return error.error();
             out.numbers.emplace_back("spike_error", *error);
             if (std::isnan(*error))
-                out.remarks.push_back(bad_input(
-                    fmt::format("{} spikes, but others with a tenth of the tolerances; .options accuracy=fine is safer here", spikes.size()),
-                    asked.output->place));
+                out.remarks.push_back(
+                    bad_input(fmt::format("{} spikes, but others with a tenth of the tolerances; .options accuracy=fine is safer here",
+                                          spikes.size()),
+                              asked.output->place));
         }
     }
     out.spikes = std::move(spikes);

@@ -52,8 +52,9 @@ struct ParsedNetlist {
     std::vector<Error> remarks;
 };
 
-/// Reads the text and all it includes.
-Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener&, ParsedNetlist&);
+/// Reads the text and all it includes; `corner` as in Netlist::parse.
+Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener&, const std::string& corner,
+                          ParsedNetlist&);
 
 /// Remarks on numbers that SPICE reads otherwise than they look: 1F, 5M.
 void remark_on_units(const Statement& element, std::vector<Error>& remarks);

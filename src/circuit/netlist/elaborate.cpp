@@ -28,23 +28,27 @@ class Elaboration {
     std::vector<Start> starts_;
 
 public:
-    explicit Elaboration(const ParsedNetlist& parsed) : parsed_(parsed), flat_(parsed) { top_.body = &parsed.top; }
+    Elaboration(const ParsedNetlist& parsed, const Changes& changes) : parsed_(parsed), flat_(parsed, changes) { top_.body = &parsed.top; }
 
     Result<Circuit> run(const Values& given) {
         Circuit& c = flat_.circuit;
         c.title = parsed_.title, c.file = parsed_.file, c.remarks = parsed_.remarks;
         c.node_numbers.emplace("0", 0);
         if (auto ok = define_top(given); !ok) return ok.error();
+        c.parameters = top_.parameters;
         if (auto ok = settings(); !ok) return ok.error();
         if (auto ok = contents(top_); !ok) return ok.error();
         if (auto ok = keep_promises(); !ok) return ok.error();
         if (auto ok = starts(); !ok) return ok.error();
         for (const auto* s : parsed_.commands) command(*s);
+        change_commands(c);
         return std::move(c);
     }
 
 private:
-    Result<void> define_top(const Values& given) {
+    Result<void> define_top(const Values& stepped) {
+        auto given = stepped;
+        given.insert(flat_.changes.parameters.begin(), flat_.changes.parameters.end());
         for (const auto& [name, value] : given)
             if (!parsed_.top.parameters.contains(name))
                 return bad_input(fmt::format("no .param {}{}", name, did_you_mean(name, names_in(parsed_.top.parameters))), {parsed_.file});
@@ -196,6 +200,8 @@ private:
             if (!value) return value.error();
             c.temperature = *value;
         }
+        c.temperature = flat_.changes.temperature.value_or(c.temperature);
+        c.mismatch = flat_.changes.mismatch;
         return {};
     }
 
@@ -267,6 +273,21 @@ private:
         flat_.circuit.commands.push_back(std::move(out));
     }
 
+    /// A netlist expects what it is as it is written.
+    void change_commands(Circuit& c) const {
+        const auto& changes = flat_.changes;
+        const auto expectation =
+            std::find_if(c.commands.begin(), c.commands.end(), [](const Command& one) { return one.name == "expect"; });
+        if (changes.numbers_changed() && expectation != c.commands.end()) {
+            c.remarks.push_back(bad_input("it is not as it is written, so what it expects is left out", expectation->place));
+            std::erase_if(c.commands, [](const Command& one) { return one.name == "expect"; });
+        }
+        std::erase_if(c.commands, [&](const Command& one) {
+            return (changes.saved_alone && one.name == "save") || (changes.mismatch && one.name == "mc");
+        });
+        if (!changes.saved.empty()) c.commands.push_back({"save", changes.saved, {}, {c.file}});
+    }
+
     /// The word without blanks but those in quotes and braces; formulas of parameters alone as their values.
     std::string without_blanks(const Statement& s, const Word& w) const {
         std::string out;
@@ -305,7 +326,7 @@ private:
 
 Result<Circuit> Netlist::elaborate(const Values& parameters) const {
     if (!parsed_) return Circuit{};
-    return Elaboration(*parsed_).run(parameters);
+    return Elaboration(*parsed_, changes()).run(parameters);
 }
 
 }  // namespace corpuscle::circuit

@@ -57,6 +57,7 @@ public:
         if (name_.size() < 2) return wrong("an element's name has more than its letter, such as r1", 0);
         if (const auto ok = by_letter(); !ok) return ok;
         if (const auto ok = pairs(); !ok) return ok;
+        overrule();
         if (const auto ok = multiply(); !ok) return ok;
         return flat_.add(std::move(out_));
     }
@@ -282,6 +283,21 @@ private:
         if (const auto* m = s_.find("m"); m && !(out_.values["m"] > 0))
             return bad_input(fmt::format("{}: m = {:g} must be positive", name_, out_.values["m"]), s_.place(m->value));
         return {};
+    }
+
+    /// What is set from outside goes before what the line says.
+    void overrule() {
+        const auto set = flat_.changes.numbers.find(out_.name);
+        if (set == flat_.changes.numbers.end()) return;
+        const bool source = out_.letter == 'v' || out_.letter == 'i';
+        for (const auto& [name, value] : set->second) {
+            if (!name.empty())
+                out_.values.insert_or_assign(name, value);
+            else if (source)
+                out_.waveform.dc = value, out_.waveform.has_dc = true;
+            else
+                out_.value = value;
+        }
     }
 
     /// In a subcircuit that stands m times in parallel every current is m times as large: an F's through what controls it, an H's must

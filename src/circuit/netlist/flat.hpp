@@ -20,8 +20,9 @@ class Flat {
 public:
     Circuit circuit;
     std::vector<Promise> promises;
+    const Changes& changes;
 
-    explicit Flat(const ParsedNetlist& parsed) : parsed_(parsed) {}
+    Flat(const ParsedNetlist& parsed, const Changes& set) : parsed_(parsed), changes(set) {}
 
     /// A node's name in the circuit: of ground "0".
     std::string node_name(const Frame&, std::string_view name) const;

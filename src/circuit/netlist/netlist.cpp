@@ -45,18 +45,37 @@ int Circuit::element(std::string_view name) const {
     return at == elements.end() ? -1 : static_cast<int>(at - elements.begin());
 }
 
-Result<Netlist> Netlist::parse(std::string text, std::string file, const Opener& open) {
+Result<Netlist> Netlist::parse(std::string text, std::string file, const Opener& open, const std::string& corner) {
     auto parsed = std::make_shared<Parsed>();
-    if (auto ok = read_netlist(text, file, open, *parsed); !ok) return ok.error();
+    if (auto ok = read_netlist(text, file, open, corner, *parsed); !ok) return ok.error();
     Netlist out;
     out.parsed_ = std::move(parsed);
     return out;
 }
 
-Result<Netlist> Netlist::read(const std::string& path) {
+Result<Netlist> Netlist::read(const std::string& path, const std::string& corner) {
     auto text = text_of(path);
     if (!text) return text.error();
-    return parse(std::move(*text), path, text_of);
+    return parse(std::move(*text), path, text_of, corner);
+}
+
+Netlist Netlist::with(Changes changes) const {
+    Netlist out = *this;
+    out.changes_ = std::make_shared<const Changes>(std::move(changes));
+    return out;
+}
+
+const Changes& Netlist::changes() const {
+    static const Changes none;
+    return changes_ ? *changes_ : none;
+}
+
+std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() const {
+    std::map<std::string, Parameter, std::less<>> out;
+    if (parsed_)
+        for (const auto& [name, text] : parsed_->top.parameters)
+            out.emplace(name, Parameter{std::string(text.view()), text.place().file == parsed_->file});
+    return out;
 }
 
 }  // namespace corpuscle::circuit

@@ -1,6 +1,7 @@
 #pragma once
 // A SPICE netlist: its text as statements, and the flat circuit that it becomes once its parameters have values.
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -70,6 +71,8 @@ struct Circuit {
     double temperature = 27;                                       ///< C
     std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
     std::vector<Error> remarks;                                    ///< what deserves a warning, such as "1F is a femtofarad"
+    Values parameters;                                             ///< .param of the top level
+    std::optional<std::uint64_t> mismatch;                         ///< it is the first chip of a draw of this seed
 
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< by name, as elaborate() leaves them
 
@@ -77,18 +80,43 @@ struct Circuit {
     int element(std::string_view name) const;  ///< its number, or -1
 };
 
+/// What is set of a netlist from outside, over what it says.
+struct Changes {
+    std::string corner;                                  ///< the section that its libraries are read for; "": those that it names
+    Values parameters;                                   ///< .param of the top level
+    std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by their names with their paths; "" is the value of R C L V I ...
+    std::optional<double> temperature;                   ///< C
+    std::optional<std::uint64_t> mismatch;               ///< the seed of the chip that is drawn; then .mc is left out
+    std::vector<std::string> saved;                      ///< as if a .save named them
+    bool numbers_changed() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch; }
+    bool saved_alone = false;  ///< in place of every .save
+};
+
 /// The statements of a netlist and of all files it includes.
 class Netlist {
     struct Parsed;
     std::shared_ptr<const Parsed> parsed_;
+    std::shared_ptr<const Changes> changes_;
 
 public:
     /// Opens what is included: gives the text of a file, by its path as resolved against the including file.
     using Opener = std::function<Result<std::string>(const std::string& path)>;
-    static Result<Netlist> parse(std::string text, std::string file, const Opener& open);
-    static Result<Netlist> read(const std::string& path);
+    /// `corner`: the section to be read in place of the one that a line `.lib 'file' section` names, where the file has it; refused where
+    /// none has.
+    static Result<Netlist> parse(std::string text, std::string file, const Opener& open, const std::string& corner = "");
+    static Result<Netlist> read(const std::string& path, const std::string& corner = "");
 
-    /// The flat circuit. `parameters` overrule .param of the top level.
+    /// The same with what is set of it. Its corner is of parse() alone.
+    Netlist with(Changes) const;
+    const Changes& changes() const;
+    /// .param of the top level.
+    struct Parameter {
+        std::string text;  ///< as it is written: "2*c_u"
+        bool own;          ///< in the netlist itself, not in a file that it reads
+    };
+    std::map<std::string, Parameter, std::less<>> parameters() const;
+
+    /// The flat circuit. `parameters` overrule .param of the top level, and what is set.
     Result<Circuit> elaborate(const Values& parameters = {}) const;
 };
 

@@ -18,8 +18,8 @@ constexpr std::string_view letters = "rclveifghbdmx";
 constexpr std::string_view own_words[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
                                           ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
                                           ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
-constexpr std::string_view command_words[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",    ".sens", ".tran",
-                                              ".meas", ".measure", ".print", ".plot",  ".probe", ".save", ".step",
+constexpr std::string_view command_words[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",     ".sens", ".tran",
+                                              ".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
                                               ".mc",   ".expect",  ".force", ".spike", ".within", ".four"};
 
 /// Values that go on over blanks: formulas of sources and charges.
@@ -51,9 +51,21 @@ class NetlistReader {
     Body *body_, *floor_;                                              // the one being read; what a file began in, which it cannot close
     std::size_t text_read_ = 0, opened_ = 0, subcircuit_depth_ = 0;
     bool ended_ = false;
+    std::string corner_;                  // "": none is asked for
+    bool cornered_ = false;               // some library has it
+    std::vector<std::string> libraries_;  // those that have it not: "'card.lib' has tt, ss"
 
 public:
-    NetlistReader(ParsedNetlist& out, const Opener& open) : out_(out), open_(open), body_(&out.top), floor_(body_) {}
+    NetlistReader(ParsedNetlist& out, const Opener& open, std::string corner)
+        : out_(out), open_(open), body_(&out.top), floor_(body_), corner_(std::move(corner)) {}
+
+    /// The netlist itself; then whether its libraries knew the corner.
+    Result<void> read_all(std::string_view text, const std::string& path) {
+        if (auto ok = read(text, path, ""); !ok || corner_.empty() || cornered_) return ok;
+        if (libraries_.empty())
+            return bad_input(fmt::format("no line .lib 'file' section, so there is no corner '{}' to be had", corner_), {path});
+        return bad_input(fmt::format("no corner '{}': library {}", corner_, fmt::join(libraries_, "; ")), {path});
+    }
 
     Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
         text_read_ += text.size();
@@ -351,11 +363,33 @@ private:
         }
     }
 
-    Result<void> open(std::string_view name, const std::string& section, Place place) {
+    /// The sections that a library's text has, but for those that only others of it read.
+    static std::vector<std::string> sections_in(std::string_view text) {
+        std::vector<std::string> out;
+        Lines lines(text, std::make_shared<const std::string>());
+        Line line;
+        for (auto more = lines.next(line); more && *more; more = lines.next(line)) {
+            if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
+            const auto head = command_statement(std::move(line));
+            if (head && head->words.size() == 2) out.push_back(lower(unquoted(head->text(1))));
+        }
+        return out;
+    }
+
+    /// The section to read of a library that the netlist, not a library, asks for.
+    std::string cornered(std::string_view library, std::string_view text, const std::string& section) {
+        const bool own = std::all_of(within_.begin(), within_.end(), [](const Source& s) { return s.section.empty(); });
+        if (corner_.empty() || section.empty() || !own) return section;
+        const auto known = sections_in(text);
+        if (std::find(known.begin(), known.end(), corner_) != known.end()) return cornered_ = true, corner_;
+        const std::vector<std::string_view> names(known.begin(), known.end());
+        libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(corner_, names)));
+        return section;
+    }
+
+    Result<void> open(std::string_view name, std::string section, Place place) {
         ++opened_;
         const std::string path = resolved(within_.back().path, name);
-        if (std::find(within_.begin(), within_.end(), Source{path, section}) != within_.end())
-            return bad_input(fmt::format("'{}' includes itself", name), std::move(place));
         if (within_.size() > deepest_include)
             return bad_input(fmt::format("files include each other more than {} deep", deepest_include), std::move(place));
         if (opened_ > most_elements) return bad_input(fmt::format("more than {} files are included", most_elements), std::move(place));
@@ -366,6 +400,9 @@ private:
             text = std::make_shared<const std::string>(std::move(*opened));
         }
         const auto kept = text;
+        section = cornered(name, *kept, section);
+        if (std::find(within_.begin(), within_.end(), Source{path, section}) != within_.end())
+            return bad_input(fmt::format("'{}' includes itself", name), std::move(place));
         auto ok = read(*kept, path, section);
         if (!ok && ok.error().place.file.empty()) return bad_input(ok.error().sentence, std::move(place));
         return ok;
@@ -407,9 +444,10 @@ private:
 
 }  // namespace
 
-Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener& open, ParsedNetlist& out) {
+Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener& open, const std::string& corner,
+                          ParsedNetlist& out) {
     out.file = file;
-    return NetlistReader(out, open).read(text, file, "");
+    return NetlistReader(out, open, corner).read_all(text, file);
 }
 
 }  // namespace corpuscle::circuit

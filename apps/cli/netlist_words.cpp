@@ -1,0 +1,30 @@
+#include "netlist_words.hpp"
+
+#include <fmt/format.h>
+
+#include "circuit/traced.hpp"
+
+namespace corpuscle {
+
+std::vector<circuit::Knob> knobs_of(const NetlistWords& w) {
+    std::vector<circuit::Knob> out;
+    const auto add = [&](const char* name, const std::optional<std::string>& value) {
+        if (value) out.push_back({name, *value, fmt::format("--{} {}", name, *value), true});
+    };
+    add("supply", w.supply), add("temp", w.temp), add("corner", w.corner), add("mismatch", w.mismatch);
+    return out;
+}
+
+std::vector<std::string> traces_of(const NetlistWords& w) {
+    std::vector<std::string> out;
+    for (const auto& text : w.traces)
+        for (auto& word : circuit::trace_words(text)) out.push_back(std::move(word));
+    return out;
+}
+
+std::string said_of(const NetlistWords& w) {
+    const auto knobs = knobs_of(w);
+    return !knobs.empty() ? knobs[0].said : !w.traces.empty() ? "--trace " + w.traces[0] : "";
+}
+
+}  // namespace corpuscle

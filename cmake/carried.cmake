@@ -1,0 +1,28 @@
+# Netlists and cards as bytes inside the program, by their paths.
+#   carry(TARGET pattern...): the files that match, from the project's root; circuit/carried.cpp gives them out.
+function(carry target)
+  set(assembly ".section .rodata\n")
+  set(declarations "")
+  set(rows "")
+  set(number 0)
+  set(own "")
+  foreach(pattern ${ARGN})
+    file(GLOB found CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${pattern})
+    foreach(path ${found})
+      string(APPEND assembly ".global corpuscle_carried_${number}\n.global corpuscle_carried_${number}_end\n"
+        "corpuscle_carried_${number}:\n.incbin \"${PROJECT_SOURCE_DIR}/${path}\"\ncorpuscle_carried_${number}_end:\n.byte 0\n")
+      string(APPEND declarations "extern \"C\" const char corpuscle_carried_${number}[], corpuscle_carried_${number}_end[];\n")
+      string(APPEND rows "    {\"${path}\", corpuscle_carried_${number}, corpuscle_carried_${number}_end},\n")
+      list(APPEND own ${PROJECT_SOURCE_DIR}/${path})
+      math(EXPR number "${number} + 1")
+    endforeach()
+  endforeach()
+  string(APPEND assembly ".section .note.GNU-stack,\"\",%progbits\n")
+  set(made ${CMAKE_CURRENT_BINARY_DIR}/carried)
+  file(CONFIGURE OUTPUT ${made}/carried.S CONTENT "${assembly}" @ONLY)
+  file(CONFIGURE OUTPUT ${made}/carried_files.hpp CONTENT "// Made from circuits/ and process/.\n#pragma once\n#include <string_view>\n\n${declarations}
+namespace corpuscle::circuit {\nstruct CarriedFile { std::string_view path; const char *begin, *end; };\ninline const CarriedFile files[] = {\n${rows}};\n}\n" @ONLY)
+  set_source_files_properties(${made}/carried.S PROPERTIES OBJECT_DEPENDS "${own}" SKIP_PRECOMPILE_HEADERS ON)
+  target_sources(${target} PRIVATE ${made}/carried.S)
+  set_source_files_properties(circuit/carried.cpp PROPERTIES INCLUDE_DIRECTORIES ${made})
+endfunction()

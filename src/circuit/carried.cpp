@@ -1,0 +1,39 @@
+#include "circuit/carried.hpp"
+
+#include <fmt/format.h>
+
+#include "carried_files.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+Result<std::string> text_of(const std::string& path) {
+    for (const auto& f : files)
+        if (f.path == path) return std::string(f.begin, f.end);
+    return bad_input(fmt::format("the program does not carry '{}'", path), {path});
+}
+
+}  // namespace
+
+const Carried* carried_netlist(std::string_view name) {
+    for (const auto& c : carried_netlists)
+        if (same_letters(c.name, name)) return &c;
+    return nullptr;
+}
+
+Result<Netlist> open_netlist(const std::string& name_or_path, const std::string& corner) {
+    const auto* carried = carried_netlist(name_or_path);
+    if (carried == nullptr) return Netlist::read(name_or_path, corner);
+    auto text = text_of(std::string(carried->file));
+    if (!text) return text.error();
+    return Netlist::parse(std::move(*text), std::string(carried->file), text_of, corner);
+}
+
+std::vector<std::string_view> carried_files() {
+    std::vector<std::string_view> out;
+    for (const auto& f : files) out.push_back(f.path);
+    return out;
+}
+
+}  // namespace corpuscle::circuit

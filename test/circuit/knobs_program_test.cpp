@@ -1,0 +1,151 @@
+// The program with netlists of which something is set or shown: respond, run, list, from any folder.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using test::read_file;
+using test::run;
+using Json = nlohmann::json;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::size_t spikes_in(const Folder& folder, const std::string& out) {
+    const auto text = read_file(folder / (out + "/spikes.csv"));
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+}
+
+/// A divider of the supply, charged by the force.
+constexpr const char* divider =
+    "divider\n.param supply=1 r_top=1k\nvdd vdd 0 {supply}\nxdiv vdd mid half\niin 0 mid force 1m\n"
+    ".subckt half a b\nrtop a b {r_top}\nrlow b 0 1k\nclow b 0 1u\n.ends\n.spike v(mid) 1.2\n.save v(mid)\n";
+
+TEST(KnobsProgram, TheChipAnswersInAnyFolderAndWhatIsSetChangesIt) {
+    const Folder folder;
+    const std::string press = "respond press --quiet --afferent ";
+    ASSERT_EQ(run(folder, press + "sa1-circuit -o plain").status, 0);
+    const auto set = run(folder, press +
+                                     "SA1-circuit --set sa1-circuit.C_u=9pF --set SA1-circuit.summer.N3B=12x4 --corner tt --temp 27 "
+                                     "--trace 'VF,i(N3B),rectb.o' -o set");
+    ASSERT_EQ(set.status, 0) << set.err;
+    EXPECT_EQ(spikes_in(folder, "plain"), 14U);
+    EXPECT_LT(spikes_in(folder, "set"), 10U) << "a membrane of twice the capacitance";
+    const auto traces = read_file(folder / "set/traces.csv");
+    EXPECT_EQ(traces.substr(0, traces.find('\n')),
+              "time_s,press_N,sa1-circuit.press.v(vf) [V],sa1-circuit.press.i(xsummer.mn3b) [A],sa1-circuit.press.v(xrectb.o) [V]");
+    const auto one = Json::parse(read_file(folder / "set/summary.json"))["afferents"][0];
+    EXPECT_EQ(one["name"], "sa1-circuit");
+    EXPECT_EQ(one["corner"], "tt");
+    EXPECT_EQ(one["parameters"]["c_u"]["value"], 9e-12);
+    EXPECT_EQ(one["parameters"]["c_u"]["set"], true);
+    EXPECT_EQ(one["parameters"]["c_hpb"]["set"], false);
+    EXPECT_EQ(one["parameters"]["temp"]["value"], 27);
+    EXPECT_EQ(one["parameters"]["xsummer.mn3b.m"]["value"], 12);
+    EXPECT_FALSE(one["parameters"].contains("vtn_shift")) << "the card's own";
+}
+
+TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
+    const Folder folder;
+    folder.write("a.cir", divider), folder.write("b.cir", divider);
+    const auto ran = run(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
+    ASSERT_EQ(ran.status, 1) << "vdd is the node, div.a only a port";
+    EXPECT_TRUE(has(ran.err, "--trace div.a: no netlist that takes part has such a node or device")) << ran.err;
+    const auto good =
+        run(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'VDD,i(div.top)' -o out --report");
+    ASSERT_EQ(good.status, 0) << good.err;
+    const auto traces = read_file(folder / "out/traces.csv");
+    EXPECT_TRUE(
+        has(traces, "a.cir.step.v(vdd) [V],a.cir.step.i(xdiv.rtop) [A],b.cir.step.v(vdd) [V],b.cir.step.i(xdiv.rtop) [A],sa1.step"));
+    EXPECT_TRUE(has(traces, ",0.5,0.00025,2,0.001,")) << traces.substr(0, 400);
+    const auto page = read_file(folder / "out/report.html");
+    EXPECT_TRUE(has(page, "i(xdiv.rtop)"));
+}
+
+TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
+    const Folder folder;
+    folder.write("a.cir", divider);
+    auto other = std::string(divider);
+    other.replace(other.find("supply=1 r_top=1k"), 17, "r_top=1k v=1"), other.replace(other.find("{supply}"), 8, "{v}");
+    folder.write("b.cir", other);
+    const auto says = [&](const std::string& words, int status, const std::string& what) {
+        const auto ran = run(folder, "respond step " + words);
+        EXPECT_EQ(ran.status, status) << words << ran.err;
+        EXPECT_TRUE(has(ran.err, what)) << ran.err;
+    };
+    says("--afferent sa1 --temp 85", 2, "--temp 85: no netlist takes part; try --afferent sa1-circuit");
+    says("--afferent sa1 --trace vf -o out", 2, "--trace vf: no netlist takes part");
+    says("--afferent a.cir --trace mid", 2, "--trace mid needs --out DIR or --report");
+    says("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
+    says("--afferent a.cir --corner ss", 1, "--corner ss: no line .lib 'file' section");
+    says("--afferent sa1-circuit --corner slow", 1,
+         "--corner slow: no corner 'slow': library '../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
+    says("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
+    says("--afferent a.cir --trace mod -o out", 1,
+         "--trace mod: no netlist that takes part has such a node or device; did you mean 'mid'?");
+    says("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
+    says("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' takes part");
+    says("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is no seed");
+    says("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
+    EXPECT_TRUE(folder.names().size() == 2) << "nothing is left behind";
+}
+
+TEST(KnobsProgram, CopiesOfANetlistSpreadItsParametersAndAreTheChipsOfASeed) {
+    const Folder folder;
+    folder.write("a.cir", divider);
+    const auto ran = run(folder, "respond step -a a.cir --copies 3 --spread a.cir.R_top=5% --trace 'i(rtop)' -o out --quiet");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto copies = read_file(folder / "out/copies.csv");
+    EXPECT_EQ(copies.substr(0, 22), "afferent,channel,r_top");
+    const auto first = copies.substr(copies.find("a.cir#1,step,") + 13), second = copies.substr(copies.find("a.cir#2,step,") + 13);
+    const double r1 = std::stod(first), r2 = std::stod(second);
+    EXPECT_NE(r1, r2);
+    const auto traces = read_file(folder / "out/traces.csv");
+    const auto row = traces.substr(traces.find('\n') + 1);
+    double time = 0, force = 0, i1 = 0, i2 = 0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf", &time, &force, &i1, &i2), 4);
+    const auto expected = [&](double r) { return (1 - force) / (r + 1e3); };  // the force, 1 mA a newton, on 1 kohm
+    EXPECT_NEAR(i1, expected(r1), 1e-8);
+    EXPECT_NEAR(i2, expected(r2), 1e-8);
+}
+
+TEST(KnobsProgram, RunTakesTheSameAndSavesTracesBesideItsOwn) {
+    const Folder folder;
+    folder.write("a.cir", std::string(divider) + ".op\n.expect v(mid) 0.5 1%\n");
+    EXPECT_EQ(run(folder, "run a.cir").status, 0);
+    const auto ran = run(folder, "run a.cir --supply 2V --set DIV.top=3k --trace 'vdd,i(div.rtop),mid' --json");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_TRUE(has(ran.err, "it is not as it is written, so what it expects is left out")) << ran.err;
+    const auto curves = Json::parse(ran.out)["plots"][0]["curves"];
+    EXPECT_EQ(curves.size(), 3U);
+    EXPECT_NEAR(curves["v(mid)"][0].get<double>(), 0.5, 1e-6);
+    EXPECT_NEAR(curves["v(vdd)"][0].get<double>(), 2, 1e-9);
+    EXPECT_NEAR(curves["i(xdiv.rtop)"][0].get<double>(), 0.5e-3, 1e-9);
+    EXPECT_EQ(run(folder, "run a.cir --trace vdd").status, 0) << "as it is written, it still expects";
+    EXPECT_EQ(run(folder, "run a.cir --set div.top").status, 2);
+    EXPECT_TRUE(has(run(folder, "run a.cir --trace vd").err, "--trace vd: a.cir has no such node or device; did you mean 'vdd'?"));
+    EXPECT_EQ(run(folder, "export sa1-circuit --for ngspice -o deck.cir").status, 0);
+}
+
+TEST(KnobsProgram, ListTellsWhatAChipHas) {
+    const Folder folder;
+    const auto listed = Json::parse(run(folder, "list sa1-circuit --json").out)["afferents"][0];
+    EXPECT_EQ(listed["name"], "sa1-circuit");
+    EXPECT_EQ(listed["made_of"], "netlist");
+    const auto& all = listed["parameters"];
+    const auto c_u = std::find_if(all.begin(), all.end(), [](const Json& p) { return p["name"] == "c_u"; });
+    ASSERT_NE(c_u, all.end());
+    EXPECT_EQ((*c_u)["default"], 4.5e-12);
+    EXPECT_TRUE(has((*c_u)["sentence"], "as_printed"));
+    EXPECT_TRUE((*c_u)["low"].is_null());
+    EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Json& p) { return p["name"] == "vtn_shift"; }), 0);
+}
+
+}  // namespace
+}  // namespace corpuscle
