@@ -5,7 +5,7 @@ FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
 corpuscle = build/release/corpuscle
 # The thesis's two receptors, each as equations and as a chip.
-touched = press --afferent sa1 --afferent circuits/sa1.cir --afferent fa1 --afferent circuits/fa1.cir
+touched = press --afferent sa1 --afferent sa1-circuit --afferent fa1 --afferent fa1-circuit
 
 demo: build
 	@$(corpuscle) respond $(touched) --out out/press --report

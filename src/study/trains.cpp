@@ -1,6 +1,7 @@
 #include "study/trains.hpp"
 
 #include "signal/stimuli.hpp"
+#include "study/afferents.hpp"
 
 namespace corpuscle {
 namespace {
@@ -30,17 +31,29 @@ Result<Touched> touch_of(const Asked& asked) {
     }
 }
 
-Result<std::vector<double>> train_of(const Asked& asked) {
-    const auto touch = touch_of(asked);
+Result<Told> told_of(const Asked& asked) {
+    auto touch = touch_of(asked);
     if (!touch) return touch.error();
-    const auto plan = plan_afferent(asked.afferent, *wishes_of(asked));
+    const auto plan = plan_any_afferent(asked.afferent, *wishes_of(asked));
     if (!plan) return plan.error();
     const auto afferent = make_afferent(*plan, {touch->clock.T()});
+    touch->force.insert(touch->force.end(), static_cast<std::size_t>(afferent->delay()), touch->force.back());
     auto state = afferent->start();
     std::vector<Spike> spikes;
+    std::vector<Outside> outside(afferent->ranges().size());
     Answer answer{spikes};
+    answer.outside = outside;
     if (auto ok = afferent->respond(touch->force, state, answer); !ok) return ok.error();
-    return times(spikes, touch->clock);
+    Told out{times(spikes, touch->clock), {}};
+    for (std::size_t k = 0; k < outside.size(); ++k)
+        if (outside[k].samples > 0) out.outside.emplace_back(afferent->ranges()[k].meaning);
+    return out;
+}
+
+Result<std::vector<double>> train_of(const Asked& asked) {
+    auto told = told_of(asked);
+    if (!told) return told.error();
+    return std::move(told->spikes);
 }
 
 }  // namespace corpuscle

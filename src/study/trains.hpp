@@ -10,13 +10,20 @@
 namespace corpuscle {
 
 struct Asked {
-    std::string afferent, stimulus = "press";
-    std::vector<std::string> settings = {};  ///< "press.F_max=2N", of either
-    double rate = 10e3;                      ///< Hz
+    std::string afferent, stimulus = "press";  ///< the afferent may be a netlist, such as "sa1-circuit"
+    std::vector<std::string> settings = {};    ///< "press.F_max=2N", of either
+    double rate = 10e3;                        ///< Hz
     std::uint64_t seed = 0;
 };
 
-/// The times of its spikes, s.
+/// What it answers: the times of its spikes, s, and what it means to be outside each range that it left on the way.
+struct Told {
+    std::vector<double> spikes;
+    std::vector<std::string> outside;
+};
+Result<Told> told_of(const Asked&);
+
+/// The times alone.
 Result<std::vector<double>> train_of(const Asked&);
 
 /// The force that `train_of` hands it, N, and the stimulus's phases.

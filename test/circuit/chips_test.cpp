@@ -104,6 +104,16 @@ TEST(Chips, AsPrintedFireOtherwise) {
     EXPECT_GT(fa1.spikes.size(), 12U);
 }
 
+/// Without length modulation and velocity saturation the mirrors divide by their ratios: 288 x 64 (eq. 38, 39; errata S7b).
+TEST(Chips, TransconductorsDivideByTheirRatiosInThePlainModel) {
+    const auto netlist = Netlist::read(corpuscle::test::root() + "/circuits/invc.cir");
+    ASSERT_TRUE(netlist);
+    auto circuit = netlist->elaborate();
+    ASSERT_TRUE(circuit);
+    for (auto& model : circuit->models) model.values["ve"] = 1e30, model.values["zetal"] = 0;
+    EXPECT_NEAR(ran(std::move(*circuit)).number("attenuation"), 18432, 0.005 * 18432);
+}
+
 /// The membrane falls from V_H to V_L, a spike fills it again; it goes beyond by what the trigger's delay lets pass (thesis 4.4).
 TEST(Chips, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
     const auto trigger = ran_file("schmitt.cir");

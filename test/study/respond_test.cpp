@@ -137,7 +137,7 @@ TEST(Report, KeepsItsShareHoweverManyInputsAndChannels) {
         Summary summary;
         Listener* listeners[] = {&report, &summary};
         (void)test::sure(respond(sources, std::span(&plan, 1), listeners, {}));
-        const auto page = report.page(summary, std::span(&plan, 1), "", {});
+        const auto page = report.page(summary, std::span(&plan, 1), "", {}, nlohmann::ordered_json::array());
         EXPECT_EQ(page.find("{{page"), std::string::npos);
         EXPECT_EQ(page.find("{{dygraphs"), std::string::npos) << "every part of the template was filled";
         const auto data = page.substr(page.find("id=\"data\">") + 10);
