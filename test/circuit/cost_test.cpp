@@ -118,7 +118,7 @@ TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
         ASSERT_TRUE(found) << name << ": " << found.error().text();
         const auto& p = found->power[0].second;
         EXPECT_NEAR(p.supplies, sum(p.blocks), 1e-6 * p.supplies + 1e-15) << name;
-        EXPECT_GT(p.supplies, 0) << name;
+        EXPECT_TRUE(p.supplies > 0 || found->area().total() == 0) << name << ": what has no transistor may have no supply";
         const auto x = bench->rest()->x;
         for (std::size_t k = 0; k < found->sources.size(); ++k) {  // and each source by the branch current that was solved for
             if (found->sources[k][0] != 'v') continue;

@@ -85,7 +85,7 @@ TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
     says("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
     says("--afferent a.cir --corner ss", 1, "--corner ss: no line .lib 'file' section");
     says("--afferent sa1-circuit --corner slow", 1,
-         "--corner slow: no corner 'slow': library '../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
+         "--corner slow: no corner 'slow': library '../../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
     says("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
     says("--afferent a.cir --trace mod -o out", 1,
          "--trace mod: no netlist that takes part has such a node or device; did you mean 'mid'?");

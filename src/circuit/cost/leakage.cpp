@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <numeric>
 
 #include "circuit/device/constants.hpp"
 #include "circuit/device/values.hpp"
@@ -12,15 +13,35 @@ namespace {
 
 enum Terminal { D, G, S, B };
 
-/// Nodes (numbers in the circuit) that some capacitor keeps and no voltage source holds.
-std::set<int> kept_nodes(const Circuit& circuit) {
-    std::set<int> out;
+/// The nodes of a circuit, those as one that sources of 0 V (by which currents are seen) join.
+class Joined {
+    std::vector<int> of_;
+
+public:
+    explicit Joined(const Circuit& circuit) : of_(circuit.nodes.size()) {
+        std::iota(of_.begin(), of_.end(), 0);
+        for (const auto& e : circuit.elements) {
+            if (!is_wire(e)) continue;
+            const auto [first, second] = std::minmax(of(e.nodes[0]), of(e.nodes[1]));
+            std::replace(of_.begin(), of_.end(), int(second), int(first));
+        }
+    }
+    static bool is_wire(const Element& e) {
+        return e.letter == 'v' && e.waveform.dc == 0 && e.waveform.shape == Waveform::Shape::none && e.waveform.ac_magnitude == 0;
+    }
+    int of(int node) const { return of_[static_cast<std::size_t>(node)]; }
+};
+
+/// Nodes that some capacitor keeps and no voltage source holds: by which of the joined ones each is, the capacitor's own node.
+std::map<int, int> kept_nodes(const Circuit& circuit, const Joined& joined) {
+    std::map<int, int> out;
     for (const auto& e : circuit.elements)
-        if (e.letter == 'c') out.insert(e.nodes.begin(), e.nodes.begin() + 2);
+        if (e.letter == 'c')
+            for (int k = 0; k < 2; ++k) out.emplace(joined.of(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
     out.erase(0);
     for (const auto& e : circuit.elements)
-        if (e.letter == 'v')
-            for (const int node : e.nodes) out.erase(node);
+        if (e.letter == 'v' && !Joined::is_wire(e))
+            for (const int node : e.nodes) out.erase(joined.of(node));
     return out;
 }
 
@@ -39,7 +60,8 @@ double drain_current(const Device& d, double polarity, double supply, double for
 std::vector<Leak> leaks_of(const System& system, std::span<const double> x, double supply) {
     std::vector<Leak> out;
     const auto& circuit = system.circuit();
-    const auto kept = kept_nodes(circuit);
+    const Joined joined(circuit);
+    const auto kept = kept_nodes(circuit, joined);
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
         if (e.letter != 'm') continue;
@@ -50,8 +72,8 @@ std::vector<Leak> leaks_of(const System& system, std::span<const double> x, doub
         Leak leak{k, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source, false, ""};
         leak.off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
         for (const auto end : {D, S})
-            if (const int node = e.nodes[end]; leak.onto.empty() && kept.contains(node))
-                leak.onto = circuit.nodes[static_cast<std::size_t>(node)];
+            if (const auto node = kept.find(joined.of(e.nodes[end])); leak.onto.empty() && node != kept.end())
+                leak.onto = circuit.nodes[static_cast<std::size_t>(node->second)];
         out.push_back(std::move(leak));
     }
     return out;

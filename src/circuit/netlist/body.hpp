@@ -49,6 +49,7 @@ struct ParsedNetlist {
     Body top;
     std::vector<const Statement*> commands, options, temperatures;
     std::set<std::string, std::less<>> globals;
+    std::set<std::string, std::less<>> libraries;  ///< files of which sections were read
     std::vector<Error> remarks;
 };
 

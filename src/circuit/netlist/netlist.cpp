@@ -74,7 +74,7 @@ std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() con
     std::map<std::string, Parameter, std::less<>> out;
     if (parsed_)
         for (const auto& [name, text] : parsed_->top.parameters)
-            out.emplace(name, Parameter{std::string(text.view()), text.place().file == parsed_->file});
+            out.emplace(name, Parameter{std::string(text.view()), !parsed_->libraries.contains(text.place().file)});
     return out;
 }
 

@@ -112,7 +112,7 @@ public:
     /// .param of the top level.
     struct Parameter {
         std::string text;  ///< as it is written: "2*c_u"
-        bool own;          ///< in the netlist itself, not in a file that it reads
+        bool own;          ///< of the netlist and its parts, not of a library
     };
     std::map<std::string, Parameter, std::less<>> parameters() const;
 

@@ -74,6 +74,7 @@ public:
         if (within_.empty())
             if (const auto ok = take_title(lines); !ok) return ok;
         within_.push_back({path, section});
+        if (!section.empty()) out_.libraries.insert(path);
         Body* const outer_floor = std::exchange(floor_, body_);
         auto ok = section.empty() ? statements(lines) : section_of(lines, section);
         if (ok && body_ != floor_)

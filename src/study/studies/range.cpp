@@ -141,9 +141,12 @@ void claim(const Map& map, const char* chip, const char* corner, Outcome& out) {
     const auto heat = ends_of(temperatures, usual_temperature, by_temperature);
     const auto best = ends_of(temperatures, usual_temperature, by_temperature, works_some_way);
     const auto& usual = map.at(chip, corner, usual_supply, usual_temperature).told.spikes;
-    out.claims.push_back(
-        {name + ": spikes of the press at 0.7 V, 27 C", static_cast<double>(usual.size()), "", none, none, none, "", pattern(usual)});
+    out.claims.push_back({name + ": spikes of the press at 0.7 V, 27 C", static_cast<double>(usual.size()), "", none, none, none, "",
+                          works_as_it_is(map.at(chip, corner, usual_supply, usual_temperature))
+                              ? pattern(usual)
+                              : pattern(usual) + ": does not work; " + volts.below});
     const auto add = [&](std::string what, double made, const char* unit, const std::string& why) {
+        if (std::isnan(made)) return;
         out.claims.push_back({name + ": " + std::move(what), made, unit, none, none, none, "", why});
     };
     add("works at 27 C down to", volts.low, "V", volts.below), add("up to", volts.high, "V", volts.above);
