@@ -80,8 +80,8 @@ class Chip:
 
 def row(name, run):
     seconds, (steps, rejected, iterations), found = run
-    print(f"{name:<26}{seconds:9.3f} s{steps:8}{rejected:9}{iterations:11}{1e6 * seconds / iterations:9.1f}{len(found):8}   "
-          f"{', '.join(f'{1e3 * t:.3f}' for t in found[:3])} ... {1e3 * found[-1]:.3f} ms")
+    told = f"{', '.join(f'{1e3 * t:.3f}' for t in found[:3])} ... {1e3 * found[-1]:.3f} ms" if found else "none"
+    print(f"{name:<26}{seconds:9.3f} s{steps:8}{rejected:9}{iterations:11}{1e6 * seconds / iterations:9.1f}{len(found):8}   {told}")
 
 
 def main():

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "circuit/analysis/beginning.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -36,11 +35,30 @@ Result<std::unique_ptr<Rig>> Rig::make(const CircuitDesign& design, double T, co
     return rig;
 }
 
-Result<void> Rig::begin(std::span<const double> force) {
+Result<Beginning> Rig::resting(std::span<const double> force, std::vector<double> from) {
     trace_ = Trace(trace_.T());
     trace_.append(force);
+    return beginning(*bench_, design_.times.uic, std::move(from));
+}
+
+/// Where the circuit rests under this force, or as far on the way there as it can be led from 0 N.
+std::vector<double> Rig::led_to(double force) {
+    constexpr double shortest = 1.0 / 64;  // of the way
+    auto there = rest_;
+    for (double part = 0, step = 0.25; part < 1 && step >= shortest;) {
+        const double next = std::min(1.0, part + step), steady[] = {next * force, next * force};
+        if (auto x = resting(steady, there))
+            part = next, there = std::move(x->x);
+        else
+            step /= 2;
+    }
+    return there;
+}
+
+Result<void> Rig::begin(std::span<const double> force) {
     origin_ = 0, coming_.reset(), now_.reset();
-    auto x = beginning(*bench_, design_.times.uic, rest_);
+    auto x = resting(force, rest_);
+    if (!x) x = resting(force, led_to(force[0]));
     if (!x) {
         auto error = x.error();
         error.sentence = fmt::format("under the first force, {}: {}", format_quantity(force[0], "N"), error.sentence);

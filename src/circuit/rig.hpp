@@ -2,6 +2,7 @@
 // A circuit on its way through a force that comes block by block.
 
 #include "circuit/afferent.hpp"
+#include "circuit/analysis/beginning.hpp"
 #include "circuit/cost/power.hpp"
 #include "circuit/trace.hpp"
 
@@ -27,6 +28,8 @@ class Rig {
 
     Rig(const CircuitDesign& design, double T) : design_(design), trace_(T) {}
     void shift();
+    Result<Beginning> resting(std::span<const double> force, std::vector<double> from);
+    std::vector<double> led_to(double force);
     void spend(double from);
 
 public:

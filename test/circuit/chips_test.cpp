@@ -27,12 +27,13 @@ struct Heard {
     }
 };
 
-Heard heard(const std::string& file, const Touch& touch, const Values& parameters = {}) {
+Heard heard(const std::string& file, const Touch& touch, const Values& parameters = {}, double celsius = 27) {
     Heard out;
     const auto netlist = Netlist::read(corpuscle::test::root() + "/circuits/" + file);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), out;
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), out;
+    circuit->temperature = celsius;
     const auto design = CircuitDesign::of(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!design) return ADD_FAILURE() << design.error().text(), out;
     const auto afferent = (*design)->make(1 / touch.rate, false);
@@ -160,6 +161,17 @@ TEST(Chips, ConvergeUnderAnyForceAndTellThatTheyAreSaturated) {
             EXPECT_FALSE(sine.error) << file << ' ' << f;
         }
     }
+}
+
+/// A force that is there from the first sample: under 1 N and more there is no rest, for SA-I fires on.
+TEST(Chips, BeginUnderAnyForce) {
+    for (const char* file : {"sa1.cir", "fa1.cir"})
+        for (const double celsius : {27.0, 85.0})
+            for (const double force : {0.05, 0.3, 1.09, 2.5, 8.0, 40.0}) {
+                const auto begun = heard(file, {1e3, std::vector<double>(30, force)}, {}, celsius);
+                EXPECT_FALSE(begun.error) << file << ' ' << force << " N, " << celsius << " C";
+            }
+    EXPECT_GT(heard("sa1.cir", {1e3, std::vector<double>(300, 4.0)}).spikes.size(), 4U);
 }
 
 TEST(Chips, RestSilentlyForHours) {

@@ -22,8 +22,8 @@ public:
         std::iota(of_.begin(), of_.end(), 0);
         for (const auto& e : circuit.elements) {
             if (!is_wire(e)) continue;
-            const auto [first, second] = std::minmax(of(e.nodes[0]), of(e.nodes[1]));
-            std::replace(of_.begin(), of_.end(), int(second), int(first));
+            const int first = of(e.nodes[0]), second = of(e.nodes[1]);
+            std::replace(of_.begin(), of_.end(), std::max(first, second), std::min(first, second));
         }
     }
     static bool is_wire(const Element& e) {

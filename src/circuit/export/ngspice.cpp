@@ -38,13 +38,15 @@ std::string header(const Circuit& c, bool transistors) {
 }
 
 /// Tighter than ours, for ngspice stops a step sooner; what it starts from is far too loose for picoamperes. itl2: steps to a sweep's
-/// next point.
+/// next point. In time its trapezoidal rule stops at picoamperes ("timestep too small"); Gear's does not.
 std::string options(const Tolerances& t, const Circuit& c) {
     std::string out = fmt::format(".options reltol={} abstol={} vntol={} gmin={} itl1={} itl2={}", std::min(t.reltol, 1e-7), t.abstol,
                                   std::min(t.vntol, 1e-10), t.gmin, std::max(t.itl1, 500), std::max(t.itl1, 500));
     for (const std::string_view name : {"chgtol", "trtol", "itl4", "maxord"})
         if (const auto said = c.options.find(name); said != c.options.end()) out += fmt::format(" {}={}", name, said->second);
     if (const auto method = c.option_words.find("method"); method != c.option_words.end()) out += " method=" + method->second;
+    else if (std::any_of(c.commands.begin(), c.commands.end(), [](const Command& order) { return order.name == "tran"; }))
+        out += " method=gear";
     return fmt::format("{}\n.temp {}\n", out, c.temperature);
 }
 
