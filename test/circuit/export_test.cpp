@@ -176,6 +176,21 @@ TEST(ExportedOrders, AreMeasuredByNgspiceAsHere) {
     for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(number_of(log, name), value, 1e-4 * std::abs(value)) << log;
 }
 
+TEST(ExportedOrders, TheForceGoesAlongInItsSources) {
+    const Folder folder;
+    const auto circuit = circuit_of(folder.write("touch.cir",
+                                                 "touched\nvf f 0 force 2\nrf f s 1k\ncs s 0 10u\n.force press f_max=3\n.tran 1m 1 0 2m\n"
+                                                 ".meas tran rising find v(s) at=0.31\n.meas tran held find v(s) at=0.5\n"
+                                                 ".meas tran falling find v(s) at=0.7\n"));
+    const auto shared = std::make_shared<Circuit>(*circuit);
+    const auto log = ngspice(folder.write("deck.cir", exported(shared)), "");
+    const auto mine = run(shared);
+    ASSERT_TRUE(mine);
+    ASSERT_EQ(mine->numbers.size(), 3U);
+    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(number_of(log, name), value, 1e-3) << name << log;
+    EXPECT_NEAR(mine->numbers[1].second, 6, 1e-3);
+}
+
 constexpr const char* wishes_for_all = R"(what ngspice has no words for
 .param w=1.5u
 vdd v 0 0.7
