@@ -18,7 +18,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-OPTIONS = "reltol=1e-5 abstol=1e-16 vntol=1e-9"  # looser floors, and picoamperes are lost: no spike comes
+OPTIONS = "reltol=1e-5 abstol=1e-16 vntol=1e-9"  # with looser floors picoamperes are lost, and no spike comes
 
 
 def timed(command):

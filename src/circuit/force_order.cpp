@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "circuit/analysis/bench.hpp"
 #include "circuit/netlist/number.hpp"
 #include "signal/stimuli.hpp"
 #include "signal/text.hpp"
@@ -12,9 +13,7 @@ namespace {
 constexpr double most_samples = 1e8;
 
 Error wrong(const Command& c, std::size_t word, std::string sentence) {
-    auto place = c.place;
-    if (word < c.columns.size()) place.column = c.columns[word];
-    return bad_input(".force: " + std::move(sentence), std::move(place));
+    return error_at(c, word, ".force: " + std::move(sentence));
 }
 
 /// As the stimulus itself writes it: netlists have small letters.

@@ -5,25 +5,19 @@
 namespace corpuscle::circuit {
 namespace {
 
-Error wrong(const Command& c, std::size_t word, std::string sentence) {
-    auto place = c.place;
-    if (word < c.columns.size()) place.column = c.columns[word];
-    return bad_input(std::move(sentence), std::move(place));
-}
-
 Result<SpikeOutput> read(const System& system, const Command& c) {
     const auto of = wanted_of(system, c, 0);
     if (!of) return of.error();
     if (c.words.size() < 2)
-        return wrong(c, 1, fmt::format(".spike: {} needs a level to cross: .spike v(NODE) LEVEL [rise|fall]", c.words[0]));
+        return error_at(c, 1, fmt::format(".spike: {} needs a level to cross: .spike v(NODE) LEVEL [rise|fall]", c.words[0]));
     const auto level = number_of(c, 1, "the level to cross");
     if (!level) return level.error();
     SpikeOutput out{c.words[0], *of, *level, true, c.place};
     if (c.words.size() > 2) {
-        if (c.words[2] != "rise" && c.words[2] != "fall") return wrong(c, 2, fmt::format(".spike: '{}' must be rise or fall", c.words[2]));
+        if (c.words[2] != "rise" && c.words[2] != "fall") return error_at(c, 2, fmt::format(".spike: '{}' must be rise or fall", c.words[2]));
         out.upwards = c.words[2] == "rise";
     }
-    if (c.words.size() > 3) return wrong(c, 3, fmt::format(".spike: '{}' is too much: it is .spike v(NODE) LEVEL [rise|fall]", c.words[3]));
+    if (c.words.size() > 3) return error_at(c, 3, fmt::format(".spike: '{}' is too much: it is .spike v(NODE) LEVEL [rise|fall]", c.words[3]));
     return out;
 }
 

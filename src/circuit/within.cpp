@@ -5,12 +5,6 @@
 namespace corpuscle::circuit {
 namespace {
 
-Error wrong(const Command& c, std::size_t word, std::string sentence) {
-    auto place = c.place;
-    if (word < c.columns.size()) place.column = c.columns[word];
-    return bad_input(std::move(sentence), std::move(place));
-}
-
 Result<Within> read(const System& system, const Command& c) {
     constexpr std::string_view shape = ".within v(NODE) LOW HIGH [\"what it means to be outside\"]";
     const auto of = wanted_of(system, c, 0);
@@ -18,15 +12,15 @@ Result<Within> read(const System& system, const Command& c) {
     const auto low = number_of(c, 1, "the lowest value"), high = number_of(c, 2, "the highest value");
     if (!low) return low.error();
     if (!high) return high.error();
-    if (!(*low < *high)) return wrong(c, 1, fmt::format(".within: {:g} to {:g}: the first must be below the second", *low, *high));
+    if (!(*low < *high)) return error_at(c, 1, fmt::format(".within: {:g} to {:g}: the first must be below the second", *low, *high));
     Within out{{c.words[0], *of}, *low, *high, "", c.place};
     if (c.words.size() > 3) {
         const std::string_view word = c.words[3];
         if (word.size() < 3 || word.front() != '"' || word.back() != '"')
-            return wrong(c, 3, fmt::format(".within: '{}' is no sentence in double quotes: {}", word, shape));
+            return error_at(c, 3, fmt::format(".within: '{}' is no sentence in double quotes: {}", word, shape));
         out.sentence = word.substr(1, word.size() - 2);
     }
-    if (c.words.size() > 4) return wrong(c, 4, fmt::format(".within: '{}' is too much: it is {}", c.words[4], shape));
+    if (c.words.size() > 4) return error_at(c, 4, fmt::format(".within: '{}' is too much: it is {}", c.words[4], shape));
     return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "support/program.hpp"
 
@@ -51,6 +52,24 @@ TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
                 EXPECT_NE(all.find(name), std::string::npos) << name << " has no command";
             }
         }
+}
+
+/// A sensor of each set that can be read in seconds, through both chips transistor by transistor.
+TEST(RealRecordings, GoThroughTheChips) {
+    CORPUSCLE_NEEDS(test::shared("fbg_eskin_press"));
+    const Folder folder;
+    link_recordings(folder);
+    for (const std::string words : {"fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --channel 11",
+                                    "fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3 --scale 0.01"}) {
+        const auto ran = run(folder, "respond " + words + " --afferent sa1,sa1-circuit,fa1-circuit --json");
+        ASSERT_EQ(ran.status, 0) << words << ran.err;
+        const auto answer = nlohmann::json::parse(ran.out);
+        EXPECT_EQ(answer["work"]["circuits"]["not_converged"], 0);
+        std::map<std::string, double> spikes;
+        for (const auto& r : answer["rates"]) spikes[r["afferent"]] += r["spikes"].get<double>();
+        EXPECT_GT(spikes["sa1-circuit"], 50) << words;
+        EXPECT_NEAR(spikes["sa1-circuit"], spikes["sa1"], 0.6 * spikes["sa1"]) << words;
+    }
 }
 
 TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {

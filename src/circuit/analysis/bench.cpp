@@ -44,12 +44,16 @@ void TestBench::draw(const Draw& chip) {
 
 Error interruption() { return {Code::interrupted, "interrupted"}; }
 
+Error error_at(const Command& c, std::size_t word, std::string sentence) {
+    auto place = c.place;
+    if (word < c.columns.size()) place.column = c.columns[word];
+    return bad_input(std::move(sentence), std::move(place));
+}
+
 Result<double> number_of(const Command& c, std::size_t word, std::string_view what) {
     if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.place);
     if (const auto x = whole_number(c.words[word])) return x->value;
-    auto place = c.place;
-    if (word < c.columns.size()) place.column = c.columns[word];
-    return bad_input(fmt::format(".{}: '{}' is no number; {} was expected", c.name, c.words[word], what), place);
+    return error_at(c, word, fmt::format(".{}: '{}' is no number; {} was expected", c.name, c.words[word], what));
 }
 
 Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {

@@ -52,6 +52,9 @@ public:
 
 Error interruption();
 
+/// An error at one of a command's words.
+Error error_at(const Command&, std::size_t word, std::string sentence);
+
 /// A number among a command's words, SPICE's suffixes and all; names the command, the word and its place if it is none.
 Result<double> number_of(const Command&, std::size_t word, std::string_view what);
 
