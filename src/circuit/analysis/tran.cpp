@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/beginning.hpp"
@@ -26,7 +27,8 @@ struct Asked {
 class Watch {
     struct One {
         Within range;
-        double outside = 0, first = 0;
+        double outside = 0, first = -1;  // s
+        bool is_out = false;
     };
     std::vector<One> all_;
     double before_ = 0;
@@ -37,15 +39,15 @@ public:
     }
     void look(double t, std::span<const double> x) {
         for (auto& one : all_) {
-            if (one.range.holds(one.range.what.of.of(x))) continue;
-            if (one.outside == 0) one.first = t;
-            one.outside += t - before_;
+            const bool was_out = std::exchange(one.is_out, !one.range.holds(one.range.what.of.of(x)));
+            one.outside += (t - before_) * (was_out + one.is_out) / 2;  // it crossed somewhere within the step
+            if (one.is_out && one.first < 0) one.first = t;
         }
         before_ = t;
     }
     void tell(std::vector<Error>& remarks) const {
         for (const auto& one : all_)
-            if (one.outside > 0)
+            if (one.first >= 0)
                 remarks.push_back(bad_input(outside_sentence(one.range.range(), one.outside, before_, one.first), one.range.place));
     }
 };
