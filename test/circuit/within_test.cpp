@@ -17,10 +17,10 @@ namespace {
 const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.spike v(s) 2 rise\n.within v(f) -1 1 \"too much force\"\n";
 
 TEST(Within, ATransientTellsHowLongAndSinceWhen) {
-    const auto ramp = ran("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.25 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
+    const auto ramp = ran("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
     ASSERT_EQ(ramp.remarks().size(), 1U) << "one of two was left";
     const auto& sentence = ramp.remarks()[0].sentence;
-    EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250 mV for 1.5 s of 2 s, first at 25")) << sentence;
+    EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250.5 mV for 1.499 s of 2 s, first at 251 ms")) << sentence;
     EXPECT_TRUE(sentence.ends_with(": too high")) << sentence;
     EXPECT_EQ(ramp.remarks()[0].place.line, 4);
 }
