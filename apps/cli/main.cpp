@@ -70,8 +70,9 @@ distance at --cost is the least sum of 1 a spike removed or added and --cost a s
 constexpr const char* run_examples = R"(
 
 .print dc v(out) prints columns; .meas dc NAME find v(out) at=0.3 a number; .expect NAME VALUE 1% makes the netlist its own test.
-.spike v(s) 0.35 says what counts as a spike in a .tran, .force press which stimulus its FORCE sources carry; .options accuracy=fine|finest
-asks for more than the usual accuracy. A .tran's file grows as it goes, and Ctrl-C leaves it readable.
+.spike v(s) 0.35 says what counts as a spike in a .tran, .within v(a) 0 0.6 where the circuit works as designed, .force press which
+stimulus its FORCE sources carry; .options accuracy=fine|finest asks for more than the usual accuracy. A .tran's
+file grows as it goes, and Ctrl-C leaves it readable.
 
 Examples:
   corpuscle run circuits/divider.cir
