@@ -111,13 +111,14 @@ struct Ends {
     std::string below = "nothing stops it in the range tried", above = below;
 };
 template <class At>
-Ends ends_of(std::span<const double> axis, double usual, const At& at, bool (*good)(const Spot&) = works_as_it_is) {
+Ends ends_of(std::span<const double> axis, double usual, const At& at, bool (*good)(const Spot&) = works_as_it_is,
+             Told Spot::* tried = &Spot::told) {
     Ends out;
     const auto middle = std::find(axis.begin(), axis.end(), usual);
     if (!good(at(usual))) return out.below = out.above = reason(at(usual)), out;
     for (auto x = middle;; --x) {
         if (!good(at(*x))) {
-            out.below = fmt::format("{}: {}", pattern(at(*x).told.spikes), reason(at(*x)));
+            out.below = fmt::format("{}: {}", pattern((at(*x).*tried).spikes), reason(at(*x)));
             break;
         }
         out.low = *x;
@@ -125,7 +126,7 @@ Ends ends_of(std::span<const double> axis, double usual, const At& at, bool (*go
     }
     for (auto x = middle; x != axis.end(); ++x) {
         if (!good(at(*x))) {
-            out.above = fmt::format("{}: {}", pattern(at(*x).told.spikes), reason(at(*x)));
+            out.above = fmt::format("{}: {}", pattern((at(*x).*tried).spikes), reason(at(*x)));
             break;
         }
         out.high = *x;
@@ -139,7 +140,7 @@ void claim(const Map& map, const char* chip, const char* corner, Outcome& out) {
     const auto by_temperature = [&](double T) -> const Spot& { return map.at(chip, corner, usual_supply, T); };
     const auto volts = ends_of(supplies, usual_supply, by_supply);
     const auto heat = ends_of(temperatures, usual_temperature, by_temperature);
-    const auto best = ends_of(temperatures, usual_temperature, by_temperature, works_some_way);
+    const auto best = ends_of(temperatures, usual_temperature, by_temperature, works_some_way, &Spot::with_better_switches);
     const auto& usual = map.at(chip, corner, usual_supply, usual_temperature).told.spikes;
     out.claims.push_back({name + ": spikes of the press at 0.7 V, 27 C", static_cast<double>(usual.size()), "", none, none, none, "",
                           works_as_it_is(map.at(chip, corner, usual_supply, usual_temperature))
