@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "circuit/netlist/body.hpp"
+#include "circuit/netlist/corner.hpp"
 #include "circuit/netlist/number.hpp"
 #include "signal/field.hpp"
 #include "signal/text.hpp"
@@ -29,11 +30,6 @@ bool goes_on(char letter, std::string_view name) {
     return (letter == 'e' || letter == 'g') && (name == "value" || name == "vol" || name == "cur");
 }
 
-std::string_view unquoted(std::string_view s) {
-    const bool quoted = s.size() >= 2 && (s[0] == '\'' || s[0] == '"') && s.back() == s[0];
-    return quoted ? s.substr(1, s.size() - 2) : s;
-}
-
 std::string resolved(const std::string& from, std::string_view name) {
     return (std::filesystem::path(from).parent_path() / std::filesystem::path(name)).lexically_normal().string();
 }
@@ -51,9 +47,7 @@ class NetlistReader {
     Body *body_, *floor_;                                              // the one being read; what a file began in, which it cannot close
     std::size_t text_read_ = 0, opened_ = 0, subcircuit_depth_ = 0;
     bool ended_ = false;
-    std::string corner_;                  // "": none is asked for
-    bool cornered_ = false;               // some library has it
-    std::vector<std::string> libraries_;  // those that have it not: "'card.lib' has tt, ss"
+    Corner corner_;
 
 public:
     NetlistReader(ParsedNetlist& out, const Opener& open, std::string corner)
@@ -61,10 +55,8 @@ public:
 
     /// The netlist itself; then whether its libraries knew the corner.
     Result<void> read_all(std::string_view text, const std::string& path) {
-        if (auto ok = read(text, path, ""); !ok || corner_.empty() || cornered_) return ok;
-        if (libraries_.empty())
-            return bad_input(fmt::format("no line .lib 'file' section, so there is no corner '{}' to be had", corner_), {path});
-        return bad_input(fmt::format("no corner '{}': library {}", corner_, fmt::join(libraries_, "; ")), {path});
+        if (auto ok = read(text, path, ""); !ok) return ok;
+        return corner_.found(path);
     }
 
     Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
@@ -364,30 +356,6 @@ private:
         }
     }
 
-    /// The sections that a library's text has, but for those that only others of it read.
-    static std::vector<std::string> sections_in(std::string_view text) {
-        std::vector<std::string> out;
-        Lines lines(text, std::make_shared<const std::string>());
-        Line line;
-        for (auto more = lines.next(line); more && *more; more = lines.next(line)) {
-            if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
-            const auto head = command_statement(std::move(line));
-            if (head && head->words.size() == 2) out.push_back(lower(unquoted(head->text(1))));
-        }
-        return out;
-    }
-
-    /// The section to read of a library that the netlist, not a library, asks for.
-    std::string cornered(std::string_view library, std::string_view text, const std::string& section) {
-        const bool own = std::all_of(within_.begin(), within_.end(), [](const Source& s) { return s.section.empty(); });
-        if (corner_.empty() || section.empty() || !own) return section;
-        const auto known = sections_in(text);
-        if (std::find(known.begin(), known.end(), corner_) != known.end()) return cornered_ = true, corner_;
-        const std::vector<std::string_view> names(known.begin(), known.end());
-        libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(corner_, names)));
-        return section;
-    }
-
     Result<void> open(std::string_view name, std::string section, Place place) {
         ++opened_;
         const std::string path = resolved(within_.back().path, name);
@@ -401,7 +369,8 @@ private:
             text = std::make_shared<const std::string>(std::move(*opened));
         }
         const auto kept = text;
-        section = cornered(name, *kept, section);
+        const bool own = std::all_of(within_.begin(), within_.end(), [](const Source& s) { return s.section.empty(); });
+        if (own && !section.empty()) section = corner_.in_place_of(section, name, *kept);  // a library's own .lib lines stay as they are
         if (std::find(within_.begin(), within_.end(), Source{path, section}) != within_.end())
             return bad_input(fmt::format("'{}' includes itself", name), std::move(place));
         auto ok = read(*kept, path, section);

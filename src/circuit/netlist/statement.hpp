@@ -40,6 +40,12 @@ Result<Statement> element_statement(Line, bool (*whole)(char letter, std::string
 /// .param: nothing but pairs, of which names may be "f(x, y)" and values go on to the next pair.
 Result<Statement> assignments(Line);
 
+/// A word without the quotes about it.
+inline std::string_view unquoted(std::string_view s) {
+    const bool quoted = s.size() >= 2 && (s[0] == '\'' || s[0] == '"') && s.back() == s[0];
+    return quoted ? s.substr(1, s.size() - 2) : s;
+}
+
 /// All other dot lines: blanks and commas outside parentheses, quotes and braces part words; "a = 3" is one word.
 Result<Statement> command_statement(Line);
 
