@@ -1,5 +1,5 @@
 # The commands of the README. Each does its own set-up; see setup/packages for what is installed.
-.PHONY: demo build test bench fuzz format lint install pictures setup-run setup-test setup-bench release asan clean
+.PHONY: demo build test bench fuzz format lint install pictures reproduction setup-run setup-test setup-bench release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -42,6 +42,11 @@ format: setup-test
 lint: setup-test
 	cmake -B build/lint -G Ninja -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PCH=OFF
 	git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P 2 -n 4 clang-tidy-19 -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option
+
+# Every figure and table of the thesis beside what was printed: the page to look at, and the numbers as text.
+reproduction: build
+	@mkdir -p out
+	$(corpuscle) study all --quiet --report out/reproduction.html --markdown doc/reproduction.md
 
 install: build
 	cmake --install build/release --prefix $(PREFIX)

@@ -234,10 +234,14 @@ void add_compare(CLI::App& app, CompareWords& w, Common& common) {
 void add_study(CLI::App& app, StudyWords& w, Common& common) {
     auto& verb = *app.add_subcommand("study", "what others printed, made again and held against it");
     std::string known;
-    for (const auto& s : studies) known += fmt::format("\n  {:12} {}", s.name, s.title);
-    verb.footer("Studies:" + known + "\n\nExamples:\n  corpuscle study\n  corpuscle study kim nerve --report studies.html");
+    for (const auto* s : all_studies) known += fmt::format("\n  {:14} {}", s->name, s->title);
+    verb.footer("Studies:" + known +
+                "\n\nExamples:\n  corpuscle study all --report reproduction.html\n  corpuscle study fig24 table17 --report chips.html\n"
+                "  corpuscle study fig3 --json");
     verb.add_option("NAME", w.names, "which studies (default: all)");
-    verb.add_option("--report", w.report_file, "write a page to look at")->type_name("FILE.html");
+    verb.add_option("--report", w.report_file, "write a page to look at: figures to zoom into, what was printed beside what was made")
+        ->type_name("FILE.html");
+    verb.add_option("--markdown", w.markdown_file, "write all numbers as text")->type_name("FILE.md");
     add_common(verb, common);
 }
 

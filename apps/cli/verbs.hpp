@@ -43,7 +43,7 @@ struct CompareWords {
 
 struct StudyWords {
     std::vector<std::string> names;
-    std::string report_file;
+    std::string report_file, markdown_file;
 };
 
 struct RunWords {

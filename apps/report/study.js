@@ -12,26 +12,33 @@ function element(host, tag, kind = "", html = "") {
     return host.appendChild(made);
 }
 
-const value = (x, unit) => (x === null ? "\u2013" : quantity(x, unit, true));
-
-function allowed({low, high, unit}) {
-    if (low === null && high === null) return "\u2013";
-    if (low === null) return `\u2264 ${value(high, unit)}`;
-    if (high === null) return `\u2265 ${value(low, unit)}`;
-    return low === high ? value(low, unit) : `${value(low, unit)} \u2026 ${value(high, unit)}`;
+/// made, printed, deviation, allowed, as text; then the verdict, and where it is from and why.
+function claimCells({what, texts, verdict, source, note}) {
+    const told = texts.map((text) => `<td class="number">${escaped(text === "-" ? "\u2013" : text)}</td>`).join("");
+    const judged = `<td class="${{holds: "holds", agrees: "holds", differs: "fails", "does not hold": "fails"}[verdict] || ""}">${verdict}</td>`;
+    return `<td>${escaped(what)}</td>${told}${judged}<td class="unit">${escaped([source, note].filter(Boolean).join("; "))}</td>`;
 }
 
-function claimRow(claim) {
-    const cells = [escaped(claim.what), value(claim.made, claim.unit), value(claim.printed, claim.unit), allowed(claim)];
-    const verdict = `<td class="${claim.verdict === "holds" ? "holds" : "fails"}">${claim.verdict}</td>`;
-    const source = escaped([claim.source, claim.note].filter(Boolean).join("; "));
-    return `<tr>${cells.map((text, k) => `<td${k ? ' class="number"' : ""}>${text}</td>`).join("")}${verdict}<td class="unit">${source}</td></tr>`;
+function showTable(host, first, rows) {
+    const head = [...first, "", "made", "printed", "deviation", "allowed", "", "source, reason"].map((text) => `<th scope="col">${text}</th>`).join("");
+    element(host, "div", "scroll", `<table><thead><tr>${head}</tr></thead><tbody>${rows.map((row) => `<tr>${row}</tr>`).join("")}</tbody></table>`);
 }
 
 function showClaims(host, claims) {
-    if (!claims.length) return;
-    const head = ["", "made", "printed", "allowed", "", "source"].map((text) => `<th scope="col">${text}</th>`).join("");
-    element(host, "div", "scroll", `<table><thead><tr>${head}</tr></thead><tbody>${claims.map(claimRow).join("")}</tbody></table>`);
+    if (claims.length) showTable(host, [], claims.map(claimCells));
+}
+
+/// Of several studies, on top: every number that was printed, and every claim that does not hold.
+function showDeviations(host, studies) {
+    const rows = studies.flatMap(({name, claims}) => claims.filter(({printed, verdict}) => printed !== null || verdict === "does not hold")
+        .map((claim) => `<td><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
+    if (studies.length < 2 || !rows.length) return;
+    const verdicts = studies.flatMap(({claims}) => claims.map(({verdict}) => verdict));
+    const count = (verdict) => verdicts.filter((one) => one === verdict).length;
+    const section = element(host, "section");
+    element(section, "h2", "", `Printed and made <small>${count("agrees")} numbers agree within a tenth, ${count("differs")} differ by more; ` +
+        `${count("holds")} other claims hold, ${count("does not hold")} do not</small>`);
+    showTable(section, ["study"], rows);
 }
 
 /// One row a distinct x, one column a series; what a series does not have there is left open.
@@ -58,6 +65,7 @@ const logTicks = (lo, hi) => {
 function showPlot(host, plot) {
     const figure = element(host, "figure");
     element(figure, "figcaption", "", escaped(plot.title));
+    if (plot.printed) element(figure, "p", "printed", `Printed: ${escaped(plot.printed)}`);
     element(figure, "div", "key", plot.series.map(({name}, k) => `<span><span class="chip" style="background: ${colour(k)}"></span>${escaped(name)}</span>`).join(""));
     const raster = plot.series.every(({style}) => style === "raster");
     const series = plot.series.map((one) => ({...one, x: plot.log_x ? one.x.map(Math.log10) : one.x, y: plot.log_y ? one.y.map(Math.log10) : one.y}));
@@ -91,8 +99,10 @@ function tick(chart, name, context, x, y, color) {
 document.getElementById("title").textContent = data.title;
 document.getElementById("program").textContent = data.program;
 document.getElementById("command").textContent = data.command;
+showDeviations(document.getElementById("studies"), data.studies);
 for (const study of data.studies) {
     const host = element(document.getElementById("studies"), "section");
+    host.id = study.name;
     element(host, "h2", "", `${escaped(study.title)} <small>${escaped(study.question)}</small>`);
     showClaims(host, study.claims);
     const plots = element(host, "div", "plots");

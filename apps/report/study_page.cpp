@@ -1,62 +1,60 @@
 #include "report/study_page.hpp"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/template.hpp"
 #include "signal/version.hpp"
+#include "study/study_document.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
-Json numbers(const std::vector<double>& values) {
-    Json out = Json::array();
-    for (const double x : values) out.push_back(number(x));
+/// Of a long line its highest and lowest point in each stretch, so that no spike is lost and the page stays small.
+Plot::Series thinned(const Plot::Series& all) {
+    constexpr std::size_t stretches = 600;
+    if (all.style != Plot::Style::line || all.x.size() <= 2 * stretches) return all;
+    Plot::Series out{all.name, {}, {}, all.style};
+    for (std::size_t s = 0; s < stretches; ++s) {
+        const auto from = static_cast<std::ptrdiff_t>(s * all.y.size() / stretches),
+                   to = static_cast<std::ptrdiff_t>((s + 1) * all.y.size() / stretches);
+        const auto ends = std::minmax_element(all.y.begin() + from, all.y.begin() + to);
+        for (const auto at : {std::min(ends.first, ends.second), std::max(ends.first, ends.second)})
+            out.x.push_back(all.x[static_cast<std::size_t>(at - all.y.begin())]), out.y.push_back(*at);
+    }
     return out;
 }
 
-Json claim_document(const Claim& c) {
-    return {{"what", c.what},
-            {"made", number(c.made)},
-            {"unit", c.unit},
-            {"printed", number(c.printed)},
-            {"low", number(c.low)},
-            {"high", number(c.high)},
-            {"verdict", !c.judged() ? ""
-                        : c.holds() ? "holds"
-                                    : "does not hold"},
-            {"source", c.source},
-            {"note", c.note}};
+/// As many digits as a picture shows.
+Json shortened(Json values) {
+    for (auto& v : values)
+        if (v.is_number()) v = std::strtod(fmt::format("{:.6g}", v.get<double>()).c_str(), nullptr);
+    return values;
 }
 
-Json plot_document(const Plot& p) {
-    Json series = Json::array();
-    constexpr const char* styles[] = {"line", "points", "raster"};
-    for (const auto& s : p.series)
-        series.push_back({{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
-    return {{"title", p.title}, {"x", p.x_label}, {"y", p.y_label}, {"log_x", p.log_x}, {"log_y", p.log_y}, {"series", series}};
+Json for_the_page(const Study& study, Outcome outcome) {
+    for (auto& p : outcome.plots)
+        for (auto& s : p.series) s = thinned(s);
+    auto document = document_of(study, outcome);
+    for (auto& p : document["plots"])
+        for (auto& s : p["series"]) s["x"] = shortened(s["x"]), s["y"] = shortened(s["y"]);
+    for (std::size_t k = 0; k < outcome.claims.size(); ++k) {
+        const auto& c = outcome.claims[k];
+        document["claims"][k]["texts"] = {quantity_of(c.made, c), quantity_of(c.printed, c), deviation_of(c), allowed_of(c)};
+    }
+    return document;
 }
 
 }  // namespace
 
-std::string study_page(std::span<const Study> studies, std::span<const Outcome> outcomes, const std::string& command) {
+std::string study_page(std::span<const Study* const> studies, std::span<const Outcome> outcomes, const std::string& command) {
     Json all = Json::array();
-    for (std::size_t k = 0; k < studies.size(); ++k) {
-        Json claims = Json::array(), plots = Json::array();
-        for (const auto& c : outcomes[k].claims) claims.push_back(claim_document(c));
-        for (const auto& p : outcomes[k].plots) plots.push_back(plot_document(p));
-        all.push_back({{"name", studies[k].name},
-                       {"title", studies[k].title},
-                       {"question", studies[k].question},
-                       {"claims", claims},
-                       {"plots", plots},
-                       {"notes", outcomes[k].notes}});
-    }
-    const std::string title = studies.size() == 1 ? std::string(studies[0].title) : "Studies";
+    for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(for_the_page(*studies[k], outcomes[k]));
+    const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Every figure and table, made again";
     const Json document = {{"title", title}, {"program", "corpuscle " + std::string(version)}, {"command", command}, {"studies", all}};
     return filled(asset("study.html"), escaped(title), safe_json(document));
 }

@@ -6,15 +6,11 @@
 #include "signal/text.hpp"
 
 namespace corpuscle::circuit {
-namespace {
-
-Result<std::string> text_of(const std::string& path) {
+Result<std::string> carried_text(const std::string& path) {
     for (const auto& f : files)
         if (f.path == path) return std::string(f.begin, f.end);
     return bad_input(fmt::format("the program does not carry '{}'", path), {path});
 }
-
-}  // namespace
 
 const Carried* carried_netlist(std::string_view name) {
     for (const auto& c : carried_netlists)
@@ -25,9 +21,13 @@ const Carried* carried_netlist(std::string_view name) {
 Result<Netlist> open_netlist(const std::string& name_or_path, const std::string& corner) {
     const auto* carried = carried_netlist(name_or_path);
     if (carried == nullptr) return Netlist::read(name_or_path, corner);
-    auto text = text_of(std::string(carried->file));
+    auto text = carried_text(std::string(carried->file));
     if (!text) return text.error();
-    return Netlist::parse(std::move(*text), std::string(carried->file), text_of, corner);
+    return parse_carried(std::move(*text), std::string(carried->file), corner);
+}
+
+Result<Netlist> parse_carried(std::string text, std::string file, const std::string& corner) {
+    return Netlist::parse(std::move(text), std::move(file), carried_text, corner);
 }
 
 std::vector<std::string_view> carried_files() {

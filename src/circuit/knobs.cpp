@@ -228,33 +228,37 @@ Result<Measured> number_with_unit(std::string_view text) {
 }
 
 Result<Netlist> tuned(const std::string& name_or_path, std::span<const Knob> knobs) {
+    return tuned([&](const std::string& corner) { return open_netlist(name_or_path, corner); }, name_or_path, knobs);
+}
+
+Result<Netlist> tuned(const NetlistOpener& open, const std::string& name, std::span<const Knob> knobs) {
     Changes changes;
     for (const auto& knob : knobs)
         if (lower(knob.name) == "corner") {
             changes.corner = lower(trimmed(knob.value));
             if (changes.corner.empty()) return refused(knob, "no corner is named, such as ss");
         }
-    const auto netlist = open_netlist(name_or_path, changes.corner);
+    const auto netlist = open(changes.corner);
     if (!netlist) return of_corner(knobs, changes.corner, netlist.error());
     std::vector<std::string> parameters;
-    for (const auto& [name, text] : netlist->parameters()) parameters.push_back(name);
+    for (const auto& [own, text] : netlist->parameters()) parameters.push_back(own);
     std::vector<const Knob*> devices;
     for (const auto& knob : knobs) {
-        const auto name = lower(knob.name);
-        if (name == "corner") continue;
-        if (name == "temp") {
+        const auto what = lower(knob.name);
+        if (what == "corner") continue;
+        if (what == "temp") {
             const auto value = temperature_of(knob);
             if (!value) return value.error();
             changes.temperature = *value;
-        } else if (name == "mismatch") {
+        } else if (what == "mismatch") {
             const auto value = seed_of(knob);
             if (!value) return value.error();
             changes.mismatch = *value;
-        } else if (std::find(parameters.begin(), parameters.end(), name) != parameters.end()) {
-            if (auto ok = set_parameter(knob, name, changes); !ok) return ok.error();
+        } else if (std::find(parameters.begin(), parameters.end(), what) != parameters.end()) {
+            if (auto ok = set_parameter(knob, what, changes); !ok) return ok.error();
         } else if (knob.parameter_alone) {
             const std::vector<std::string_view> known(parameters.begin(), parameters.end());
-            return refused(knob, fmt::format("{} has no .param {}{}", name_or_path, name, did_you_mean(name, known)));
+            return refused(knob, fmt::format("{} has no .param {}{}", name, what, did_you_mean(what, known)));
         } else {
             devices.push_back(&knob);
         }

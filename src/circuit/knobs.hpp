@@ -19,6 +19,10 @@ struct Knob {
 /// The netlist of a name or path with the knobs set; a later one goes before an earlier one.
 Result<Netlist> tuned(const std::string& name_or_path, std::span<const Knob>);
 
+/// The same of a netlist that `open` reads for a corner; `name` is what errors call it.
+using NetlistOpener = std::function<Result<Netlist>(const std::string& corner)>;
+Result<Netlist> tuned(const NetlistOpener& open, const std::string& name, std::span<const Knob>);
+
 /// A number with the unit that people gave it, in SI: "4pF" is {4e-12, "F"}. M is mega here, and m milli.
 struct Measured {
     double value;

@@ -2,57 +2,61 @@
 // A study makes again what somebody printed, or asks a question of the models, and says what came out beside what was printed.
 
 #include <functional>
-#include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "signal/error.hpp"
+#include "study/claim.hpp"
+#include "study/plot.hpp"
 
 namespace corpuscle {
-
-/// A number made here, beside one that was printed.
-struct Claim {
-    std::string what;
-    double made = 0;
-    std::string unit = {};
-    double printed = std::numeric_limits<double>::quiet_NaN();          ///< NaN: only the range, or nothing, was printed
-    double low = std::numeric_limits<double>::quiet_NaN(), high = low;  ///< what is allowed, if that is said
-    std::string source = {};                                            ///< of what was printed
-    std::string note = {};                                              ///< why it differs, where it does
-
-    bool judged() const { return low == low || high == high; }
-    bool holds() const { return !(made < low) && !(made > high); }
-};
-
-/// Something to look at: lines, points or rows of spikes over a common axis.
-struct Plot {
-    enum class Style { line, points, raster };
-    struct Series {
-        std::string name;
-        std::vector<double> x, y;
-        Style style = Style::line;
-    };
-    std::string title, x_label, y_label;
-    std::vector<Series> series;
-    bool log_x = false, log_y = false;
-};
 
 struct Outcome {
     std::vector<Claim> claims;
     std::vector<Plot> plots;
     std::vector<std::string> notes;  ///< what was learned, and what is left out
+
+    /// A number made here; what it is held against follows: claim("V_Q", v, "V").printed_as(350.1e-3, "table 17").
+    Claim& claim(std::string what, double made, std::string unit = {}) {
+        return claims.emplace_back(Claim{.what = std::move(what), .made = made, .unit = std::move(unit)});
+    }
+    /// Whether something is as it was said to be.
+    Claim& finds(std::string what, bool is_so, std::string source) {
+        return claims.emplace_back(
+            Claim{.what = std::move(what), .made = is_so ? 1.0 : 0.0, .low = 1, .source = std::move(source), .is_truth = true});
+    }
+    Plot& plot(std::string title, std::string x_label, std::string y_label) {
+        return plots.emplace_back(Plot{std::move(title), std::move(x_label), std::move(y_label), {}});
+    }
+    void note(std::string text) { notes.push_back(std::move(text)); }
 };
 
 struct StudyOptions {
     /// Called with the share done, 0 to 1; false stops the study.
     std::function<bool(double)> keep_on = [](double) { return true; };
+
+    /// The same, as an error that a study hands on.
+    Result<void> at(double share) const { return keep_on(share) ? Result<void>() : Error{Code::interrupted, "interrupted"}; }
 };
 
 struct Study {
     std::string_view name, title;
-    std::string_view question;  ///< and where it comes from
-    Result<Outcome> (*run)(const StudyOptions&);
+    std::string_view question;  ///< what was printed, in words, or what is asked; and where it comes from
+    Result<Outcome> (*work)(const StudyOptions&);
+
+    /// Works, unless it is stopped before or after.
+    Result<Outcome> run(const StudyOptions& options) const {
+        if (auto ok = options.at(0); !ok) return ok.error();
+        auto outcome = work(options);
+        if (!outcome) return outcome;
+        if (auto ok = options.at(1); !ok) return ok.error();
+        return outcome;
+    }
 };
+
+/// All of them, several at once. The first error ends them all.
+Result<std::vector<Outcome>> run_studies(std::span<const Study* const>, const StudyOptions&);
 
 }  // namespace corpuscle

@@ -664,7 +664,7 @@ del Page  # not a test by itself
 class Studies(unittest.TestCase):
     def test_every_claim_has_a_row_and_every_plot_is_drawn(self):
         path = OUT / "studies.html"
-        subprocess.run([CORPUSCLE, "study", "classes", "kim", "--report", str(path), "--quiet"], check=True)
+        subprocess.run([CORPUSCLE, "study", "fig3", "kim", "--report", str(path), "--quiet"], check=True)
         data = data_of(path)
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
             options = webdriver.ChromeOptions()

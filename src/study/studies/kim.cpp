@@ -8,8 +8,7 @@
 #include "study/studies.hpp"
 #include "study/trains.hpp"
 
-namespace corpuscle {
-namespace {
+namespace corpuscle::studies::kim {
 
 struct Hold {
     double depth, interval, spread;  ///< mm, s, s (printed mean and SD)
@@ -36,9 +35,7 @@ std::pair<double, double> line() {
     return {current - product / square * depth, product / square};
 }
 
-}  // namespace
-
-Result<Outcome> study_kim(const StudyOptions& options) {
+Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto [beta, slope] = line();
     const double contact = -beta / slope;  // mm: below it the line's current is negative
@@ -78,4 +75,7 @@ Result<Outcome> study_kim(const StudyOptions& options) {
     return out;
 }
 
-}  // namespace corpuscle
+const Study study{"kim", "Kim's ramp and hold",
+                  "Can his equation give the intervals he printed? Kim et al. 2012, doi 10.1186/1743-0003-9-45", work};
+
+}  // namespace corpuscle::studies::kim

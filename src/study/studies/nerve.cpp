@@ -8,8 +8,7 @@
 #include "study/studies.hpp"
 #include "study/trains.hpp"
 
-namespace corpuscle {
-namespace {
+namespace corpuscle::studies::nerve {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr Stretch up{0.25, 0.375}, plateau{0.375, 0.625}, down{0.625, 0.75};
@@ -65,9 +64,7 @@ std::pair<double, double> best(const Plot::Series& curve) {
     return band;
 }
 
-}  // namespace
-
-Result<Outcome> study_nerve(const StudyOptions& options) {
+Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     if (auto ok = press(out); !ok) return ok.error();
     Plot plot{"Least vibration that is answered", "frequency (Hz)", "amplitude (mN)", {}, true, true};
@@ -81,6 +78,10 @@ Result<Outcome> study_nerve(const StudyOptions& options) {
         const auto [from, to] = best(*curve);
         out.claims.push_back({fmt::format("{}: most sensitive from", name), from, "Hz", none, low, high, source});
         out.claims.push_back({fmt::format("{}: most sensitive to", name), to, "Hz", none, low, high, source});
+        if (name != std::string_view("fa2"))
+            for (auto* c = &out.claims.back() - 1; c <= &out.claims.back(); ++c)
+                if (c->needs_reason())
+                    c->because("above their high-passes sa1 and fa1 are equally sensitive to all frequencies: no low-pass of the skin");
         plot.series.push_back(std::move(*curve));
     }
     out.plots.push_back(std::move(plot));
@@ -94,4 +95,6 @@ Result<Outcome> study_nerve(const StudyOptions& options) {
     return out;
 }
 
-}  // namespace corpuscle
+const Study study{"nerve", "What is known of the nerve", "Rates, adaptation and entrainment against the literature", work};
+
+}  // namespace corpuscle::studies::nerve

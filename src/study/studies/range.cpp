@@ -11,8 +11,7 @@
 #include "study/studies.hpp"
 #include "study/trains.hpp"
 
-namespace corpuscle {
-namespace {
+namespace corpuscle::studies::range {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* corners[] = {"tt", "ss", "ff", "sf", "fs"};
@@ -176,9 +175,7 @@ void draw(const char* chip, const char* along, const char* unit, std::span<const
     out.plots.push_back(std::move(rows)), out.plots.push_back(std::move(counts));
 }
 
-}  // namespace
-
-Result<Outcome> study_range(const StudyOptions& options) {
+Result<Outcome> work(const StudyOptions& options) {
     Map map;
     if (auto ok = map.run_all(options); !ok) return ok.error();
     Outcome out;
@@ -202,4 +199,8 @@ Result<Outcome> study_range(const StudyOptions& options) {
     return out;
 }
 
-}  // namespace corpuscle
+const Study study{
+    "range", "Where the chips work: supply, temperature, corners of the process",
+    "Between which supplies and temperatures do the two chips fire as they should under the press, and what stops them? Thesis E.2", work};
+
+}  // namespace corpuscle::studies::range

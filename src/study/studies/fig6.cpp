@@ -9,8 +9,7 @@
 #include "study/studies.hpp"
 #include "study/trains.hpp"
 
-namespace corpuscle {
-namespace {
+namespace corpuscle::studies::fig6 {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -44,9 +43,7 @@ Result<Apart> digital(const std::string& name, double bits, double rate) {
     return apart(*exact, *train);
 }
 
-}  // namespace
-
-Result<Outcome> study_resolution(const StudyOptions& options) {
+Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const double all_bits[] = {4, 6, 8, 10, 12, 14, 16}, rates[] = {100, 200, 500, 1e3, 2e3, 5e3, 10e3};
     Plot by_bits{"Error of spike times against bits, at 10 kHz", "bits", "rms error (ms)", {}, false, true};
@@ -83,4 +80,7 @@ Result<Outcome> study_resolution(const StudyOptions& options) {
     return out;
 }
 
-}  // namespace corpuscle
+const Study study{"fig6", "Bits and rate of a digital afferent, and the time of its spikes",
+                  "How many bits and how many samples a second does the mixed-signal way need? Thesis 1.3, fig. 6a against 6b", work};
+
+}  // namespace corpuscle::studies::fig6

@@ -8,8 +8,7 @@
 #include "study/studies.hpp"
 #include "study/trains.hpp"
 
-namespace corpuscle {
-namespace {
+namespace corpuscle::studies::fig8_9 {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr Stretch up{0.25, 0.375}, late{0.525, 0.625}, down{0.625, 0.75};
@@ -25,9 +24,7 @@ Plot::Series frequency(const std::string& name, const std::vector<double>& train
     return {name, {train.begin(), train.begin() + static_cast<std::ptrdiff_t>(rates.size())}, rates, Plot::Style::points};
 }
 
-}  // namespace
-
-Result<Outcome> study_earlier(const StudyOptions& options) {
+Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     Plot spikes{"Spikes under the press", "time (s)", "", {}}, rates{"Instantaneous frequency", "time (s)", "frequency (Hz)", {}};
     double done = 0;
@@ -57,4 +54,7 @@ Result<Outcome> study_earlier(const StudyOptions& options) {
     return out;
 }
 
-}  // namespace corpuscle
+const Study study{"fig8-9", "The two digital systems that came before, and the thesis's models, under the press",
+                  "What do Kim's and Lee's systems answer where the thesis's models answer? Thesis 2.2, 3.1, figs. 8 and 9", work};
+
+}  // namespace corpuscle::studies::fig8_9

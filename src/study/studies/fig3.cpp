@@ -5,16 +5,13 @@
 #include "study/studies.hpp"
 #include "study/trains.hpp"
 
-namespace corpuscle {
-namespace {
+namespace corpuscle::studies::fig3 {
 
 constexpr double on = 0.25, off = 0.75, later = 0.5;  // s: the step, its end, and when only the hold is left
 
 double count(const std::vector<double>& train, double from, double to) { return measure<SpikeCount>(train, {from, to}); }
 
-}  // namespace
-
-Result<Outcome> study_classes(const StudyOptions& options) {
+Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const Asked step{"sa1", "step", {"step.F_max=4N"}};
     const auto touch = touch_of(step);
@@ -47,4 +44,7 @@ Result<Outcome> study_classes(const StudyOptions& options) {
     return out;
 }
 
-}  // namespace corpuscle
+const Study study{"fig3", "The four classes of the skin under a step", "Which fire at the step, which through the hold? Thesis fig. 3",
+                  work};
+
+}  // namespace corpuscle::studies::fig3

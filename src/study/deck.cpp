@@ -1,0 +1,134 @@
+#include "study/deck.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+
+#include "circuit/analyses.hpp"
+#include "circuit/curves.hpp"
+#include "circuit/knobs.hpp"
+#include "circuit/variants.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+using namespace circuit;
+
+bool is_order(std::string_view line) {
+    if (!line.starts_with('.')) return false;
+    const auto word = lower(line.substr(1, line.find_first_of(" \t\r") - 1));
+    constexpr std::string_view others[] = {"meas", "print", "plot", "save", "step", "mc", "expect", "end"};
+    return analysis_of(word) != nullptr || std::find(std::begin(others), std::end(others), word) != std::end(others);
+}
+
+/// The text without its orders, and these lines in their place.
+std::string with_orders(const std::string& text, const std::string& orders) {
+    std::string out;
+    bool left_out = false, first = true;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        const auto line = std::string_view(text).substr(at, end - at);
+        if (!line.starts_with('+')) left_out = !first && is_order(line);
+        if (!left_out) out.append(line) += '\n';
+        first = false, at = end + 1;
+    }
+    return out + orders + "\n.end\n";
+}
+
+Result<Netlist> netlist_of(const Deck& deck) {
+    const bool own = deck.circuit.find('\n') != std::string::npos;
+    const auto file = own ? std::string("circuits/study.cir") : fmt::format("circuits/{}.cir", deck.circuit);
+    std::string text = deck.circuit;
+    if (!own) {
+        auto carried = carried_text(file);
+        if (!carried) return carried.error();
+        text = std::move(*carried);
+    }
+    if (!deck.orders.empty()) text = with_orders(text, deck.orders);
+    std::vector<Knob> knobs;
+    for (const auto& setting : deck.settings) {
+        const auto equals = setting.find('=');
+        if (equals == std::string::npos) return bad_input(fmt::format("'{}' sets nothing", setting));
+        knobs.push_back({setting.substr(0, equals), setting.substr(equals + 1), setting});
+    }
+    return tuned([&](const std::string& corner) { return parse_carried(text, file, corner); }, file, knobs);
+}
+
+}  // namespace
+
+Line Found::line(std::string_view analysis, const std::string& y) const { return line(analysis, y, ""); }
+
+Line Found::line(std::string_view analysis, const std::string& y, const std::string& over) const {
+    for (const auto& a : outcome.analyses) {
+        if (a.command->name != analysis || a.findings.plots.empty()) continue;
+        const auto& plot = a.findings.plots[0];
+        const auto values = values_of(plot, y);
+        const auto along = over.empty() ? std::optional(plot.curves[0].values) : values_of(plot, over);
+        if (!values || !along) return {};
+        Line out;
+        for (const auto& x : *along) out.x.push_back(x.real());
+        for (const auto& v : *values) out.y.push_back(v.real());
+        return out;
+    }
+    return {};
+}
+
+double Found::number(std::string_view name) const {
+    for (const auto& [known, value] : outcome.numbers)
+        if (known == name) return value;
+    for (const auto& a : outcome.analyses)
+        for (const auto& [known, value] : a.findings.numbers)
+            if (known == name) return value;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+double Found::at_rest(const std::string& name) const {
+    for (const auto& a : outcome.analyses)
+        if (a.command->name == "op" && !a.findings.plots.empty())
+            if (const auto values = values_of(a.findings.plots[0], name); values && !values->empty()) return (*values)[0].real();
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+Result<std::vector<Found>> all_found_in(const Deck& deck) {
+    const auto netlist = netlist_of(deck);
+    if (!netlist) return netlist.error();
+    auto variants = Variants::of(*netlist);
+    if (!variants) return variants.error();
+    std::vector<Found> out;
+    std::unique_ptr<TestBench> bench;
+    RunOrders orders;
+    orders.print = false;
+    for (std::size_t k = 0; k < variants->count(); ++k) {
+        auto variant = variants->at(k);
+        if (!variant) return variant.error();
+        if (!bench || bench->circuit != variant->circuit) {
+            auto made = TestBench::make(variant->circuit);
+            if (!made) return made.error();
+            bench = std::move(*made);
+        }
+        bench->brief = true;
+        if (variant->draw) bench->draw(*variant->draw);
+        auto outcome = circuit::run(*bench, orders);
+        if (!outcome && outcome.error().code == Code::not_converged && variants->count() > 1) continue;
+        if (!outcome) return outcome.error();
+        out.push_back({variant->label, variant->circuit, std::move(*outcome)});
+    }
+    return out;
+}
+
+Result<Found> found_in(const Deck& deck) {
+    auto all = all_found_in(deck);
+    if (!all) return all.error();
+    return std::move(all->front());
+}
+
+Result<std::shared_ptr<const Circuit>> circuit_of(const Deck& deck) {
+    const auto netlist = netlist_of(deck);
+    if (!netlist) return netlist.error();
+    auto circuit = netlist->elaborate();
+    if (!circuit) return circuit.error();
+    return std::make_shared<const Circuit>(std::move(*circuit));
+}
+
+}  // namespace corpuscle

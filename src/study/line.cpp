@@ -1,0 +1,77 @@
+#include "study/line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corpuscle {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+double Line::at(double where) const {
+    if (empty() || !(where >= x.front() && where <= x.back())) return none;
+    const auto after = std::lower_bound(x.begin(), x.end(), where);
+    const auto k = static_cast<std::size_t>(after - x.begin());
+    if (x[k] == where) return y[k];
+    return y[k - 1] + (y[k] - y[k - 1]) * (where - x[k - 1]) / (x[k] - x[k - 1]);
+}
+
+double Line::where(double level, double from) const {
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        if (x[k] < from) continue;
+        if (y[k] == level) return x[k];
+        if (k + 1 < x.size() && (y[k] - level) * (y[k + 1] - level) < 0)
+            return x[k] + (x[k + 1] - x[k]) * (level - y[k]) / (y[k + 1] - y[k]);
+    }
+    return none;
+}
+
+Line Line::slope() const {
+    Line out;
+    for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+        const double before = x[k] - x[k - 1], after = x[k + 1] - x[k];
+        const double left = (y[k] - y[k - 1]) / before, right = (y[k + 1] - y[k]) / after;
+        out.x.push_back(x[k]), out.y.push_back((left * after + right * before) / (before + after));
+    }
+    return out;
+}
+
+Line Line::times(double of_x, double of_y) const {
+    Line out = *this;
+    for (double& v : out.x) v *= of_x;
+    for (double& v : out.y) v *= of_y;
+    return out;
+}
+
+Line Line::absolute() const {
+    Line out = *this;
+    for (double& v : out.y) v = std::abs(v);
+    return out;
+}
+
+Line Line::between(double from, double to) const {
+    Line out;
+    for (std::size_t k = 0; k < x.size(); ++k)
+        if (x[k] >= from && x[k] <= to) out.x.push_back(x[k]), out.y.push_back(y[k]);
+    return out;
+}
+
+double Line::least() const { return empty() ? none : *std::min_element(y.begin(), y.end()); }
+double Line::most() const { return empty() ? none : *std::max_element(y.begin(), y.end()); }
+
+double Line::peak() const { return empty() ? none : x[static_cast<std::size_t>(std::max_element(y.begin(), y.end()) - y.begin())]; }
+
+Line::Straight Line::straight() const {
+    const auto n = static_cast<double>(x.size());
+    double mean_x = 0, mean_y = 0, product = 0, square = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) mean_x += x[k] / n, mean_y += y[k] / n;
+    for (std::size_t k = 0; k < x.size(); ++k) product += (x[k] - mean_x) * (y[k] - mean_y), square += (x[k] - mean_x) * (x[k] - mean_x);
+    Straight out{mean_y - product / square * mean_x, product / square, 0};
+    for (std::size_t k = 0; k < x.size(); ++k) out.farthest = std::max(out.farthest, std::abs(y[k] - out.at_zero - out.slope * x[k]));
+    return out;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,36 @@
+#pragma once
+// Something to look at: lines, points or rows of spikes over a common axis.
+
+#include <string>
+#include <vector>
+
+#include "study/line.hpp"
+
+namespace corpuscle {
+
+struct Plot {
+    enum class Style { line, points, raster };
+    struct Series {
+        std::string name;
+        std::vector<double> x, y;
+        Style style = Style::line;
+    };
+    std::string title, x_label, y_label;
+    std::vector<Series> series;
+    bool log_x = false, log_y = false;
+    std::string printed = {};  ///< what was printed of it, in words: its shape
+
+    Plot& add(std::string name, Line line, Style style = Style::line) {
+        series.push_back({std::move(name), std::move(line.x), std::move(line.y), style});
+        return *this;
+    }
+    Plot& points(std::string name, Line line) { return add(std::move(name), std::move(line), Style::points); }
+    /// A row of spikes at these times.
+    Plot& row(std::string name, std::vector<double> times) {
+        series.push_back({std::move(name), std::move(times), {}, Style::raster});
+        return *this;
+    }
+    Plot& shape(std::string words) { return printed = std::move(words), *this; }
+};
+
+}  // namespace corpuscle

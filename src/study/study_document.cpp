@@ -1,0 +1,111 @@
+#include "study/study_document.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json numbers(const std::vector<double>& values) {
+    Json out = Json::array();
+    for (const double x : values) out.push_back(number(x));
+    return out;
+}
+
+Json document_of(const Claim& c) {
+    return {{"what", c.what},
+            {"made", c.is_truth ? Json(c.made > 0) : number(c.made)},
+            {"unit", c.unit},
+            {"printed", number(c.printed)},
+            {"deviation", number(c.deviation())},
+            {"low", c.is_truth ? Json(nullptr) : number(c.low)},
+            {"high", number(c.high)},
+            {"verdict", c.verdict()},
+            {"source", c.source},
+            {"note", c.note}};
+}
+
+Json document_of(const Plot& p) {
+    Json series = Json::array();
+    constexpr const char* styles[] = {"line", "points", "raster"};
+    for (const auto& s : p.series)
+        series.push_back({{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
+    return {{"title", p.title}, {"printed", p.printed}, {"x", p.x_label},  {"y", p.y_label},
+            {"log_x", p.log_x}, {"log_y", p.log_y},     {"series", series}};
+}
+
+/// A cell of a Markdown table.
+std::string cell(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '|') out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+/// How many claims came out in each way.
+std::string tally(std::span<const Outcome> outcomes) {
+    std::vector<std::pair<std::string, int>> counts = {{"agrees", 0}, {"differs", 0}, {"holds", 0}, {"does not hold", 0}};
+    for (const auto& outcome : outcomes)
+        for (const auto& c : outcome.claims)
+            for (auto& [verdict, count] : counts) count += verdict == c.verdict();
+    return fmt::format(
+        "{} numbers agree within a tenth with what was printed, {} differ by more; {} other claims hold, {} do not. Each that differs or "
+        "does not hold says why, if that is known.",
+        counts[0].second, counts[1].second, counts[2].second, counts[3].second);
+}
+
+void put_table(std::string& text, const Outcome& outcome) {
+    if (outcome.claims.empty()) return;
+    text += "| | made | printed | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
+    for (const auto& c : outcome.claims)
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.what), quantity_of(c.made, c), quantity_of(c.printed, c),
+                            deviation_of(c), allowed_of(c), c.verdict(),
+                            cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
+    text += '\n';
+}
+
+void put_deviations(std::string& text, std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
+    text += "| study | what | made | printed | deviation | reason, if more than a tenth |\n|---|---|---|---|---|---|\n";
+    for (std::size_t k = 0; k < studies.size(); ++k)
+        for (const auto& c : outcomes[k].claims)
+            if (!std::isnan(c.printed))
+                text +=
+                    fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} |\n", studies[k]->name, cell(c.what), quantity_of(c.made, c),
+                                quantity_of(c.printed, c), deviation_of(c), c.needs_reason() ? cell(c.note) : "");
+}
+
+}  // namespace
+
+Json document_of(const Study& study, const Outcome& outcome) {
+    Json claims = Json::array(), plots = Json::array();
+    for (const auto& c : outcome.claims) claims.push_back(document_of(c));
+    for (const auto& p : outcome.plots) plots.push_back(document_of(p));
+    return {{"name", study.name}, {"title", study.title}, {"question", study.question},
+            {"claims", claims},   {"plots", plots},       {"notes", outcome.notes}};
+}
+
+std::string markdown_of(std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
+    std::string text = fmt::format(
+        "# Every figure and table, made again\n\nMade by `corpuscle study all` (`make reproduction` writes this page, and with its "
+        "pictures "
+        "`out/reproduction.html`); no number on it is typed in but the printed ones. {}\n\n## Numbers that were printed\n\n",
+        tally(outcomes));
+    put_deviations(text, studies, outcomes);
+    for (std::size_t k = 0; k < studies.size(); ++k) {
+        text += fmt::format("\n## {}\n\n**{}.** {}\n\n", studies[k]->name, studies[k]->title, studies[k]->question);
+        put_table(text, outcomes[k]);
+        for (const auto& p : outcomes[k].plots)
+            text += fmt::format("- Picture: {}.{}\n", p.title, p.printed.empty() ? "" : fmt::format(" Printed: {}", p.printed));
+        for (const auto& n : outcomes[k].notes) text += fmt::format("- {}\n", n);
+    }
+    return text;
+}
+
+}  // namespace corpuscle
