@@ -16,8 +16,8 @@ build: setup-run
 	@cmake --build --preset release --target corpuscle-cli
 
 test: release asan
-	ctest --test-dir build/release --output-on-failure -j 2
-	ctest --test-dir build/asan --output-on-failure -j 2 -LE once
+	ctest --test-dir build/release --output-on-failure -j 3
+	ctest --test-dir build/asan --output-on-failure -j 3 -LE once
 	$(MAKE) fuzz FUZZ_SECONDS=5
 
 release: setup-test

@@ -11,12 +11,12 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-double Line::at(double where) const {
-    if (empty() || !(where >= x.front() && where <= x.back())) return none;
-    const auto after = std::lower_bound(x.begin(), x.end(), where);
+double Line::at(double place) const {
+    if (empty() || !(place >= x.front() && place <= x.back())) return none;
+    const auto after = std::lower_bound(x.begin(), x.end(), place);
     const auto k = static_cast<std::size_t>(after - x.begin());
-    if (x[k] == where) return y[k];
-    return y[k - 1] + (y[k] - y[k - 1]) * (where - x[k - 1]) / (x[k] - x[k - 1]);
+    if (x[k] == place) return y[k];
+    return y[k - 1] + (y[k] - y[k - 1]) * (place - x[k - 1]) / (x[k] - x[k - 1]);
 }
 
 double Line::where(double level, double from) const {

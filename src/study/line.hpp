@@ -11,12 +11,12 @@ struct Line {
 
     bool empty() const { return x.empty(); }
     /// Between two pairs a straight line; beyond the ends NaN.
-    double at(double x) const;
+    double at(double place) const;
     /// The first x, from `from` on, at which y passes through the level.
     double where(double level, double from = -1e300) const;
     /// dy/dx at every pair but the ends: of the parabola through it and its neighbours.
     Line slope() const;
-    double slope_at(double x) const { return slope().at(x); }
+    double slope_at(double place) const { return slope().at(place); }
     Line times(double of_x, double of_y) const;
     Line absolute() const;
     /// The pairs from one x to another.

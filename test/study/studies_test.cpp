@@ -93,5 +93,51 @@ TEST(Studies, AClaimIsJudgedByWhatIsAllowedAndByNothingElse) {
     EXPECT_TRUE(c.holds());
 }
 
+TEST(Studies, AClaimTellsHowFarItIsFromWhatWasPrinted) {
+    Outcome out;
+    const auto claim = [&](double made, double printed) { return out.claim("x", made, "V").printed_as(printed, "there"); };
+    EXPECT_STREQ(claim(1.09, 1).verdict(), "agrees");
+    EXPECT_STREQ(claim(1.11, 1).verdict(), "differs");
+    EXPECT_STREQ(claim(-1.11, -1).verdict(), "differs");
+    EXPECT_STREQ(claim(0.5, 0).verdict(), "");
+    EXPECT_STREQ(claim(std::numeric_limits<double>::quiet_NaN(), 1).verdict(), "");
+    EXPECT_EQ(deviation_of(claim(0.75, 1)), "-25.0 %");
+    EXPECT_EQ(deviation_of(claim(-0.75, -1)), "+25.0 %");
+    EXPECT_STREQ(out.claim("y", 3).at_most(2, "there").verdict(), "does not hold");
+    EXPECT_STREQ(out.finds("so", true, "there").verdict(), "holds");
+    EXPECT_STREQ(out.finds("so", false, "there").verdict(), "does not hold");
+}
+
+TEST(Studies, AClaimIsWrittenInItsUnit) {
+    Outcome out;
+    EXPECT_EQ(quantity_of(2e-9, out.claim("a", 2e-9, "A")), "2 nA");
+    EXPECT_EQ(quantity_of(0.02, out.claim("b", 0.02, "%")), "0.02 %");
+    EXPECT_EQ(quantity_of(1, out.finds("c", true, "there")), "yes");
+    EXPECT_EQ(allowed_of(out.claim("d", 1, "V").between(0.5, 2, "there")), "500 mV to 2 V");
+    EXPECT_EQ(allowed_of(out.claim("e", 1, "V").at_least(0.5, "there")), "at least 500 mV");
+    EXPECT_EQ(allowed_of(out.claim("f", 1)), "-");
+}
+
+Result<Outcome> fails(const StudyOptions&) { return bad_input("no such thing"); }
+Result<Outcome> succeeds(const StudyOptions&) { return Outcome{}; }
+
+TEST(Studies, TheFirstErrorEndsThemAllAndNamesItsStudy) {
+    const Study good{"good", "", "", succeeds}, bad{"bad", "", "", fails};
+    const Study* all[] = {&good, &bad, &good};
+    const auto outcomes = run_studies(all, {});
+    ASSERT_FALSE(outcomes);
+    EXPECT_EQ(outcomes.error().sentence, "bad: no such thing");
+}
+
+TEST(Studies, TheirTextKeepsItsTableWhateverIsInIt) {
+    const Study study{"s", "A title", "A question", succeeds};
+    const Study* all[] = {&study};
+    Outcome out;
+    out.claim("|a| over b", 1, "V").printed_as(2, "table 1").because("x | y");
+    const auto text = markdown_of(all, std::span(&out, 1));
+    EXPECT_NE(text.find("| \\|a\\| over b | 1 V | 2 V | -50.0 % | - | differs | table 1; x \\| y |\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("0 numbers agree within a tenth with what was printed, 1 differ by more"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace corpuscle
