@@ -1,0 +1,30 @@
+#!/usr/bin/python3
+"""How long does it take to make every figure and table again?   studies.py CORPUSCLE
+
+`corpuscle study all`, a whole process, three times; then without the studies that draw chips by the thousand. Wall time
+and processor time, the middle of three. Asked: 60 s on two cores without the draws, 90 s with them.
+"""
+import json
+import resource
+import statistics
+import subprocess
+import sys
+import time
+
+PROGRAM = sys.argv[1]
+DRAWN = {"table12", "table15", "table17-18"}
+
+
+def timed(names):
+    runs = []
+    for _ in range(3):
+        spent, began = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()
+        subprocess.run([PROGRAM, "study", *names, "--quiet"], check=True)
+        runs.append((time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - spent))
+    return [statistics.median(kind) for kind in zip(*runs)]
+
+
+names = [study["name"] for study in json.loads(subprocess.run([PROGRAM, "study", "all", "--json", "--quiet"], check=True, capture_output=True).stdout)]
+for label, chosen in (("all", names), ("without those that draw chips", [n for n in names if n not in DRAWN])):
+    wall, processor = timed(chosen)
+    print(f"corpuscle study, {label} ({len(chosen)}): {wall:.1f} s, {processor:.1f} s of processor")
