@@ -52,6 +52,12 @@ Line Line::absolute() const {
     return out;
 }
 
+Line Line::inverse() const {
+    Line out = *this;
+    for (double& v : out.y) v = 1 / v;
+    return out;
+}
+
 Line Line::between(double from, double to) const {
     Line out;
     for (std::size_t k = 0; k < x.size(); ++k)

@@ -19,6 +19,7 @@ struct Line {
     double slope_at(double x) const { return slope().at(x); }
     Line times(double of_x, double of_y) const;
     Line absolute() const;
+    Line inverse() const;  ///< 1/y
     /// The pairs from one x to another.
     Line between(double from, double to) const;
     double least() const;
