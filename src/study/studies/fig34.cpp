@@ -1,10 +1,9 @@
 // SA-I's analog signal processing under the press, fig. 34: what its three paths make of the transducer's current.
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "study/beside.hpp"
-#include "study/deck.hpp"
+#include "study/oscillator_alone.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::fig34 {
@@ -49,24 +48,19 @@ void tell_dynamic(const Found& found, const std::string& name, const char* curve
 Result<void> tell_comparator(Outcome& out) {
     const auto found = found_in({"rectifier_sa", {}, ".dc vhp 0.34 0.36 0.1m updown"});
     if (!found) return found.error();
-    const auto en = found->line("dc", "v(xb.en)");
-    const auto turn = static_cast<std::size_t>(std::max_element(en.x.begin(), en.x.end()) - en.x.begin());
-    const Line up{{en.x.begin(), en.x.begin() + static_cast<std::ptrdiff_t>(turn) + 1},
-                  {en.y.begin(), en.y.begin() + static_cast<std::ptrdiff_t>(turn) + 1}};
-    const Line down{{en.x.rbegin(), en.x.rend() - static_cast<std::ptrdiff_t>(turn)},
-                    {en.y.rbegin(), en.y.rend() - static_cast<std::ptrdiff_t>(turn)}};
-    out.claim("comparator: closes at a filter's output of", up.where(0.35), "V"), out.claim("... opens at", down.where(0.35), "V");
-    out.claim("... hysteresis there", up.where(0.35) - down.where(0.35), "V")
-        .between(0, 10e-3, "thesis 4.3.1: a small hysteresis; 10 mV of signals of 30 to 200 mV is set here");
+    const auto en = hysteresis_in(*found, "v(xb.en)");
+    out.claim("comparator: closes at a filter's output of", en.V_H, "V"), out.claim("... opens at", en.V_L, "V");
+    out.claim("... hysteresis there", en.V_H - en.V_L, "V")
+        .between(0.1e-3, 10e-3, "thesis 4.3.1: a small hysteresis; 0.1 to 10 mV beside signals of 30 to 200 mV is set here");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto found = found_in({"asp_sa1",
-                                 {},
-                                 ".save v(vf) v(hpb) v(hpc) i(vi) i(via) i(vib) i(vic) v(xrectb.en) v(xrectc.en) i(xccvs.mp3a)\n.op\n"
-                                 ".force press\n.tran 1m 1 0 5m"});
+    const auto found =
+        found_in({"asp_sa1",
+                  {},
+                  ".save v(vf) v(hpb) v(hpc) i(vi) i(via) i(vib) i(vic) v(xrectb.en) v(xrectc.en) i(xccvs.mp3a)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
     if (auto ok = options.at(0.5); !ok) return ok.error();
     tell_static(*found, out);

@@ -31,7 +31,7 @@ Result<void> tell_gains(Outcome& out) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto found = found_in({"asp_fa1", {}, ".save v(vf) v(hpc) i(vi) i(via) i(vib) v(xrect.en)\n.op\n.force press\n.tran 1m 1 0 5m"});
+    const auto found = found_in({"asp_fa1", {}, ".save v(vf) v(hpc) i(vi) i(via) i(vib) v(xrect.en)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
     if (auto ok = tell_gains(out); !ok) return ok.error();
     if (auto ok = options.at(0.8); !ok) return ok.error();
