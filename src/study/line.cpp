@@ -65,6 +65,15 @@ Line Line::between(double from, double to) const {
     return out;
 }
 
+Line Line::every(double step) const {
+    Line out;
+    for (std::size_t k = 0; !empty() && x[0] + static_cast<double>(k) * step <= x.back(); ++k) {
+        out.x.push_back(x[0] + static_cast<double>(k) * step);
+        out.y.push_back(at(out.x.back()));
+    }
+    return out;
+}
+
 double Line::least() const { return empty() ? none : *std::min_element(y.begin(), y.end()); }
 double Line::most() const { return empty() ? none : *std::max_element(y.begin(), y.end()); }
 

@@ -22,6 +22,8 @@ struct Line {
     Line inverse() const;  ///< 1/y
     /// The pairs from one x to another.
     Line between(double from, double to) const;
+    /// At even steps from its first x on.
+    Line every(double step) const;
     double least() const;
     double most() const;
     /// The x of the largest y.

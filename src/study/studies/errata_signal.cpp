@@ -56,7 +56,7 @@ Result<void> tell_weights(Outcome& out) {
         .because("table 6 sizes M2 of I_C for a gain of 1 (errata S9a)");
     out.claim("S9a: ... M2 of I_C 4x8, as intended here", B / C_mended, "times").printed_as(4, "thesis 3.3: 8 and 2");
     // I_F/2 goes through INVB's conductance into V_F, from there into I_N: I_N is I_F/2 over what INVC divides by
-    const double divides = invc->line("dc", "i(vb)").slope_at(0.35) / -invc->line("dc", "i(vhalf)").slope_at(0.35);
+    const double divides = invc->line("dc", "i(vb)").slope_at(0.35) / invc->line("dc", "i(vhalf)").slope_at(0.35);
     const auto k_A = [&](const char* curve) { return summer->line("dc", curve).at(1.2e-6) / 1.2e-6 * divides; };
     out.claim("S10a: K_B / k_A by tables 6 and 7", B / k_A("i(va)"), "times")
         .printed_as(8, "thesis 3.3: 8 uA/N and 1 uA/N")
@@ -111,10 +111,11 @@ Result<void> tell_chips(const StudyOptions& options, Outcome& out) {
         if (!*train) return train->error();
     if (!with_M6) return with_M6.error();
     if (auto ok = options.at(0.9); !ok) return ok;
-    tell_chip("SA-I, tables' sizes, 5 pA, 1.8 pF", *as_printed, *sa1,
-              "I_A is 6 pA against a leak of 5 pA and what the switches leak, and so does not hold the plateau; I_C's gain is half (errata "
-              "S9a, S10a)",
-              out);
+    tell_chip(
+        "SA-I, tables' sizes, 5 pA, 1.8 pF", *as_printed, *sa1,
+        "I_A is hardly more than the leak of 5 pA and what the switches leak, and so does not hold the plateau; I_C's gain is half (errata "
+        "S9a, S10a)",
+        out);
     tell_chip("SA-I as intended", *as_mended, *sa1, "see fig40", out);
     tell_chip(
         "FA-I, table 8's sizes, 5 pA, 5.4 pF", *fa_printed, *fa1,

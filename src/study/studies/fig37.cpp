@@ -35,7 +35,9 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!found) return found.error();
     if (auto ok = tell_gains(out); !ok) return ok.error();
     if (auto ok = options.at(0.8); !ok) return ok.error();
-    const auto I_A = found->line("tran", "i(via)"), I_B = found->line("tran", "i(vib)"), I = found->line("tran", "i(vi)");
+    // at even steps, so that the pulses of microseconds with which its switches turn are told apart
+    const auto all = found->line("tran", "i(vi)"), I = all.every(0.5e-3);
+    const auto I_A = found->line("tran", "i(via)").every(0.5e-3), I_B = found->line("tran", "i(vib)").every(0.5e-3);
     const auto model = told_of({.afferent = "fa1", .traces = {"I"}});
     if (!model) return model.error();
     const auto& wanted = model->traces.at("I");
@@ -57,6 +59,8 @@ Result<Outcome> work(const StudyOptions& options) {
             fmt::format("the comparator, which turns its input with what the filter has, changes over {:.0f} ms after the force begins to "
                         "fall; so long the source gives back, {:.0f} pA at the most",
                         1e3 * (turns - 0.625), -1e12 * I.least()));
+    out.claim("glitch as the comparator turns, falling: the largest, for microseconds",
+              all.between(turns - 1e-3, turns + 1e-3).absolute().most(), "A");
     out.plot("37a, the filter's output", "time (s)", "V")
         .shape("V_HP follows the ramps both ways")
         .add("V_HP", found->line("tran", "v(hpc)"))

@@ -45,6 +45,7 @@ std::string pattern(const std::vector<double>& t) {
 /// The last place along a way at which it works, and why not beyond; NaN: at none.
 struct End {
     double last = Claim::none;
+    std::size_t places = 0;  ///< of the way, at which it works
     std::string beyond = "nothing stops it in the range tried";
 };
 
@@ -84,15 +85,21 @@ public:
         spots_.push_back(run({supply, celsius, better_switches}));
         return spots_.back();
     }
-    /// How far along a way from the usual place, where it works: its far end first, then by halves; between two places at which it works it
-    /// is taken to.
-    End end_of(const std::vector<double>& way, double usual, const std::function<const Spot&(double)>& there) {
-        if (there(way.back()).works) return {way.back()};
-        std::size_t good = 0, bad = way.size();  // counted from 1; 0 is the usual place
-        while (bad - good > 1) (there(way[(good + bad) / 2 - 1]).works ? good : bad) = (good + bad) / 2;
+    /// How far along a way from the usual place, where it works; by halves, or the way's end first. `good`: so many of its places are known
+    /// to work.
+    using There = std::function<const Spot&(double)>;
+    End end_of(const std::vector<double>& way, double usual, const There& there, bool end_first = false, std::size_t good = 0) {
+        std::size_t bad = way.size() + 1;
+        if (end_first) (there(way.back()).works ? good : bad) = way.size();
+        while (bad - good > 1) {
+            const auto middle = (good + bad) / 2;
+            (there(way[middle - 1]).works ? good : bad) = middle;
+        }
+        End out{good == 0 ? usual : way[good - 1], good};
+        if (bad > way.size()) return out;
         const auto& stopped = there(way[bad - 1]);
         const auto spikes = pattern(stopped.told.spikes);
-        return {good == 0 ? usual : way[good - 1], fmt::format("{}: {}", spikes, reason(stopped))};
+        return out.beyond = fmt::format("{}: {}", spikes, reason(stopped)), out;
     }
 
     struct Ends {
@@ -103,13 +110,14 @@ public:
         const auto heat = [this](double T) -> const Spot& { return at(usual_supply, T); };
         const auto better = [this](double T) -> const Spot& { return at(usual_supply, T, true); };
         if (at(usual_supply, usual_temperature).works) {
-            ends.low = end_of(lower, usual_supply, volts), ends.high = end_of(higher, usual_supply, volts);
-            ends.cold = end_of(colder, usual_temperature, heat), ends.hot = end_of(hotter, usual_temperature, heat);
+            ends.low = end_of(lower, usual_supply, volts), ends.high = end_of(higher, usual_supply, volts, true);
+            ends.cold = end_of(colder, usual_temperature, heat, true), ends.hot = end_of(hotter, usual_temperature, heat);
         } else {
             ends.hot.beyond = fmt::format("{}: {}", pattern(at(usual_supply, usual_temperature).told.spikes),
                                           reason(at(usual_supply, usual_temperature)));
         }
-        if (!std::isnan(ends.hot.last) || better(usual_temperature).works) ends.hot_with_better = end_of(hotter, usual_temperature, better);
+        if (!std::isnan(ends.hot.last) || better(usual_temperature).works)
+            ends.hot_with_better = end_of(hotter, usual_temperature, better, false, ends.hot.places);
     }
 };
 
@@ -169,8 +177,8 @@ Result<Outcome> work(const StudyOptions& options) {
     out.notes = {
         fmt::format(
             "{} presses, of which {} did not converge. Tried are 0.5 to 0.9 V in steps of 50 mV at 27 C and -55, -25, 0, 27, 50, 75, 100 "
-            "and 125 C at 0.7 V: the far end first, then by halves, so that a range ends between two neighbours, and between two places "
-            "at which a chip works it is taken to work.",
+            "and 125 C at 0.7 V, by halves: a range ends between two neighbours, between two places at which a chip works it is taken "
+            "to work, and with better switches to work wherever it does without them.",
             presses, lost),
         "Spikes are told as protraction / plateau / retraction / after. It works: silent at rest; SA-I fires while the press rises and in "
         "the last "
