@@ -41,9 +41,9 @@ void tell_dynamic(const Found& found, const std::string& name, const char* curve
     const double opens = en.between(0.63, 1).where(0.35);
     if (least.needs_reason())
         least.because(
-            fmt::format("while its switch is closed it gives back what M5A leaks ({:.1f} pA at 500 ms), and the comparator opens it only "
+            fmt::format("while its switch is closed it gives back what M5A leaks ({:.1f} pA at 620 ms), and the comparator opens it only "
                         "{:.0f} ms after the force begins to fall, as it turns capacitances with picoamperes; {:.1f} pA then",
-                        1e12 * I.at(0.5), 1e3 * (opens - 0.625), 1e12 * I.least()));
+                        1e12 * I.at(0.62), 1e3 * (opens - 0.625), 1e12 * I.least()));
     const double closes = en.where(0.35, 0.25);
     out.claim(name + "'s glitch as its switch closes: the largest, for microseconds",
               all.between(closes - 1e-3, closes + 1e-3).absolute().most(), "A");
@@ -60,7 +60,7 @@ double largest_step(const Line& line) {
 }
 
 Result<void> tell_comparator(Outcome& out) {
-    const auto found = found_in({"rectifier_sa", {}, ".dc vhp 0.34 0.36 0.1m updown"});
+    const auto found = found_in({"rectifier_sa", {}, ".dc vhp 0.347 0.354 0.1m updown"});
     if (!found) return found.error();
     const auto en = hysteresis_in(*found, "v(xb.en)");
     out.claim("comparator: closes at a filter's output of", en.V_H, "V"), out.claim("... opens at", en.V_L, "V");
@@ -86,10 +86,11 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto I = found->line("tran", "i(vi)").every(step), I_A = found->line("tran", "i(via)").every(step);
     out.claim("I at its most", I.most(), "A");
     if (auto ok = tell_comparator(out); !ok) return ok.error();
-    Plot& a = out.plot("34a, voltages", "time (s)", "V").shape("V_F as the force, V_HPB over with the ramps, V_HPC slower");
+    Plot& a = out.plot("34a, voltages", "time (s)", "V")
+                  .shape("V_F, V_HPB (there V_HPA) and V_HPC (V_HPB) under the press; no more of it is in the text");
     for (const auto& [name, curve] : {std::pair{"V_F", "v(vf)"}, {"V_HPB", "v(hpb)"}, {"V_HPC", "v(hpc)"}})
         a.add(name, found->line("tran", curve));
-    Plot& b = out.plot("34b, currents", "time (s)", "pA").shape("I_A as the force; I_B and I_C while it rises, rectified; their sum I");
+    Plot& b = out.plot("34b, currents", "time (s)", "pA").shape("I_A, I_B and I_C, which make up I");
     b.add("I_A", I_A.times(1, 1e12)).add("I_B", I_B.times(1, 1e12)).add("I_C", I_C.times(1, 1e12)).add("I", I.times(1, 1e12));
     out.finds("I has a glitch where the rectifiers switch, I_A has none: the largest step of I_A in 10 us is less than a tenth of I_B's",
               largest_step(found->line("tran", "i(via)")) < 0.1 * largest_step(found->line("tran", "i(vib)")), "thesis 4.4, errata S18");

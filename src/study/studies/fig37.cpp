@@ -62,12 +62,12 @@ Result<Outcome> work(const StudyOptions& options) {
     out.claim("glitch as the comparator turns, falling: the largest, for microseconds",
               all.between(turns - 1e-3, turns + 1e-3).absolute().most(), "A");
     out.plot("37a, the filter's output", "time (s)", "V")
-        .shape("V_HP follows the ramps both ways")
+        .shape("V_HP; no more of it is in the text")
         .add("V_HP", found->line("tran", "v(hpc)"))
         .add("V_F", found->line("tran", "v(vf)"));
     const double scale = up.most() / model_up.most();
     out.plot("37b, currents", "time (s)", "pA")
-        .shape("I_A while the force rises, I_B while it falls, both positive")
+        .shape("I_A and I_B, rectified, which make up I")
         .add("I_A", I_A.times(1, 1e12))
         .add("I_B", I_B.times(1, 1e12))
         .add("the model's I, as high where it rises", wanted.times(1, scale * 1e12));

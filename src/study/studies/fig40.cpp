@@ -71,11 +71,11 @@ Result<Outcome> work(const StudyOptions& options) {
     if (auto ok = options.at(0.9); !ok) return ok.error();
     tell_pattern(*b, *tight, out), tell_glitches(b->chip, out);
     const auto& traces = b->chip.traces;
-    Plot& in = out.plot("40a, input signals", "time (s)", "pA").shape("I is the sum; a glitch at each firing, and one at the beginning");
+    Plot& in = out.plot("40a, input signals", "time (s)", "pA").shape("glitches in I at each firing, and one at its beginning");
     for (const auto& [name, curve] : {std::pair{"I", "i(vi)"}, {"I_A", "i(via)"}, {"I_B", "i(vib)"}, {"I_C", "i(vic)"}})
         in.add(name, traces.at(curve).times(1, 1e12));
     out.plot("40b, membrane and output", "time (s)", "V")
-        .shape("u falls from the supply and is filled at each s")
+        .shape("u is charged very fast at each s")
         .add("u", traces.at("v(u)"))
         .add("s", traces.at("v(s)"));
     out.plot("Frequency beside the model's of fig. 17c", "time (s)", "frequency (Hz)")

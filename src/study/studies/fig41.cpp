@@ -43,9 +43,9 @@ Result<Outcome> work(const StudyOptions& options) {
         .because(
             "its membrane is three times SA-I's and so filled at a third of the speed, which draws a third of the current through the "
             "rectifier's capacitances");
-    out.plot("41a, input", "time (s)", "pA").shape("I in both ramps, with a glitch at each firing").add("I", I.times(1, 1e12));
+    out.plot("41a, input", "time (s)", "pA").shape("similar to SA-I's").add("I", I.times(1, 1e12));
     out.plot("41b, membrane and output", "time (s)", "V")
-        .shape("as SA-I's, firing in the ramps")
+        .shape("similar to the model's firing pattern")
         .add("u", b->chip.traces.at("v(u)"))
         .add("s", b->chip.traces.at("v(s)"));
     out.plot("Frequency beside the model's of fig. 18c", "time (s)", "frequency (Hz)")
