@@ -34,7 +34,7 @@ Result<void> tell_delay(const Hysteresis& t, Outcome& out) {
               source);
     out.finds("the faster the membrane falls, the farther below V_L it goes", std::is_sorted(below.y.begin(), below.y.end()), source);
     out.claim("at 850 pA it falls below V_L by", 1e-3 * below.y.back(), "V");
-    out.plot("Beyond the window", "I (pA)", "mV").shape("not printed").points("below V_L", below).points("above V_H", above).log_x = true;
+    out.plot("Beyond the window", "I (pA)", "mV").points("below V_L", below).points("above V_H", above).log_x = true;
     return {};
 }
 
@@ -102,7 +102,7 @@ m4b vdd out n   bnf nch w=1.5u l=0.5u m=8
 )";
 
 Result<void> tell_body_bias(const Hysteresis& t, Outcome& out) {
-    Plot& plot = out.plot("The window under forward body bias", "bulks lifted by (V)", "threshold (V)").shape("not printed");
+    Plot& plot = out.plot("The window under forward body bias", "bulks lifted by (V)", "threshold (V)");
     for (const auto& [name, knob] : {std::pair{"all six", "all"}, {"those in feedback", "feedback"}}) {
         Line high, low;
         for (const double by : {0.0, 0.1, 0.2, 0.3, 0.37}) {

@@ -65,7 +65,6 @@ Result<void> eq_16_18(Outcome& out) {
         .printed_as(V_F.at(1.6e-6) - V_F.at(1.4e-6), "made here by the circuit")
         .because("A times S is no V; (16) divides (errata S2)");
     out.plot("V_F along I_F, and (18)", "I_F (uA)", "V_F (V)")
-        .shape("not printed as a curve")
         .add("circuit", V_F.times(1e6, 1))
         .add("(18), divided by G_m1", by_18.times(1e6, 1));
     return {};
@@ -114,10 +113,7 @@ Result<void> eq_17_19(Outcome& out) {
     out.claim("with k_N of (19) as printed, 1/k_N = product, filter B's corner", G / (N.printed * last) / (2 * pi * 0.8e-12), "Hz")
         .between(27, 33, "thesis 4.3.1: 30 Hz, a tenth either way")
         .because("k_N of (17) is the small one; (19) prints its inverse (errata S5)");
-    out.plot("|H| of the filters, and (17) with their own corners", "frequency (Hz)", "magnitude")
-        .shape("not printed as a curve")
-        .add("B", H_B)
-        .add("C", H_C);
+    out.plot("|H| of the filters, and (17) with their own corners", "frequency (Hz)", "magnitude").add("B", H_B).add("C", H_C);
     auto& p = out.plots.back();
     p.log_x = p.log_y = true;
     for (const auto& [name, corner] : {std::pair{"(17), B", found->number("f_b")}, {"(17), C", found->number("f_c")}}) {

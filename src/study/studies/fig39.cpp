@@ -88,7 +88,6 @@ Result<void> tell_frequency(const Hysteresis& t, const StudyOptions& options, Ou
     Line wanted;
     for (const double I : currents) wanted.x.push_back(I), wanted.y.push_back(law(I, O::I_LEAK, O::C, swing));
     auto& p = out.plot("Frequency along the current", "I (pA)", "frequency (Hz)")
-                  .shape("not printed as a curve; by (6) it rises as I - I_LEAK")
                   .points("switches as printed", plain->frequency.times(1e12, 1))
                   .points("switches of the higher threshold", better->frequency.times(1e12, 1))
                   .add("the law with 2 pA, 1.8 pF and the trigger's window", wanted.times(1e12, 1));

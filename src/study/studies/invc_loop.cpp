@@ -57,7 +57,7 @@ void tell(const std::string& name, const Loop& loop, Outcome& out) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    auto& gain = out.plot("Gain of the loop", "frequency (Hz)", "dB").shape("not printed");
+    auto& gain = out.plot("Gain of the loop", "frequency (Hz)", "dB");
     gain.log_x = true;
     Plot phase{"Phase left before it is -180 degrees", "frequency (Hz)", "degrees", {}, true};
     for (const auto& [name, farad] : {std::pair{"filter B, 0.8 pF", 0.8e-12}, {"filter C, 8.8 pF", 8.8e-12}, {"no capacitor", 1e-18}}) {
@@ -68,10 +68,10 @@ Result<Outcome> work(const StudyOptions& options) {
             out.finds("it inverts: three times in all", std::abs(loop->phase.y[0] - 180) < 5, source);
         }
         tell(name, *loop, out);
-        gain.add(name, loop->dB), phase.add(name, loop->phase.between(0, 1e6));
+        gain.add(name, loop->dB.between(0.1, 1e5)), phase.add(name, loop->phase.between(0.1, 1e5));
         if (auto ok = options.at(0.3); !ok) return ok.error();
     }
-    out.plots.push_back(std::move(phase.shape("not printed")));
+    out.plots.push_back(std::move(phase));
     out.note(
         "The loop is opened between output and input by an inductance that closes it at rest; margins are of the loop as the filter has "
         "it, whose "

@@ -78,7 +78,7 @@ Result<Outcome> work(const StudyOptions& options) {
             "table 9's switches are 2x1 of 0.45 V with the card of ours; the foundry's leak less or its switches are of another kind: the "
             "thesis does not say");
     out.finds("with switches of the higher threshold it is so", better->P.at(27) < 0.5e-12, "the same");
-    auto& p = out.plot("What pulls up a membrane, along temperature", "temperature (C)", "pA").shape("not printed");
+    auto& p = out.plot("What pulls up a membrane, along temperature", "temperature (C)", "pA");
     p.add("a P switch that is off", plain->P.times(1, 1e12)).add("... of the higher threshold", better->P.times(1, 1e12));
     p.add("an N switch that is off", plain->N.times(1, 1e12));
     p.add("all that pulls up SA-I's membrane", plain->membrane.times(1, 1e12))

@@ -36,7 +36,7 @@ Result<void> tell_sizes(Outcome& out) {
     out.claim("table 16: the replica carries, at 200 nA", q, "A").printed_as(I_BIASB, "thesis E.2: I_Q is I_BIAS");
     out.claim("table 16: V_BN at 200 nA", by_16->at_rest("v(bn)"), "V").between(100e-3, 600e-3, "thesis E.2: 100 to 600 mV over its range");
     out.claim("V_REF", by_16->at_rest("v(ref)"), "V").printed_as(V_DD / 2, "thesis 4.3.1, errata S12: half of V_DD, V_SS being 0");
-    Plot& p = out.plot("The replica's current along I_BIASB", "I_BIASB (nA)", "I_Q (nA)").shape("not printed for table 4; equal");
+    Plot& p = out.plot("The replica's current along I_BIASB", "I_BIASB (nA)", "I_Q (nA)");
     p.add("table 4 as printed", by_4->line("dc", "i(vis6)").between(0, 3).times(1e3, 1e9));
     p.add("table 4, N arrays of 1.5 um", by_4->line("dc", "i(vis1)").between(0, 3).times(1e3, 1e9)).add("equal", {{20, 3000}, {20, 3000}});
     p.log_x = p.log_y = true;
