@@ -16,7 +16,7 @@ struct Line {
     double where(double level, double from = -1e300) const;
     /// dy/dx at every pair but the ends: of the parabola through it and its neighbours.
     Line slope() const;
-    double slope_at(double x) const { return slope().at(x); }
+    double slope_at(double there) const { return slope().at(there); }
     Line times(double of_x, double of_y) const;
     Line absolute() const;
     Line inverse() const;  ///< 1/y

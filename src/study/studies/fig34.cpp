@@ -60,7 +60,20 @@ double largest_step(const Line& line) {
 }
 
 Result<void> tell_comparator(Outcome& out) {
-    const auto found = found_in({"rectifier_sa", {}, ".dc vhp 0.347 0.354 0.1m updown"});
+    const auto found = found_in({R"(The comparator of I_B's rectifier
+.lib '../process/tsmc180.lib' tt
+.include 'parts/transconductor.inc'
+.include 'parts/trigger.inc'
+.include 'parts/signal.inc'
+vdd vdd 0 0.7
+xbias vdd pgb bp bn bias
+ibb pgb 0 200n
+vu u 0 0.35
+vhp hp 0 0.35
+xres hp hp gp gn vdd bp bn invc
+xb gp gn u vdd rectifier_sa
+.dc vhp 0.347 0.354 0.1m updown
+)"});
     if (!found) return found.error();
     const auto en = hysteresis_in(*found, "v(xb.en)");
     out.claim("comparator: closes at a filter's output of", en.V_H, "V"), out.claim("... opens at", en.V_L, "V");

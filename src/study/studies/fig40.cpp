@@ -9,7 +9,6 @@
 
 namespace corpuscle::studies::fig40 {
 
-constexpr auto source = "thesis 4.4, fig. 40";
 using P = PressPhases;
 
 void tell_pattern(const Beside& b, const std::vector<double>& tight, Outcome& out) {

@@ -9,7 +9,6 @@
 
 namespace corpuscle::studies::table4 {
 
-constexpr auto source = "thesis 4.3.1, fig. 27";
 constexpr double I_BIASB = 200e-9, V_DD = 0.7;  // A, V
 
 /// The replica's current and the body voltages, of both sizes.
