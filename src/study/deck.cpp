@@ -55,6 +55,13 @@ Result<Netlist> netlist_of(const Deck& deck) {
     return tuned([&](const std::string& corner) { return parse_carried(text, file, corner); }, file, knobs);
 }
 
+std::shared_ptr<const Circuit> with_models(const Circuit& circuit, const Values& numbers) {
+    auto out = std::make_shared<Circuit>(circuit);
+    for (auto& model : out->models)
+        for (const auto& [name, value] : numbers) model.values[name] = value;
+    return out;
+}
+
 }  // namespace
 
 Line Found::line(std::string_view analysis, const std::string& y) const { return line(analysis, y, ""); }
@@ -102,6 +109,7 @@ Result<std::vector<Found>> all_found_in(const Deck& deck) {
     for (std::size_t k = 0; k < variants->count(); ++k) {
         auto variant = variants->at(k);
         if (!variant) return variant.error();
+        if (!deck.of_models.empty()) variant->circuit = with_models(*variant->circuit, deck.of_models);
         if (!bench || bench->circuit != variant->circuit) {
             auto made = TestBench::make(variant->circuit);
             if (!made) return made.error();

@@ -13,7 +13,12 @@ struct Deck {
     std::vector<std::string> settings = {};  ///< "i_bias=100n", "temp=85", "corner=ss", "m1a.w=2um": as --set has them
     /// Lines put in place of the netlist's analyses, measures, .print, .save, .step, .mc and expectations; empty: its own.
     std::string orders = {};
+    /// Numbers of the card that are set in every model: `ideal_mirrors`.
+    circuit::Values of_models = {};
 };
+
+/// Without length modulation and velocity saturation mirrors divide by their ratios.
+inline const circuit::Values ideal_mirrors = {{"ve", 1e30}, {"zetal", 0}};
 
 /// What was found of one circuit.
 struct Found {

@@ -52,10 +52,25 @@ Line Line::absolute() const {
     return out;
 }
 
+Line Line::inverse() const {
+    Line out = *this;
+    for (double& v : out.y) v = 1 / v;
+    return out;
+}
+
 Line Line::between(double from, double to) const {
     Line out;
     for (std::size_t k = 0; k < x.size(); ++k)
         if (x[k] >= from && x[k] <= to) out.x.push_back(x[k]), out.y.push_back(y[k]);
+    return out;
+}
+
+Line Line::every(double step) const {
+    Line out;
+    for (std::size_t k = 0; !empty() && x[0] + static_cast<double>(k) * step <= x.back(); ++k) {
+        out.x.push_back(x[0] + static_cast<double>(k) * step);
+        out.y.push_back(at(out.x.back()));
+    }
     return out;
 }
 

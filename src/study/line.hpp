@@ -19,8 +19,11 @@ struct Line {
     double slope_at(double place) const { return slope().at(place); }
     Line times(double of_x, double of_y) const;
     Line absolute() const;
+    Line inverse() const;  ///< 1/y
     /// The pairs from one x to another.
     Line between(double from, double to) const;
+    /// At even steps from its first x on.
+    Line every(double step) const;
     double least() const;
     double most() const;
     /// The x of the largest y.

@@ -4,198 +4,188 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <deque>
+#include <mutex>
 
-#include "measure/measures.hpp"
 #include "signal/pool.hpp"
+#include "study/beside.hpp"
 #include "study/studies.hpp"
-#include "study/trains.hpp"
 
 namespace corpuscle::studies::range {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* corners[] = {"tt", "ss", "ff", "sf", "fs"};
-constexpr double supplies[] = {0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9};        // V
-constexpr double temperatures[] = {-55, -25, 0, 27, 50, 75, 100, 125};                  // C
-constexpr double usual_supply = 0.7, usual_temperature = 27;                            // V, C
-constexpr double up = 0.25, held = 0.375, late = 0.525, down = 0.625, released = 0.75;  // s, of the press; late: the plateau's last 100 ms
+using P = PressPhases;
+constexpr const char *chips[] = {"sa1-circuit", "fa1-circuit"}, *corners[] = {"tt", "ss", "ff", "sf", "fs"};
+constexpr double usual_supply = 0.7, usual_temperature = 27;  // V, C
+// outwards from there
+const std::vector<double> lower = {0.65, 0.6, 0.55, 0.5}, higher = {0.75, 0.8, 0.85, 0.9}, colder = {0, -25, -55},
+                          hotter = {50, 75, 100, 125};
 
 /// One chip under the press somewhere.
 struct Spot {
-    const char* chip;
-    const char* corner;
-    double supply, celsius;
-    Told told{}, with_better_switches{};
+    double supply = usual_supply, celsius = usual_temperature;
+    bool better_switches = false;
+    Told told{};
     std::string failed{};  // "", or why it did not converge
-
-    Asked asked(bool better_switches) const {
-        const auto set = [&](const std::string& what) { return fmt::format("{}.{}", chip, what); };
-        return {chip,
-                "press",
-                {set(fmt::format("supply={}", supply)), set(fmt::format("temp={}", celsius)), set(fmt::format("corner={}", corner)),
-                 set(fmt::format("hv_switches={:d}", better_switches))}};
-    }
+    bool works = false;
 };
-
-double count(const std::vector<double>& train, double from, double to) { return measure<SpikeCount>(train, {from, to}); }
 
 /// Silent at rest; SA-I fires while the press rises and to the plateau's end and not after, FA-I in both ramps and not at the plateau's
 /// end.
-bool works(const char* chip, const std::vector<double>& t) {
-    if (count(t, 0, up) > 0 || count(t, up, held) == 0) return false;
-    if (std::string_view(chip).starts_with("sa1")) return count(t, late, down) > 0 && count(t, released, 1) == 0;
-    return count(t, late, down) == 0 && count(t, down, released) > 0;
-}
-
-void run(Spot& spot) {
-    auto told = told_of(spot.asked(false));
-    if (!told) return void(spot.failed = told.error().text());
-    spot.told = std::move(*told);
-    if (works(spot.chip, spot.told.spikes)) return;
-    if (auto better = told_of(spot.asked(true))) spot.with_better_switches = std::move(*better);
-}
-
-/// Why it does not work there, as far as two trials tell.
-std::string reason(const Spot& p) {
-    if (!p.failed.empty()) return p.failed;
-    if (works(p.chip, p.with_better_switches.spikes))
-        return "switches that are off leak as much as the membrane's own leak: with hv_switches=1 it works";
-    std::string out;
-    for (const auto& meaning : p.told.outside) out += (out.empty() ? "" : "; ") + meaning;
-    return out.empty() ? "its currents are too small or too large, though nothing is saturated" : out;
+bool as_it_should(std::string_view chip, const std::vector<double>& t) {
+    if (spikes_in(t, P::rest) > 0 || spikes_in(t, P::up) == 0) return false;
+    if (chip.starts_with("sa1")) return spikes_in(t, P::late) > 0 && spikes_in(t, P::after) == 0;
+    return spikes_in(t, P::late) == 0 && spikes_in(t, P::down) > 0;
 }
 
 std::string pattern(const std::vector<double>& t) {
-    return fmt::format("{:g} / {:g} / {:g} / {:g}", count(t, up, held), count(t, held, down), count(t, down, released),
-                       count(t, released, 1));
+    return fmt::format("{:g} / {:g} / {:g} / {:g}", spikes_in(t, P::up), spikes_in(t, P::hold), spikes_in(t, P::down),
+                       spikes_in(t, P::after));
 }
 
-class Map {
-    std::vector<Spot> spots_;
+/// The last place along a way at which it works, and why not beyond; NaN: at none.
+struct End {
+    double last = Claim::none;
+    std::size_t places = 0;  ///< of the way, at which it works
+    std::string beyond = "nothing stops it in the range tried";
+};
+
+/// A chip in a corner, tried here and there; what was tried is kept.
+class Tried {
+    const char *chip_, *corner_;
+    std::deque<Spot> spots_;  // references stay good
+
+    std::string setting(const char* what, auto value) const { return fmt::format("{}.{}={}", chip_, what, value); }
+    Spot run(Spot spot) const {
+        auto told = told_of({chip_,
+                             "press",
+                             {setting("supply", spot.supply), setting("temp", spot.celsius), setting("corner", corner_),
+                              setting("hv_switches", spot.better_switches ? 1 : 0)}});
+        if (!told) return spot.failed = told.error().text(), spot;
+        spot.told = std::move(*told), spot.works = as_it_should(chip_, spot.told.spikes);
+        return spot;
+    }
+    /// Why it does not work there, as far as another trial tells.
+    std::string reason(const Spot& spot) {
+        if (!spot.failed.empty()) return spot.failed;
+        std::string out;
+        for (const auto& meaning : spot.told.outside) out += (out.empty() ? "" : "; ") + meaning;
+        if (out.empty() && !spot.better_switches && at(spot.supply, spot.celsius, true).works)
+            return "switches that are off leak as much as the membrane's own leak: with hv_switches=1 it works";
+        return out.empty() ? "its currents are too small or too large, though nothing is saturated" : out;
+    }
 
 public:
-    Map() {
-        for (const char* chip : {"sa1-circuit", "fa1-circuit"})
-            for (const char* corner : corners) {
-                for (const double v : supplies) spots_.push_back({chip, corner, v, usual_temperature});
-                for (const double T : temperatures)
-                    if (T != usual_temperature) spots_.push_back({chip, corner, usual_supply, T});
-            }
+    Tried(const char* chip, const char* corner) : chip_(chip), corner_(corner) {}
+    std::string name() const { return fmt::format("{}, {}", chip_, corner_); }
+    const std::deque<Spot>& spots() const { return spots_; }
+
+    const Spot& at(double supply, double celsius, bool better_switches = false) {
+        for (const auto& s : spots_)
+            if (s.supply == supply && s.celsius == celsius && s.better_switches == better_switches) return s;
+        spots_.push_back(run({supply, celsius, better_switches}));
+        return spots_.back();
     }
-    Result<void> run_all(const StudyOptions& options) {
-        constexpr std::size_t at_once = 10;
-        Pool pool;
-        for (std::size_t from = 0; from < spots_.size(); from += at_once) {
-            pool.each(std::min(at_once, spots_.size() - from), [&](std::size_t k, unsigned) { run(spots_[from + k]); });
-            if (!options.keep_on(static_cast<double>(from) / static_cast<double>(spots_.size())))
-                return Error{Code::interrupted, "interrupted"};
+    /// How far along a way from the usual place, where it works; by halves, or the way's end first. `good`: so many of its places are known
+    /// to work.
+    using There = std::function<const Spot&(double)>;
+    End end_of(const std::vector<double>& way, double usual, const There& there, bool end_first = false, std::size_t good = 0) {
+        std::size_t bad = way.size() + 1;
+        if (end_first) (there(way.back()).works ? good : bad) = way.size();
+        while (bad - good > 1) {
+            const auto middle = (good + bad) / 2;
+            (there(way[middle - 1]).works ? good : bad) = middle;
         }
-        return {};
+        End out{good == 0 ? usual : way[good - 1], good};
+        if (bad > way.size()) return out;
+        const auto& stopped = there(way[bad - 1]);
+        const auto spikes = pattern(stopped.told.spikes);
+        return out.beyond = fmt::format("{}: {}", spikes, reason(stopped)), out;
     }
-    const Spot& at(std::string_view chip, std::string_view corner, double supply, double celsius) const {
-        return *std::find_if(spots_.begin(), spots_.end(), [&](const Spot& p) {
-            return p.chip == chip && p.corner == corner && p.supply == supply && p.celsius == celsius;
-        });
+
+    struct Ends {
+        End low, high, cold, hot, hot_with_better;
+    } ends;
+    void search() {
+        const auto volts = [this](double v) -> const Spot& { return at(v, usual_temperature); };
+        const auto heat = [this](double T) -> const Spot& { return at(usual_supply, T); };
+        const auto better = [this](double T) -> const Spot& { return at(usual_supply, T, true); };
+        if (at(usual_supply, usual_temperature).works) {
+            ends.low = end_of(lower, usual_supply, volts), ends.high = end_of(higher, usual_supply, volts, true);
+            ends.cold = end_of(colder, usual_temperature, heat, true), ends.hot = end_of(hotter, usual_temperature, heat);
+        } else {
+            ends.hot.beyond = fmt::format("{}: {}", pattern(at(usual_supply, usual_temperature).told.spikes),
+                                          reason(at(usual_supply, usual_temperature)));
+        }
+        if (!std::isnan(ends.hot.last) || better(usual_temperature).works)
+            ends.hot_with_better = end_of(hotter, usual_temperature, better, false, ends.hot.places);
     }
-    const std::vector<Spot>& spots() const { return spots_; }
 };
 
-bool works_as_it_is(const Spot& s) { return works(s.chip, s.told.spikes); }
-/// Where the plain switches do not, those of the higher threshold may.
-bool works_some_way(const Spot& s) { return works_as_it_is(s) || works(s.chip, s.with_better_switches.spikes); }
-
-/// The first and the last value of an axis between which the chip works, from its usual place outwards, and why not beyond.
-struct Ends {
-    double low = none, high = none;
-    std::string below = "nothing stops it in the range tried", above = below;
-};
-template <class At>
-Ends ends_of(std::span<const double> axis, double usual, const At& at, bool (*good)(const Spot&) = works_as_it_is,
-             Told Spot::* tried = &Spot::told) {
-    Ends out;
-    const auto middle = std::find(axis.begin(), axis.end(), usual);
-    if (!good(at(usual))) return out.below = out.above = reason(at(usual)), out;
-    for (auto x = middle;; --x) {
-        if (!good(at(*x))) {
-            out.below = fmt::format("{}: {}", pattern((at(*x).*tried).spikes), reason(at(*x)));
-            break;
-        }
-        out.low = *x;
-        if (x == axis.begin()) break;
-    }
-    for (auto x = middle; x != axis.end(); ++x) {
-        if (!good(at(*x))) {
-            out.above = fmt::format("{}: {}", pattern((at(*x).*tried).spikes), reason(at(*x)));
-            break;
-        }
-        out.high = *x;
-    }
-    return out;
-}
-
-void claim(const Map& map, const char* chip, const char* corner, Outcome& out) {
-    const auto name = fmt::format("{}, {}", chip, corner);
-    const auto by_supply = [&](double v) -> const Spot& { return map.at(chip, corner, v, usual_temperature); };
-    const auto by_temperature = [&](double T) -> const Spot& { return map.at(chip, corner, usual_supply, T); };
-    const auto volts = ends_of(supplies, usual_supply, by_supply);
-    const auto heat = ends_of(temperatures, usual_temperature, by_temperature);
-    const auto best = ends_of(temperatures, usual_temperature, by_temperature, works_some_way, &Spot::with_better_switches);
-    const auto& usual = map.at(chip, corner, usual_supply, usual_temperature).told.spikes;
-    out.claims.push_back({name + ": spikes of the press at 0.7 V, 27 C", static_cast<double>(usual.size()), "", none, none, none, "",
-                          works_as_it_is(map.at(chip, corner, usual_supply, usual_temperature))
-                              ? pattern(usual)
-                              : pattern(usual) + ": does not work; " + volts.below});
-    const auto add = [&](std::string what, double made, const char* unit, const std::string& why) {
-        if (std::isnan(made)) return;
-        out.claims.push_back({name + ": " + std::move(what), made, unit, none, none, none, "", why});
+void tell(Tried& t, Outcome& out) {
+    const auto& usual = t.at(usual_supply, usual_temperature);
+    const auto spikes = pattern(usual.told.spikes);
+    out.claim(t.name() + ": spikes of the press at 0.7 V, 27 C", static_cast<double>(usual.told.spikes.size()))
+        .because(usual.works ? spikes : "does not work; " + t.ends.hot.beyond);
+    const auto add = [&](const char* what, const End& end, const char* unit) {
+        if (!std::isnan(end.last)) out.claim(t.name() + ": " + what, end.last, unit).because(end.beyond);
     };
-    add("works at 27 C down to", volts.low, "V", volts.below), add("up to", volts.high, "V", volts.above);
-    add("works at 0.7 V down to", heat.low, "C", heat.below), add("up to", heat.high, "C", heat.above);
-    add("with hv_switches=1 up to", best.high, "C", best.above);
+    add("works at 27 C down to", t.ends.low, "V"), add("up to", t.ends.high, "V");
+    add("works at 0.7 V down to", t.ends.cold, "C"), add("up to", t.ends.hot, "C");
+    add("with hv_switches=1 up to", t.ends.hot_with_better, "C");
 }
 
-/// Spikes along one axis, and how many there are of them in each corner.
-template <class At>
-void draw(const char* chip, const char* along, const char* unit, std::span<const double> axis, const At& at, Outcome& out) {
-    Plot rows{
-        fmt::format("{}: the press at several {}, typical process", chip, along), "time (s)", fmt::format("{} ({})", along, unit), {}};
-    Plot::Series as_is{"as it is", {}, {}, Plot::Style::points},
-        better{"where that does not work: hv_switches=1", {}, {}, Plot::Style::points};
-    for (const double x : axis) {
-        for (const double t : at("tt", x).told.spikes) as_is.x.push_back(t), as_is.y.push_back(x);
-        for (const double t : at("tt", x).with_better_switches.spikes) better.x.push_back(t), better.y.push_back(x);
-    }
-    rows.series = {std::move(as_is), std::move(better)};
-    Plot counts{fmt::format("{}: spikes under the press", chip), fmt::format("{} ({})", along, unit), "spikes", {}};
-    for (const char* corner : corners) {
-        Plot::Series series{corner, {}, {}};
-        for (const double x : axis) series.x.push_back(x), series.y.push_back(static_cast<double>(at(corner, x).told.spikes.size()));
-        counts.series.push_back(std::move(series));
-    }
-    out.plots.push_back(std::move(rows)), out.plots.push_back(std::move(counts));
+/// The spikes of those tried along one axis, in the typical corner.
+void draw(const Tried& t, const char* along, const char* unit, double Spot::* axis, double Spot::* other, double usual, Outcome& out) {
+    Line as_is, better;
+    for (const auto& spot : t.spots())
+        for (const double at : spot.told.spikes) {
+            if (spot.*other != usual) continue;
+            auto& line = spot.better_switches ? better : as_is;
+            line.x.push_back(at), line.y.push_back(spot.*axis);
+        }
+    out.plot(fmt::format("{}: the press at several {}", t.name(), along), "time (s)", fmt::format("{} ({})", along, unit))
+        .points("as it is", as_is)
+        .points("hv_switches=1", better);
 }
 
 Result<Outcome> work(const StudyOptions& options) {
-    Map map;
-    if (auto ok = map.run_all(options); !ok) return ok.error();
+    std::vector<Tried> all;
+    for (const char* chip : chips)
+        for (const char* corner : corners) all.emplace_back(chip, corner);
+    std::mutex guard;
+    std::size_t done = 0;
+    bool stopped = false;
+    Pool().each(all.size(), [&](std::size_t k, unsigned) {
+        if (const std::lock_guard lock(guard); stopped) return;
+        all[k].search();
+        const std::lock_guard lock(guard);
+        stopped = stopped || !options.keep_on(static_cast<double>(++done) / static_cast<double>(all.size()));
+    });
+    if (stopped) return Error{Code::interrupted, "interrupted"};
     Outcome out;
-    for (const char* chip : {"sa1-circuit", "fa1-circuit"}) {
-        for (const char* corner : corners) claim(map, chip, corner, out);
-        draw(
-            chip, "supply", "V", supplies,
-            [&](const char* corner, double v) -> const Spot& { return map.at(chip, corner, v, usual_temperature); }, out);
-        draw(
-            chip, "temperature", "C", temperatures,
-            [&](const char* corner, double T) -> const Spot& { return map.at(chip, corner, usual_supply, T); }, out);
+    std::size_t presses = 0, lost = 0;
+    for (auto& t : all) {
+        tell(t, out);
+        presses += t.spots().size();
+        lost +=
+            static_cast<std::size_t>(std::count_if(t.spots().begin(), t.spots().end(), [](const Spot& s) { return !s.failed.empty(); }));
     }
-    const auto lost = std::count_if(map.spots().begin(), map.spots().end(), [](const Spot& p) { return !p.failed.empty(); });
+    for (const std::size_t k : {std::size_t{0}, std::size(corners)}) {
+        draw(all[k], "supplies", "V", &Spot::supply, &Spot::celsius, usual_temperature, out);
+        draw(all[k], "temperatures", "C", &Spot::celsius, &Spot::supply, usual_supply, out);
+    }
     out.notes = {
-        fmt::format("{} presses, of which {} did not converge. A range ends between two values tried.", map.spots().size(), lost),
+        fmt::format(
+            "{} presses, of which {} did not converge. Tried are 0.5 to 0.9 V in steps of 50 mV at 27 C and -55, -25, 0, 27, 50, 75, 100 "
+            "and 125 C at 0.7 V, by halves: a range ends between two neighbours, between two places at which a chip works it is taken "
+            "to work, and with better switches to work wherever it does without them.",
+            presses, lost),
         "Spikes are told as protraction / plateau / retraction / after. It works: silent at rest; SA-I fires while the press rises and in "
-        "the "
-        "last 100 ms of the plateau and not after retraction; FA-I in both ramps and not in those 100 ms.",
+        "the last "
+        "100 ms of the plateau and not after retraction; FA-I in both ramps and not in those 100 ms.",
         "The thesis prints ranges of its bias generator alone: 550 to 800 mV and -55 to 95 C, typical; 650 to 750 mV over corners (E.2). "
-        "Bias currents are ideal here, so supply and temperature reach the chips through their transistors alone."};
+        "Bias "
+        "currents are ideal here, so supply and temperature reach the chips through their transistors alone."};
     return out;
 }
 

@@ -1,0 +1,50 @@
+#include "study/oscillator_alone.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace corpuscle {
+namespace {
+
+constexpr auto netlist = R"(The oscillator under a constant current
+.lib '../process/tsmc180.lib' tt
+.include 'parts/trigger.inc'
+.include 'parts/oscillator.inc'
+.param i_in=20p hv=0 until=0.2 i_leak=2p i_charge=1n c_u=1.8p
+vdd vdd 0 0.7
+x u s gl gc vdd oscillator c_u={c_u} hv_switch={hv}
+ilk gl 0 {i_leak}
+ich gc 0 {i_charge}
+iin u 0 pwl(0 0 10m 0 10.1m {i_in})
+.options spikecheck=0
+.op
+.tran 10u {until} 0 5m
+.spike v(s) 0.35
+)";
+
+}  // namespace
+
+Result<Found> driven(const OscillatorAlone& o) {
+    return found_in({netlist,
+                     {fmt::format("i_in={}", o.current), fmt::format("until={}", o.until),
+                      fmt::format("hv={}", o.better_switches ? 0.15 : 0), fmt::format("i_leak={}", o.leak)}});
+}
+
+Hysteresis hysteresis_in(const Found& found, const std::string& output) {
+    const auto [x, y] = found.line("dc", output);
+    const auto turn = std::max_element(x.begin(), x.end()) - x.begin();
+    Hysteresis out{{{x.begin(), x.begin() + turn + 1}, {y.begin(), y.begin() + turn + 1}},
+                   {{x.rbegin(), x.rend() - turn}, {y.rbegin(), y.rend() - turn}},
+                   0,
+                   0};
+    out.V_H = out.up.where(0.35), out.V_L = out.down.where(0.35);
+    return out;
+}
+
+Result<Hysteresis> trigger_alone() {
+    const auto found = found_in({"schmitt", {}, ".dc vin 0 0.7 1m updown"});
+    if (!found) return found.error();
+    return hysteresis_in(*found, "v(out)");
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,168 @@
+// Equations (16) to (20) of the analog signal processing, as the errata correct them, beside the circuits; and what the printed say.
+
+#include <fmt/format.h>
+#include <cmath>
+#include <numbers>
+
+#include "study/deck.hpp"
+#include "study/load.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::eq16_20 {
+
+constexpr double I_BIASF = 700e-9, V_DD = 0.7, pi = std::numbers::pi;  // A, V
+
+/// Size of an array, W/L times columns over units in series.
+double aspect(const circuit::Circuit& c, const std::string& name) {
+    const auto& e = c.elements[static_cast<std::size_t>(c.element(name))];
+    const auto value = [&](const char* key, double otherwise) {
+        const auto at = e.values.find(key);
+        return at == e.values.end() ? otherwise : at->second;
+    };
+    return value("w", 0) / value("l", 1) * value("m", 1) / value("stack", 1);
+}
+
+/// S_upper / S_lower.
+double ratio(const circuit::Circuit& c, const std::string& upper, const std::string& lower) { return aspect(c, upper) / aspect(c, lower); }
+
+/// A split mirror's gain exactly, (38) and (39), and as (19), (20), (40) print it.
+struct Split {
+    double exact, printed;
+    Split(const circuit::Circuit& c, const std::string& A, const std::string& B, const std::string& C, const std::string& D)
+        : exact(aspect(c, B) * aspect(c, D) / (aspect(c, A) * (aspect(c, B) + aspect(c, C) + aspect(c, D)))),
+          printed(ratio(c, B, A) * ratio(c, D, C)) {}
+};
+
+Result<void> eq_16_18(Outcome& out) {
+    const auto found = found_in({"current_to_voltage", {}, ".dc if 0.2u 2.6u 10n"}), cell = found_in({"invb", {}, ".dc vin 0.3 0.4 1m"});
+    if (!found) return found.error();
+    if (!cell) return cell.error();
+    const auto V_F = found->line("dc", "v(vf)"), I_A0 = found->line("dc", "i(va0)");
+    const double k_1 = ratio(*found->circuit, "m3b", "m3a"), k_4 = ratio(*found->circuit, "m4b", "m4a");
+    const double R = load_of(cell->line("dc", "i(vin)").times(1, -1)).resistance.at(0.35);
+    out.claim("(16), (18): k_1 = S_3B / S_3A of table 3", k_1, "times").printed_as(0.5, "table 3, errata S1");
+    out.claim("... measured, its copy I_A0 / I_F at 1.4 uA", I_A0.at(1.4e-6) / 1.4e-6, "times").printed_as(k_1, "eq. 16, errata S1");
+    out.claim("V_F where (S_3B/S_3A) I_F = (S_4B/S_4A) I_BIASF, I_F = 1.4 uA", V_F.at(k_4 * I_BIASF / k_1), "V")
+        .printed_as(V_DD / 2, "eq. 18, errata S2a");
+    out.claim("V_F at I_F = I_BIASF, where the text has it", V_F.at(I_BIASF), "V")
+        .printed_as(V_DD / 2, "thesis 4.3.1: V_DD/2 for I_F1 = I_BIASF")
+        .because("I_F1 is what M3B carries, half of I_F (errata S2a)");
+    out.claim("slope dV_F/dI_F at the middle", V_F.slope_at(1.4e-6), "ohm")
+        .printed_as(k_1 * R, "eq. 18 divided by G_m1, which is that of INVB as a load (errata S2)")
+        .because("the mirrors' own output conductance is beside the load");
+    Line by_18;
+    for (const double I : V_F.x) by_18.x.push_back(I), by_18.y.push_back(V_DD / 2 + (k_1 * I - k_4 * I_BIASF) * R);
+    out.claim(
+           "V_F beside (18), I_F 1 to 1.8 uA: farthest apart",
+           [&] {
+               double most = 0;
+               for (const double I : V_F.between(1e-6, 1.8e-6).x) most = std::max(most, std::abs(V_F.at(I) - by_18.at(I)));
+               return most;
+           }(),
+           "V")
+        .at_most(10e-3, "eq. 18, errata S2; within its linear part, 10 mV are set here");
+    out.claim("as printed (18) multiplies by G_m1, and 0.2 uA more of I_F would raise V_F by", k_1 * 0.2e-6 / R, "V")
+        .printed_as(V_F.at(1.6e-6) - V_F.at(1.4e-6), "made here by the circuit")
+        .because("A times S is no V; (16) divides (errata S2)");
+    out.plot("V_F along I_F, and (18)", "I_F (uA)", "V_F (V)")
+        .add("circuit", V_F.times(1e6, 1))
+        .add("(18), divided by G_m1", by_18.times(1e6, 1));
+    return {};
+}
+
+/// |H| of a filter beside s / (s + k_N G_mN / C) with its own corner.
+double from_17(const Line& magnitude, double corner, double to) {
+    double most = 0;
+    const auto band = magnitude.between(0, to);
+    for (std::size_t k = 0; k < band.x.size(); ++k)
+        most = std::max(most, std::abs(band.y[k] / (band.x[k] / std::hypot(band.x[k], corner)) - 1));
+    return 100 * most;
+}
+
+Result<void> eq_17_19(Outcome& out) {
+    const auto found =
+        found_in({"high_pass", {}, ".ac dec 20 10m 10k\n.meas ac f_c when vp(hpc)=0.785398\n.meas ac f_b when vp(hpb)=0.785398"});
+    const auto invc = found_in({"invc", {}, ".dc vin 0.34 0.36 0.5m"}),
+               ideal = found_in({"invc", {}, ".dc vin 0.34 0.36 0.5m", ideal_mirrors});
+    if (!found) return found.error();
+    if (!invc) return invc.error();
+    if (!ideal) return ideal.error();
+    const auto H_B = found->line("ac", "vm(hpb)"), H_C = found->line("ac", "vm(hpc)");
+    for (const auto& [name, line, corner] : {std::tuple{"B", H_B, found->number("f_b")}, {"C", H_C, found->number("f_c")}}) {
+        auto& c = out.claim(fmt::format("(17): |H| of filter {} beside s / (s + 2 pi f_c), 10 mHz to 1 kHz: farthest off", name),
+                            from_17(line, corner, 1e3), "%")
+                      .at_most(10, "eq. 17; a tenth is set here");
+        if (c.needs_reason()) c.because("what its node has beside the capacitor divides its signal, at all frequencies (see fig30)");
+    }
+    const auto divides = [](const Found& f) { return f.line("dc", "i(vb)").slope_at(0.35) / f.line("dc", "i(vhalf)").slope_at(0.35); };
+    const auto& c = *invc->circuit;
+    const Split P(c, "xl.mp3a", "xl.mp3b", "xl.mp3c", "xl.mp3d"), N(c, "xl.mn4a", "xl.mn4b", "xl.mn4c", "xl.mn4d");
+    const double last = ratio(c, "xl.mn6b", "xl.mn6a");
+    out.claim("(19): k_N as the product of ratios, M6 mended", N.printed * last)
+        .printed_as(1.0 / 16000, "thesis 4.3.1: about 16000 times; errata S5, S7");
+    out.claim("(19): by the printed M6, 8x2 to 2x4", N.printed / 8, "")
+        .printed_as(1.0 / 16000, "thesis 4.3.1")
+        .because("8x2 to 2x4 is 1/8, where M5 has 1/64 (errata S7)");
+    out.claim("k_N exactly, by (38) and (39): one over it", 1 / (N.exact * last), "times").printed_as(18432, "errata S7b");
+    out.claim("the P mirrors' alike: one over it", 1 / (P.exact * ratio(c, "xl.mp5b", "xl.mp5a")), "times").printed_as(18432, "errata S7a");
+    out.claim("the circuit without length modulation divides by", divides(*ideal), "times").printed_as(18432, "errata S7b");
+    out.claim("the circuit divides by", divides(*invc), "times")
+        .printed_as(16384, "eq. 19 with 1/256 for 1/288")
+        .because("length modulation of the mirrors' diodes, and 1/288 is the exact split (errata S7b)");
+    const double G = std::abs(invc->line("dc", "i(vb)").slope_at(0.35));
+    out.claim("with k_N of (19) as printed, 1/k_N = product, filter B's corner", G / (N.printed * last) / (2 * pi * 0.8e-12), "Hz")
+        .between(27, 33, "thesis 4.3.1: 30 Hz, a tenth either way")
+        .because("k_N of (17) is the small one; (19) prints its inverse (errata S5)");
+    out.plot("|H| of the filters, and (17) with their own corners", "frequency (Hz)", "magnitude").add("B", H_B).add("C", H_C);
+    auto& p = out.plots.back();
+    p.log_x = p.log_y = true;
+    for (const auto& [name, corner] : {std::pair{"(17), B", found->number("f_b")}, {"(17), C", found->number("f_c")}}) {
+        Line line = H_B;
+        for (std::size_t k = 0; k < line.x.size(); ++k) line.y[k] = line.x[k] / std::hypot(line.x[k], corner);
+        p.add(name, line);
+    }
+    return {};
+}
+
+Result<void> eq_20(Outcome& out) {
+    const auto found = found_in({"summer", {}, ".dc iin 0.05u 2.6u 10n"});
+    if (!found) return found.error();
+    const auto& c = *found->circuit;
+    const auto divides = [&](const char* curve) { return 2 * 1.22e-6 / found->line("dc", curve).at(1.22e-6); };
+    const Split first(c, "x1.mn1a", "x1.mn1b", "x1.mn1c", "x1.mn1d");
+    const double rest = 0.5 * ratio(c, "x1.mp2b", "x1.mp2a") * ratio(c, "x1.mn3b", "x1.mn3a");
+    out.claim("(20): k_A = I_A / I_F by the printed ratios, one over it", 1 / (rest * first.printed), "times")
+        .printed_as(262144, "eq. 20, errata S10");
+    out.claim("... exactly", 1 / (rest * first.exact), "times").printed_as(294912, "eq. 20 with 1/288, errata S7b, S10");
+    out.claim("the summer without length modulation divides I_F by", divides("i(va3)"), "times")
+        .printed_as(1 / (rest * first.exact), "eq. 20 exactly");
+    out.claim("the summer divides I_F by, at 4 N", divides("i(va)"), "times")
+        .printed_as(1 / (rest * first.printed), "eq. 20")
+        .because("1/288 for 1/256, and length modulation of three mirrors (circuits/summer.cir)");
+    const auto rectifier = found_in({"rectifier_sa", {}, ".dc vhp 0.37 0.39 1m"});
+    if (!rectifier) return rectifier.error();
+    const auto k = [&](const char* curve) {
+        return rectifier->line("dc", curve).slope_at(0.38) / rectifier->line("dc", "i(vn)").slope_at(0.38);
+    };
+    out.claim("k_X = S_2B / S_6B: measured of I_B", k("i(vb)"), "times")
+        .printed_as(ratio(*rectifier->circuit, "xb.mn2b", "xres.mn6b"), "errata S9: output over input");
+    out.claim("... of I_C as table 6 sizes it", k("i(vc)"), "times")
+        .printed_as(ratio(*rectifier->circuit, "xc.mn2b", "xres.mn6b"), "errata S9");
+    return {};
+}
+
+Result<Outcome> work(const StudyOptions& options) {
+    Outcome out;
+    for (const auto part : {eq_16_18, eq_17_19, eq_20}) {
+        if (auto ok = part(out); !ok) return ok.error();
+        if (auto ok = options.at(0.5); !ok) return ok.error();
+    }
+    out.note("Ratios are of the arrays' sizes as the netlists have them, which a test holds against tables 3 to 7.");
+    return out;
+}
+
+const Study study{
+    "eq16-20", "Equations (16) to (20) as corrected, beside the circuits",
+    "Do V_F, the filters and the summer follow their equations, and what would the printed ones say? Thesis 4.3.1; errata S1 to S10", work};
+
+}  // namespace corpuscle::studies::eq16_20
