@@ -22,14 +22,14 @@ double half_width(const Line& slope, double middle, double g_m) {
 }  // namespace
 
 Result<Transconductor> transconductor_of(Deck deck, const std::string& out) {
-    deck.orders = ".dc vplus 0.05 0.65 0.5m";
+    deck.orders = ".dc vplus 0.15 0.55 0.5m";
     const auto found = found_in(deck);
     if (!found) return found.error();
     Transconductor t{found->line("dc", out)};
     for (double& v : t.current.x) v -= 0.35;
     t.middle = t.current.where(0);
     const auto slope = t.current.slope().absolute();
-    t.g_m = slope.at(t.middle), t.most = std::max(t.current.most(), -t.current.least());
+    t.g_m = slope.at(t.middle), t.most = std::min(t.current.most(), -t.current.least());
     t.straight = half_width(slope, t.middle, t.g_m);
     t.power = 0.7 * found->line("dc", "i(vi)").at(0.35);
     return t;

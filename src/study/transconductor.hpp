@@ -9,7 +9,7 @@ struct Transconductor {
     Line current;         ///< A, over the voltage between the inputs, V
     double middle = 0;    ///< V: where no current flows
     double g_m = 0;       ///< S, there; positive
-    double most = 0;      ///< A, the largest current either way
+    double most = 0;      ///< A, the largest current, of its two senses the smaller
     double straight = 0;  ///< V: half of the stretch about the middle in which the slope is within 5 % of g_m; at most all that is swept
     double power = 0;     ///< W, at the same voltage on both inputs
     double sense() const { return current.slope_at(middle) < 0 ? -1 : 1; }

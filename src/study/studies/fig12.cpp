@@ -33,7 +33,7 @@ Result<void> tell_pairs(Outcome& out, const StudyOptions& options) {
     Plot& plot = out.plot("How far a pair alone is straight (slope within 5 %)", "transconductance over tail current (1/V)", "V");
     plot.shape("no figure; \"the transconductance linearity is also proportional to the transistor inversion\"");
     Line straight, g_m;
-    for (const double i_b : {1e-9, 10e-9, 100e-9, 1e-6, 10e-6, 30e-6}) {
+    for (const double i_b : {1e-9, 3e-9, 10e-9, 30e-9, 100e-9, 300e-9, 1e-6, 3e-6, 10e-6, 30e-6}) {
         const auto pair = pair_alone(i_b, 2, 8);
         if (!pair) return pair.error();
         straight.x.insert(straight.x.begin(), pair->g_m / i_b), straight.y.insert(straight.y.begin(), pair->straight);
@@ -41,7 +41,7 @@ Result<void> tell_pairs(Outcome& out, const StudyOptions& options) {
     }
     const auto wide = pair_alone(10e-6, 16, 1);
     if (!wide) return wide.error();
-    out.claim("pair 2x8: transconductance from 1 to 10 nA of tail", g_m.y[1] / g_m.y[0], "times")
+    out.claim("pair 2x8: transconductance from 1 to 10 nA of tail", g_m.at(10e-9) / g_m.at(1e-9), "times")
         .between(9, 11, source + ": proportional to the current while inversion is weak");
     out.claim("at 10 uA: transconductance of 2x8 over that of 16x1", g_m.at(10e-6) / wide->g_m)
         .at_most(0.9, source + ": falls with the aspect ratio, in stronger inversion");
@@ -49,6 +49,30 @@ Result<void> tell_pairs(Outcome& out, const StudyOptions& options) {
         .at_least(1, source + ": straighter in stronger inversion");
     plot.add("P pair of 2x8, 1 nA to 30 uA", straight);
     return options.at(0.5);
+}
+
+/// What a transistor's bulk and drain make of a voltage beside what its gate makes.
+Result<void> tell_terminals(Outcome& out) {
+    const auto found = found_in({R"(One transistor three times, driven at its gate, bulk and drain
+.lib '../process/tsmc180.lib' tt
+vs s 0 0
+vg g1 s 0.35
+v1 d1 0 0.35
+m1 d1 g1 0 0 nch w=1.5u l=0.5u m=2 stack=8
+vg2 g2 0 0.35
+v2 d2 0 0.35
+m2 d2 g2 0 s nch w=1.5u l=0.5u m=2 stack=8
+v3 d3 s 0.35
+m3 d3 g2 0 0 nch w=1.5u l=0.5u m=2 stack=8
+)",
+                                 {},
+                                 ".dc vs -2m 2m 1m"});
+    if (!found) return found.error();
+    const auto slope = [&](const char* current) { return -found->line("dc", current).slope_at(0); };
+    const std::string source = "thesis 2.3: bulk and drain transconductances \"are a fraction of the gate transconductance\"";
+    out.claim("N 2x8 at 0.35 V: bulk's transconductance over the gate's", slope("i(v2)") / slope("i(v1)")).between(0, 1, source);
+    out.claim("N 2x8 at 0.35 V: drain's over the gate's", slope("i(v3)") / slope("i(v1)")).between(0, 1, source);
+    return {};
 }
 
 Result<Outcome> work(const StudyOptions& options) {
@@ -80,13 +104,14 @@ Result<Outcome> work(const StudyOptions& options) {
     out.claim("power", all->power, "W");
     Plot& plot = out.plot("Output current, of most, over the input", "V_+ - V_- (V)", "I / most");
     plot.shape("no curve; the circuit alone is drawn");
-    plot.add("all of it", all->current.times(1, 1 / all->most));
-    plot.add("without M_N", no_n->current.times(1, 1 / no_n->most));
-    plot.add("the pair alone", bare->current.times(1, 1 / bare->most));
+    for (const auto& [name, t] : {std::pair{"all of it", &*all}, {"without M_N", &*no_n}, {"the pair alone", &*bare}})
+        plot.add(name, t->current.between(-0.15, 0.15).times(1, t->sense() / t->most));
+    out.note("Beyond 0.2 V the tail falls below the output, held at 0.35 V here, and M_N conducts the other way; the curve ends before.");
     out.note(
         "Sizes are ours: M_1 2x8, M_N 2x9, M_M 16x1. The pair alone is the same netlist without M_M and M_N. What a printed number stands "
         "for "
         "here is the ratio of aspect ratios that the words name.");
+    if (auto ok = tell_terminals(out); !ok) return ok.error();
     if (auto ok = tell_pairs(out, options); !ok) return ok.error();
     return out;
 }

@@ -75,15 +75,16 @@ vout out 0 0.35
             "at the same transconductance the pairs take less: their tails carry nanoamperes, INVC's linear stage the bias of 200 nA. It "
             "pays "
             "for a range many times as wide; a pair degenerated to that range would be the fair one beside it");
-    out.plot("What N parallel to N in series divide G_m by", "N", "times")
+    for (auto* line : {&weak_by, &strong_by})
+        for (std::size_t k = 0; k < line->x.size(); ++k) line->y[k] /= line->x[k] * line->x[k];
+    out.plot("What N parallel to N in series divide G_m by, over N^2", "N", "times")
         .add(fmt::format("tail {:g} pA", i_b * 1e12), weak_by)
         .add(fmt::format("tail {:g} nA", strong * 1e9), strong_by)
-        .add("N^2", {{1, 2, 3, 4, 6, 8}, {1, 4, 9, 16, 36, 64}}, Plot::Style::points)
         .shape("the circuit alone is drawn; by the words N^2");
     out.plot("Three of one transconductance", "V_+ - V_- (V)", "I (pA)")
-        .add("fig. 12", cancelling->current.times(1, 1e12 * cancelling->sense()))
-        .add("fig. 13", eight.current.times(1, 1e12 * eight.sense()))
-        .add("INVC", invc->current.times(1, 1e12 * invc->sense()))
+        .add("fig. 12", cancelling->current.between(-0.15, 0.15).times(1, 1e12 * cancelling->sense()))
+        .add("fig. 13", eight.current.between(-0.15, 0.15).times(1, 1e12 * eight.sense()))
+        .add("INVC", invc->current.between(-0.15, 0.15).times(1, 1e12 * invc->sense()))
         .shape("no figure; the thesis names the balance of linearity and small transconductance");
     return out;
 }
