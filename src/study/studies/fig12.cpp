@@ -102,7 +102,7 @@ Result<Outcome> work(const StudyOptions& options) {
     out.finds("together they leave the pair as straight as it is, to a tenth", std::abs(all->straight / bare->straight - 1) < 0.1,
               "thesis 2.3: they balance linearity and transconductance; stated here");
     out.claim("power", all->power, "W");
-    Plot& plot = out.plot("Output current, of most, over the input", "V_+ - V_- (V)", "I / most");
+    Plot& plot = out.plot("Output current, of the largest positive one, over the input", "V_+ - V_- (V)", "I / largest");
     plot.shape("no curve; the circuit alone is drawn");
     for (const auto& [name, t] : {std::pair{"all of it", &*all}, {"without M_N", &*no_n}, {"the pair alone", &*bare}})
         plot.add(name, t->current.between(-0.15, 0.15).times(1, t->sense() / t->most));

@@ -159,7 +159,8 @@ vq oq out 0
     out.claim("self-cascode mirror of 100 nA: output from (half of its resistance at 0.5 V)", low("i(va)"), "V");
     out.claim("conventional cascode, a diode on a diode: output from", low("i(vd)"), "V")
         .at_least(low("i(va)"), text + ": the self-cascode \"allows a larger output voltage excursion\"");
-    out.claim("what the diodes of the conventional one need", found->line("dc", "v(d)").at(0.35), "V");
+    out.claim("what the diodes of the conventional one need", found->line("dc", "v(d)").at(0.35), "V")
+        .at_least(0.7, text + ": the self-cascode's advantage at \"similar ... power supplies\"; 0.7 V leave it nothing");
     out.claim("self-cascode: its input, bulks at vss", found->line("dc", "v(c)").at(0.35), "V");
     out.claim("self-cascode: its input, bulks lifted", found->line("dc", "v(a)").at(0.35), "V")
         .at_most(found->line("dc", "v(c)").at(0.35), text + ": \"to decrease the minimum voltage supply requirement\"");
@@ -175,83 +176,96 @@ vq oq out 0
     return {};
 }
 
-/// The least supply of the amplifier (half of the transconductance that it has at 0.7 V, inputs at V_Y, output at half the supply) and of
-/// the transducer at 0.2 N, with and without lifted bulks in the mirrors.
-Result<void> tell_supply(Outcome& out) {
+/// What lifted bulks in the mirrors do for the supply: of the amplifier (from where on it has half of the transconductance that it has at
+/// 0.7 V, inputs at V_Y, output at half the supply), of I_BIASA's diode, and of the transducer at 0.2 N.
+struct Supplies {
+    double amplifier, diode, transducer;
+};
+Result<Supplies> supplies(const Changes& changes) {
     const TransducerCell cell{"t", improved_cell()};
-    auto neither = n_unlifted;
-    neither.insert(neither.end(), p_unlifted.begin(), p_unlifted.end());
-    const std::pair<const char*, Changes> all[] = {{"as it stands", {}},
-                                                   {"N mirrors' bulks at vss", n_unlifted},
-                                                   {"P mirrors' bulks at the supply", p_unlifted},
-                                                   {"both so", neither}};
-    double as_it_stands = 0;
-    for (const auto& [words, changes] : all) {
-        const auto parts = changed_text("circuits/parts/transducer.inc", changes);
-        if (!parts) return parts.error();
-        const auto found =
-            found_in({fmt::format("Two amplifiers, 0.1 mV apart either way\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\n"
-                                  "vs s 0 0.1\nvup up s 50u\nvdown s down 50u\nib1 pg1 0 100n\nx1 up down o1 pg1 vdd amplifier\n"
-                                  "v1 o1 half 0\nib2 pg2 0 100n\nx2 down up o2 pg2 vdd amplifier\nv2 o2 half 0\n"
-                                  "ehalf half 0 vdd 0 0.5\n",
-                                  *parts),
-                      {},
-                      ".dc vdd 0.2 0.7 5m"});
-        if (!found) return found.error();
-        const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')");
-        const double lowest = g_m.where(g_m.at(0.7) / 2);
-        auto& c = out.claim(fmt::format("lowest supply of the amplifier, {}", words), lowest, "V");
-        if (changes.empty())
-            as_it_stands = lowest;
-        else
-            c.at_least(as_it_stands, text + ": forward body bias in the mirrors \"to decrease the minimum voltage supply requirement\"");
-        const auto whole = lowest_supplies({&cell, 1}, 0.2, {}, *parts);
-        if (!whole) return whole.error();
-        out.claim(fmt::format("... of the transducer at 0.2 N, {}", words), whole->front(), "V");
-    }
-    out.note(
-        "Beneath V_Z the transducer's supply has no use for lifted N mirrors: at its least supply both legs are short of it, and with the "
-        "bulks at vss "
-        "the left one, whose end then stands about as high as V_Z, is short like the right one, so that they stay alike.");
+    const auto parts = changed_text("circuits/parts/transducer.inc", changes);
+    if (!parts) return parts.error();
+    const auto found =
+        found_in({fmt::format("Two amplifiers, 0.1 mV apart either way\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\n"
+                              "vs s 0 0.1\nvup up s 50u\nvdown s down 50u\nib1 pg1 0 100n\nx1 up down o1 pg1 vdd amplifier\n"
+                              "v1 o1 half 0\nib2 pg2 0 100n\nx2 down up o2 pg2 vdd amplifier\nv2 o2 half 0\n"
+                              "ehalf half 0 vdd 0 0.5\n",
+                              *parts),
+                  {},
+                  ".dc vdd 0.25 0.7 5m"});
+    const auto whole = lowest_supplies({&cell, 1}, 0.2, {}, *parts);
+    if (!found) return found.error();
+    if (!whole) return whole.error();
+    const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')"), diode = found->line("dc", "v(vdd,pg1)");
+    return Supplies{g_m.where(g_m.at(0.7) / 2), diode.at(0.7), whole->front()};
+}
+
+Result<void> tell_supply(Outcome& out) {
+    const auto lifted = supplies({}), no_n = supplies(n_unlifted), no_p = supplies(p_unlifted);
+    for (const auto* r : {&lifted, &no_n, &no_p})
+        if (!*r) return r->error();
+    const std::string lower = text + ": forward body bias in the mirrors \"to decrease the minimum voltage supply requirement\"";
+    out.claim("lowest supply of the amplifier", lifted->amplifier, "V");
+    out.claim("lowest supply of the amplifier, N mirrors' bulks at vss", no_n->amplifier, "V").at_least(lifted->amplifier, lower);
+    out.claim("what I_BIASA's diode needs", lifted->diode, "V");
+    out.claim("what I_BIASA's diode needs, P mirrors' bulks at the supply", no_p->diode, "V").at_least(lifted->diode, lower);
+    out.claim("lowest supply of the transducer at 0.2 N", lifted->transducer, "V");
+    out.claim("lowest supply of the transducer at 0.2 N, N mirrors' bulks at vss", no_n->transducer, "V")
+        .at_least(lifted->transducer, lower)
+        .if_off(
+            "V_Z, not the mirrors, sets it: there both legs are short of supply, and with the bulks at vss the left one, whose end then "
+            "stands about as high "
+            "as V_Z, is as short as the right one, so that they stay alike");
     return {};
 }
 
-/// The loop's gain and phase margin over the force, with what capacitance the sensor's wire may have (the netlist has none).
-Result<void> tell_loop(Outcome& out) {
-    constexpr double forces[] = {0.02, 0.2, 0.5, 1, 2, 4, 10, 20, 40};
-    Plot margins{"Phase margin of the transducer's loop", "force (N)", "degrees", {}, true};
-    Plot gains{"Gain of the loop at 10 Hz", "force (N)", "dB", {}, true};
-    for (const char* capacitance : {"1f", "10p", "100p"}) {
+/// The loop's gain at 10 Hz and phase margin over the force, with what capacitance the sensor and its wire may have (the netlist has none).
+struct Loops {
+    static constexpr const char* capacitances[] = {"1f", "10p", "100p"};
+    Line gain, margins[3];
+
+    static std::string words(std::size_t k) {
+        return k == 0 ? "without capacitance" : fmt::format("with {}F at the sensor", capacitances[k]);
+    }
+    Result<void> add(double newtons) {
         std::string orders;
-        for (std::size_t k = 0; k < std::size(forces); ++k)
-            orders += fmt::format("xf{0} f{0} vdd vy opened force={1}\nc{0} f{0} 0 {2}\n", k, forces[k], capacitance);
+        for (std::size_t k = 0; k < 3; ++k)
+            orders += fmt::format("xf{0} f{0} vdd vy opened force={1}\nc{0} f{0} 0 {2}\n", k, newtons, capacitances[k]);
         const auto found = found_in({"transducer_loop", {}, orders + ".ac dec 20 10 10meg"});
         if (!found) return found.error();
-        Line margin, gain;
-        for (std::size_t k = 0; k < std::size(forces); ++k) {
-            const auto size = found->line("ac", fmt::format("vm(f{})", k)), angle = found->line("ac", fmt::format("vp(f{})", k));
-            gain.x.push_back(forces[k]), gain.y.push_back(20 * std::log10(size.at(10)));
-            if (const double f = size.where(1); f == f)
-                margin.x.push_back(forces[k]), margin.y.push_back(angle.at(f) * 180 / std::numbers::pi);
+        gain.x.push_back(newtons), gain.y.push_back(20 * std::log10(found->line("ac", "vm(f0)").at(10)));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double f = found->line("ac", fmt::format("vm(f{})", k)).where(1);
+            const auto angle = found->line("ac", fmt::format("vp(f{})", k));
+            if (f == f) margins[k].x.push_back(newtons), margins[k].y.push_back(angle.at(f) * 180 / std::numbers::pi);
         }
-        const bool none = capacitance == std::string_view("1f");
-        const auto words = none ? std::string("without capacitance") : fmt::format("with {}F at the sensor", capacitance);
-        auto& c = out.claim(fmt::format("least phase margin from 0.02 to 40 N, {}", words), margin.least(), "degrees");
-        c.at_least(45, "thesis 4.2: a \"negative feedback loop\"; 45 degrees are stated here")
+        return {};
+    }
+};
+
+Result<void> tell_loop(Outcome& out) {
+    Loops loops;
+    for (const double newtons : {0.02, 0.05, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 10.0, 20.0, 40.0})
+        if (auto ok = loops.add(newtons); !ok) return ok;
+    Plot& margins = out.plot("Phase margin of the transducer's loop", "force (N)", "degrees");
+    margins.log_x = true;
+    margins.shape("no figure");
+    for (std::size_t k = 0; k < 3; ++k) {
+        margins.add(Loops::words(k), loops.margins[k]);
+        out.claim(fmt::format("least phase margin from 0.02 to 40 N, {}", Loops::words(k)), loops.margins[k].least(), "degrees")
+            .at_least(45, "thesis 4.2: a \"negative feedback loop\"; 45 degrees are stated here")
             .if_off(
                 "stable, but it rings: the sensor's node is a second pole, as nothing printed compensates it. Nothing is printed of the "
-                "sensor's and its "
-                "wire's capacitance, and the netlists have none");
-        margins.add(words, margin);
-        if (!none) continue;
-        gains.add("loop", gain);
-        out.claim("gain of the loop at 0.2 N", gain.at(0.2), "dB");
-        out.claim("gain of the loop at 4 N", gain.at(4), "dB").at_least(20 * std::log10(20), "V_X within 5 % of V_Y, as in fig22");
-        out.claim("gain of the loop at 40 N", gain.at(40), "dB");
-        out.claim("the loop has a gain of one up to a force of", margin.x.back(), "N");
+                "sensor's and "
+                "its wire's capacitance, and the netlists have none");
     }
-    out.plots.push_back(std::move(margins.shape("no figure")));
-    out.plots.push_back(std::move(gains.shape("no figure")));
+    const double within = 20 * std::log10(20);
+    out.claim("gain of the loop at 0.2 N", loops.gain.at(0.2), "dB").at_least(within, "V_X within 5 % of V_Y, as in fig22");
+    out.claim("gain of the loop at 4 N", loops.gain.at(4), "dB").at_least(within, "V_X within 5 % of V_Y, as in fig22");
+    out.claim("gain of the loop at 40 N", loops.gain.at(40), "dB");
+    Plot& gain = out.plot("Gain of the loop at 10 Hz", "force (N)", "dB");
+    gain.log_x = true;
+    gain.add("loop", loops.gain).shape("no figure");
     return {};
 }
 
