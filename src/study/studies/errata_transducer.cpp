@@ -32,7 +32,7 @@ void tell_sensor(Outcome& out) {
         .if_off("12 and 4 are round numbers of a figure");
     out.finds("F4: the largest force makes the least conductance", sensor.conductance(press) < sensor.conductance(0.2 / gram_force),
               "thesis 4.2, as printed")
-        .because("the greatest: resistance falls with force");
+        .if_off("the greatest: resistance falls with force");
     out.claim("F5: G_0, which eq. 14's last line drops, of G at 20 gf", 100 / sensor.R_0 / sensor.conductance(20), "%")
         .at_most(1, "printed as approximate; the bound is stated here");
 }

@@ -71,7 +71,7 @@ vout out 0 0.35
               "thesis 2.3: it \"combines the two techniques\"; app. E: linearised");
     out.finds("INVC takes less power than either", invc->power < eight.power && invc->power < cancelling->power,
               "thesis 2.3: \"to decrease the ... total power consumption\"")
-        .because(
+        .if_off(
             "at the same transconductance the pairs take less: their tails carry nanoamperes, INVC's linear stage the bias of 200 nA. It "
             "pays "
             "for a range many times as wide; a pair degenerated to that range would be the fair one beside it");

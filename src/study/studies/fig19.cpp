@@ -45,10 +45,10 @@ Result<Outcome> work(const StudyOptions&) {
         out.claim(fmt::format("resistance at {:g} gf", gf), sensor.resistance(gf), "ohm");
     out.claim("the same with a = 170 ohm gf: resistance at 100 gf", as_printed.resistance(100), "ohm")
         .at_least(100, "a sensor of some kilohms, by " + sheet + "; the bound is stated here")
-        .because("170 ohm is a misprint for 170 kohm (errata F1)");
+        .if_off("170 ohm is a misprint for 170 kohm (errata F1)");
     out.claim("a as it stands, 170 times F^m as a conductance: resistance at 100 gf", 1 / (170 * std::pow(100, sensor.m)), "ohm")
         .at_least(100, "as above")
-        .because("a of eq. 13 multiplies as a conductance and has the unit of a resistance (errata F1)");
+        .if_off("a of eq. 13 multiplies as a conductance and has the unit of a resistance (errata F1)");
     const auto G = sensor.conductances(least_gf, most_gf);
     Line R = G;
     for (double& v : R.y) v = 1 / v;
@@ -56,16 +56,16 @@ Result<Outcome> work(const StudyOptions&) {
         .at_most(10, source + ": \"almost linearly\"; the bound is stated here");
     out.claim("19b: slope at 20 gf over slope at 400 gf", sensor.slope(least_gf) / sensor.slope(most_gf), "times")
         .printed_as(1, source + ": \"as the slope factor m is close to unity\"")
-        .because("m is 0.72, so that the slope falls as F^-0.28 (errata F3)");
+        .if_off("m is 0.72, so that the slope falls as F^-0.28 (errata F3)");
     out.claim("19a: resistance off the straight line from 20 to 400 gf", 100 * bend(R), "%")
         .at_least(10, source + ": \"highly non-linear\"; the bound is stated here");
     out.claim("the press, from", 0.2 / gram_force, "gf")
         .between(from, to, source + ": fairly accurate from 50 to 4000 g")
-        .because("0.2 N lies below the range of the fit (errata F2)");
+        .if_off("0.2 N lies below the range of the fit (errata F2)");
     out.claim("the press, to", 4 / gram_force, "gf").between(from, to, source + ": fairly accurate from 50 to 4000 g");
     out.claim("the fit's upper end as a force", to * gram_force, "N")
         .at_most(20, sheet + ": 0.2 to 20 N")
-        .because("4000 g is beyond what the sensor is rated for (errata F2)");
+        .if_off("4000 g is beyond what the sensor is rated for (errata F2)");
     Plot& a = out.plot("19a: resistance", "force (gf)", "ohm");
     a.log_x = a.log_y = true;
     a.add("eq. 13, a = 170 kohm", over(sensor, &ForceSensor::resistance))

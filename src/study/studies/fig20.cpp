@@ -45,7 +45,7 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto i_a = found->line("dc", "par('(v(za)-v(xa))/9.1k')"), x_a = found->line("dc", "v(xa)");
     out.claim("fig. 23's amplifier gives, at 400 gf", i_a.at(400), "A")
         .at_least(0.95 * 0.1 * G, "thesis eq. 15: \"must be able to output\" it")
-        .because("its output leg has I_BIASA of 100 nA and mirrors of one to one; it was made to drive gates (figs. 22, 23)");
+        .if_off("its output leg has I_BIASA of 100 nA and mirrors of one to one; it was made to drive gates (figs. 22, 23)");
     out.finds("so that with it alone \"the circuit will not function properly\": V_X at 20 gf is below half of V_Y", x_a.at(20) < 0.05,
               "thesis 4.2, below eq. 15");
     const auto z_b = found->line("dc", "v(zb)"), x_b = found->line("dc", "v(xb)");
