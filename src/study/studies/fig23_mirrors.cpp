@@ -68,6 +68,10 @@ vq oq out 0
     out.claim("self-cascode mirror of 100 nA: output from (half of its resistance at 0.5 V)", low("i(va)"), "V");
     out.claim("conventional cascode, a diode on a diode: output from", low("i(vd)"), "V")
         .at_least(low("i(va)"), text + ": the self-cascode \"allows a larger output voltage excursion\"");
+    Line ratio = found->line("dc", "i(va)").slope().absolute();
+    const auto other = found->line("dc", "i(vd)").slope().absolute();
+    for (std::size_t k = 0; k < ratio.x.size(); ++k) ratio.y[k] /= other.y[k];
+    out.claim("the conventional one has the higher resistance from", ratio.where(1, 0.2), "V");
     out.claim("what the diodes of the conventional one need", found->line("dc", "v(d)").at(0.35), "V")
         .at_least(0.7, text + ": the self-cascode's advantage at \"similar ... power supplies\"; 0.7 V leave it nothing");
     out.claim("self-cascode: its input, bulks at vss", found->line("dc", "v(c)").at(0.35), "V");
@@ -76,12 +80,17 @@ vq oq out 0
     out.claim("P trapezoid: output resistance at 0.35 V", resistance("i(vp)"), "ohm")
         .at_least(resistance("i(vq)"), text + ": trapezoidal arrays \"to increase the output impedance\", beside the array of 4x4 alone");
     out.claim("the array of 4x4 alone", resistance("i(vq)"), "ohm");
-    out.plot("Mirrors of 100 nA", "V_OUT (V)", "I (nA)")
-        .add("self-cascode, bulks lifted (fig. 23)", found->line("dc", "i(va)").times(1, 1e9))
-        .add("self-cascode, bulks at vss", found->line("dc", "i(vc)").times(1, 1e9))
-        .add("conventional cascode", found->line("dc", "i(vd)").times(1, 1e9))
-        .add("4x4 alone", found->line("dc", "i(ve)").times(1, 1e9))
-        .shape("no figure");
+    Plot& plot = out.plot("Output resistance of N mirrors of 100 nA", "V_OUT (V)", "Mohm");
+    plot.log_y = true;
+    plot.shape("no figure");
+    for (const auto& [name, current] : {std::pair{"self-cascode, bulks lifted (fig. 23)", "i(va)"},
+                                        {"self-cascode, bulks at vss", "i(vc)"},
+                                        {"conventional cascode", "i(vd)"},
+                                        {"4x4 alone", "i(ve)"}}) {
+        auto R = found->line("dc", current).slope().absolute().times(1, 1e6);
+        for (double& v : R.y) v = 1 / v;
+        plot.add(name, std::move(R));
+    }
     return out;
 }
 
