@@ -31,6 +31,8 @@ struct Claim {
     double deviation() const { return printed == 0 ? none : (made - printed) / (printed < 0 ? -printed : printed); }
     /// Farther from what was printed, or from what is allowed, than goes without saying.
     bool needs_reason() const { return judged() ? !holds() : deviation() > near || deviation() < -near; }
+    /// Why it is off, told only if it is.
+    Claim& if_off(std::string why) { return needs_reason() ? because(std::move(why)) : *this; }
     /// "holds" or "does not hold" where something is allowed; "agrees" (within a tenth) or "differs" where a number was printed; else "".
     const char* verdict() const {
         if (judged()) return holds() ? "holds" : "does not hold";

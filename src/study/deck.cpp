@@ -131,6 +131,17 @@ Result<Found> found_in(const Deck& deck) {
     return std::move(all->front());
 }
 
+Result<std::string> changed_text(const std::string& file, const std::vector<std::pair<std::string, std::string>>& changes) {
+    auto text = carried_text(file);
+    if (!text) return text.error();
+    for (const auto& [from, to] : changes) {
+        auto at = text->find(from);
+        if (at == std::string::npos) return bad_input(fmt::format("{}: '{}' does not stand there", file, from));
+        for (; at != std::string::npos; at = text->find(from, at + to.size())) text->replace(at, from.size(), to);
+    }
+    return text;
+}
+
 Result<std::shared_ptr<const Circuit>> circuit_of(const Deck& deck) {
     const auto netlist = netlist_of(deck);
     if (!netlist) return netlist.error();

@@ -40,6 +40,10 @@ Result<Found> found_in(const Deck&);
 /// All variants of .step and .mc. Those that do not converge are left out.
 Result<std::vector<Found>> all_found_in(const Deck&);
 
+/// The text of a file that the program carries ("circuits/parts/transducer.inc"), with each of these pieces replaced wherever it stands;
+/// refused where one does not stand.
+Result<std::string> changed_text(const std::string& file, const std::vector<std::pair<std::string, std::string>>& changes);
+
 /// The elaborated circuit: its sizes and counts.
 Result<std::shared_ptr<const circuit::Circuit>> circuit_of(const Deck&);
 

@@ -1,0 +1,103 @@
+// The mirrors of fig. 23's amplifier beside those that they stand in place of: a conventional cascode, bulks that are not lifted, an array
+// without its trapezoid.
+
+#include <cmath>
+
+#include "study/deck.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::fig23_mirrors {
+
+const std::string text = "thesis 4.2, fig. 23";
+
+/// Mirrors of 100 nA, their inputs fed alike: from where on the output's resistance is at least half of that at 0.5 V.
+Result<Outcome> work(const StudyOptions&) {
+    Outcome out;
+    const auto found = found_in({R"(Mirrors of fig. 23 beside others
+.lib '../process/tsmc180.lib' tt
+vdd vdd 0 0.7
+vout out 0 0.35
+* self-cascode, bulks lifted as in fig. 23
+i1 vdd a 100n
+mn5a a a f b6 nch w=1.5u l=0.5u m=16
+mn4a f a 0 b5 nch w=1.5u l=0.5u m=4 stack=4
+mn4c a vdd b5 b5 nch w=1.5u l=0.5u m=8
+mn5c a vdd b6 b6 nch w=1.5u l=0.5u m=8
+va out oa 0
+mn5b oa a g b6 nch w=1.5u l=0.5u m=16
+mn4b g a 0 b5 nch w=1.5u l=0.5u m=4 stack=4
+* the same, bulks at vss
+i2 vdd c 100n
+mc5a c c h 0 nch w=1.5u l=0.5u m=16
+mc4a h c 0 0 nch w=1.5u l=0.5u m=4 stack=4
+vc out oc 0
+mc5b oc c k 0 nch w=1.5u l=0.5u m=16
+mc4b k c 0 0 nch w=1.5u l=0.5u m=4 stack=4
+* the conventional cascode, a diode on a diode, from a supply that it needs
+i3 0 d 100n
+md5a d d e 0 nch w=1.5u l=0.5u m=16
+md4a e e 0 0 nch w=1.5u l=0.5u m=4 stack=4
+vd out od 0
+md5b od d l 0 nch w=1.5u l=0.5u m=16
+md4b l e 0 0 nch w=1.5u l=0.5u m=4 stack=4
+* the lower array alone
+i4 vdd p 100n
+me4a p p 0 0 nch w=1.5u l=0.5u m=4 stack=4
+ve out oe 0
+me4b oe p 0 0 nch w=1.5u l=0.5u m=4 stack=4
+* P: trapezoid as table 2, and its upper array alone
+i5 q 0 100n
+mp1a r q vdd vdd pch w=6u l=0.5u m=4 stack=4
+mp2a q q r vdd pch w=6u l=0.5u m=16
+mp1b s q vdd vdd pch w=6u l=0.5u m=4 stack=4
+mp2b op q s vdd pch w=6u l=0.5u m=16
+vp op out 0
+i6 t 0 100n
+mp3a t t vdd vdd pch w=6u l=0.5u m=4 stack=4
+mp3b oq t vdd vdd pch w=6u l=0.5u m=4 stack=4
+vq oq out 0
+)",
+                                 {},
+                                 ".dc vout 0 0.7 1m"});
+    if (!found) return found.error();
+    const auto low = [&](const char* current) {
+        const auto G = found->line("dc", current).slope().absolute();
+        return G.where(2 * G.at(0.5));
+    };
+    const auto resistance = [&](const char* current) { return 1 / std::abs(found->line("dc", current).slope_at(0.35)); };
+    out.claim("self-cascode mirror of 100 nA: output from (half of its resistance at 0.5 V)", low("i(va)"), "V");
+    out.claim("conventional cascode, a diode on a diode: output from", low("i(vd)"), "V")
+        .at_least(low("i(va)"), text + ": the self-cascode \"allows a larger output voltage excursion\"");
+    Line ratio = found->line("dc", "i(va)").slope().absolute();
+    const auto other = found->line("dc", "i(vd)").slope().absolute();
+    for (std::size_t k = 0; k < ratio.x.size(); ++k) ratio.y[k] /= other.y[k];
+    out.claim("the conventional one has the higher resistance from", ratio.where(1, 0.2), "V");
+    out.claim("what the diodes of the conventional one need", found->line("dc", "v(d)").at(0.35), "V")
+        .at_least(0.7, text + ": the self-cascode's advantage at \"similar ... power supplies\"; 0.7 V leave it nothing");
+    out.claim("self-cascode: its input, bulks at vss", found->line("dc", "v(c)").at(0.35), "V");
+    out.claim("self-cascode: its input, bulks lifted", found->line("dc", "v(a)").at(0.35), "V")
+        .at_most(found->line("dc", "v(c)").at(0.35), text + ": \"to decrease the minimum voltage supply requirement\"");
+    out.claim("P trapezoid: output resistance at 0.35 V", resistance("i(vp)"), "ohm")
+        .at_least(resistance("i(vq)"), text + ": trapezoidal arrays \"to increase the output impedance\", beside the array of 4x4 alone");
+    out.claim("the array of 4x4 alone", resistance("i(vq)"), "ohm");
+    Plot& plot = out.plot("Output resistance of N mirrors of 100 nA", "V_OUT (V)", "Mohm");
+    plot.log_y = true;
+    plot.shape("no figure");
+    for (const auto& [name, current] : {std::pair{"self-cascode, bulks lifted (fig. 23)", "i(va)"},
+                                        {"self-cascode, bulks at vss", "i(vc)"},
+                                        {"conventional cascode", "i(vd)"},
+                                        {"4x4 alone", "i(ve)"}}) {
+        auto R = found->line("dc", current).slope().absolute().times(1, 1e6);
+        for (double& v : R.y) v = 1 / v;
+        plot.add(name, std::move(R));
+    }
+    return out;
+}
+
+const Study study{"fig23-mirrors", "The mirrors of the transducer's amplifier",
+                  "Self-cascode mirrors allow a larger output range than conventional cascodes, trapezoids raise the output impedance, "
+                  "lifted bulks lower the supply. "
+                  "Thesis 4.2, fig. 23, table 2",
+                  work};
+
+}  // namespace corpuscle::studies::fig23_mirrors

@@ -1,0 +1,70 @@
+// Is the transducer's loop stable, from no force to ten times the press? Opened at the amplifier's inverting input
+// (circuits/transducer_loop.cir), with and without a capacitance at the sensor.
+
+#include <fmt/format.h>
+#include <cmath>
+#include <numbers>
+
+#include "study/deck.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::transducer_loop {
+
+/// The loop's gain at 10 Hz and phase margin over the force, with what capacitance the sensor and its wire may have (the netlist has none).
+struct Loops {
+    static constexpr const char* capacitances[] = {"1f", "10p", "100p"};
+    Line gain, margins[3];
+
+    static std::string words(std::size_t k) {
+        return k == 0 ? "without capacitance" : fmt::format("with {}F at the sensor", capacitances[k]);
+    }
+    Result<void> add(double newtons) {
+        std::string orders;
+        for (std::size_t k = 0; k < 3; ++k)
+            orders += fmt::format("xf{0} f{0} vdd vy opened force={1}\nc{0} f{0} 0 {2}\n", k, newtons, capacitances[k]);
+        const auto found = found_in({"transducer_loop", {}, orders + ".ac dec 20 10 10meg"});
+        if (!found) return found.error();
+        gain.x.push_back(newtons), gain.y.push_back(20 * std::log10(found->line("ac", "vm(f0)").at(10)));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double f = found->line("ac", fmt::format("vm(f{})", k)).where(1);
+            const auto angle = found->line("ac", fmt::format("vp(f{})", k));
+            if (f == f) margins[k].x.push_back(newtons), margins[k].y.push_back(angle.at(f) * 180 / std::numbers::pi);
+        }
+        return {};
+    }
+};
+
+Result<Outcome> work(const StudyOptions& options) {
+    Outcome out;
+    Loops loops;
+    for (const double newtons : {0.02, 0.05, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 10.0, 20.0, 40.0})
+        if (auto ok = loops.add(newtons); !ok) return ok.error();
+    if (auto ok = options.at(0.9); !ok) return ok.error();
+    Plot& margins = out.plot("Phase margin of the transducer's loop", "force (N)", "degrees");
+    margins.log_x = true;
+    margins.shape("no figure");
+    for (std::size_t k = 0; k < 3; ++k) {
+        margins.add(Loops::words(k), loops.margins[k]);
+        out.claim(fmt::format("least phase margin from 0.02 to 40 N, {}", Loops::words(k)), loops.margins[k].least(), "degrees")
+            .at_least(45, "thesis 4.2: a \"negative feedback loop\"; 45 degrees are stated here")
+            .if_off(
+                "stable, but it rings: the sensor's node is a second pole, as nothing printed compensates it. Nothing is printed of the "
+                "sensor's and "
+                "its wire's capacitance, and the netlists have none");
+    }
+    const double within = 20 * std::log10(20);
+    out.claim("gain of the loop at 0.2 N", loops.gain.at(0.2), "dB").at_least(within, "V_X within 5 % of V_Y, as in fig22");
+    out.claim("gain of the loop at 4 N", loops.gain.at(4), "dB").at_least(within, "V_X within 5 % of V_Y, as in fig22");
+    out.claim("gain of the loop at 40 N", loops.gain.at(40), "dB");
+    Plot& gain = out.plot("Gain of the loop at 10 Hz", "force (N)", "dB");
+    gain.log_x = true;
+    gain.add("loop", loops.gain).shape("no figure");
+    return out;
+}
+
+const Study study{"transducer-loop", "The transducer's loop along the force",
+                  "The amplifier \"provides a feedback loop control to force V_X to follow V_Y\" (thesis 4.2); nothing is printed of its "
+                  "gain or stability",
+                  work};
+
+}  // namespace corpuscle::studies::transducer_loop

@@ -1,0 +1,48 @@
+#include "study/transconductor.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle {
+
+namespace {
+
+/// Half of the stretch about the middle in which a slope is near what it is there.
+double half_width(const Line& slope, double middle, double g_m) {
+    double from = slope.x.front(), to = slope.x.back();
+    for (std::size_t k = 0; k < slope.x.size(); ++k) {
+        if (std::abs(slope.y[k] / g_m - 1) <= 0.05) continue;
+        if (slope.x[k] < middle) from = slope.x[k];
+        if (slope.x[k] > middle) return (slope.x[k] - from) / 2;
+    }
+    return (to - from) / 2;
+}
+
+}  // namespace
+
+Result<Transconductor> transconductor_of(Deck deck, const std::string& out) {
+    deck.orders = ".dc vplus 0.15 0.55 0.5m";
+    const auto found = found_in(deck);
+    if (!found) return found.error();
+    Transconductor t{found->line("dc", out)};
+    for (double& v : t.current.x) v -= 0.35;
+    t.middle = t.current.where(0);
+    const auto slope = t.current.slope().absolute();
+    t.g_m = slope.at(t.middle), t.most = std::min(t.current.most(), -t.current.least());
+    t.straight = half_width(slope, t.middle, t.g_m);
+    t.power = 0.7 * found->line("dc", "i(vi)").at(0.35);
+    return t;
+}
+
+Result<Transconductor> pair_alone(double i_b, int columns, int stack) {
+    return transconductor_of(
+        {fmt::format("A pair alone\n.lib '../process/tsmc180.lib' tt\nvdd vdd 0 0.7\nvi vdd supply 0\nib supply t {}\n"
+                     "vplus plus 0 0.35\nvminus minus 0 0.35\n"
+                     "m1a l plus t vdd pch w=6u l=0.5u m={} stack={}\nm1b r minus t vdd pch w=6u l=0.5u m={} stack={}\n"
+                     "vl l 0 0.1\nvr r 0 0.1\n",
+                     i_b, columns, stack, columns, stack)},
+        "par('i(vr)-i(vl)')");
+}
+
+}  // namespace corpuscle
