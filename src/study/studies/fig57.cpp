@@ -27,7 +27,8 @@ Result<void> claim_regions(Outcome& out) {
         .at_most(state->needs_M4A, "E.3, fig. 56 (errata I11); such an array at 200 nA is saturated from there on");
     out.claim("INVB: across M1A, likewise", tail_P, "V").at_most(state->needs_M3B, "E.3, fig. 56 (errata I11); as above");
     const double i_f = std::pow(state->needs_M4A / (1.380649e-23 * 300.15 / 1.602176634e-19) - 3, 2) - 1;
-    auto& weak = out.claim("inversion level i_f of INVA's arrays at 200 nA", i_f).at_most(1, "E.3: the transistors operate in weak inversion");
+    auto& weak =
+        out.claim("inversion level i_f of INVA's arrays at 200 nA", i_f).at_most(1, "E.3: the transistors operate in weak inversion");
     if (weak.needs_reason()) weak.because("200 nA in these arrays is moderate inversion, as I_SQ of tables 11 to 14 has it");
     return {};
 }
