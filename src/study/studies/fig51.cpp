@@ -62,7 +62,7 @@ Result<Outcome> work(const StudyOptions& options) {
     Line by_47a;
     for (const double V_BN : {0.0, 0.4}) {
         const double V_0 = V_Q0.at(0);
-        by_47a.x.push_back(V_BN), by_47a.y.push_back(V_0 + (n - 1) * (V_0 - (V_DD + V_BN) / 2) * 1);
+        by_47a.x.push_back(V_BN), by_47a.y.push_back(V_0 + (n - 1) * (V_0 - (V_DD + V_BN) / 2));
     }
     out.plot("V_Q over the bulks' voltages", "V_BN (V)", "V")
         .add("V_Q (51a), V_BN alone", alone)
