@@ -45,7 +45,8 @@ void draw(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome
     const bool log = figure.axis == BiasAxis::current;
     auto& voltages = out.plot(fmt::format("Fig. {}a: body voltages, typical", figure.number), figure.x_label, "V");
     voltages.log_x = log;
-    for (const char* node : {"v(bn)", "v(bp)", "v(ref)", "v(q)"}) voltages.add(node, corners[0].sweep.line(node).times(figure.scale, 1));
+    for (const auto& [node, name] : {std::pair{"v(bn)", "V_BN"}, {"v(bp)", "V_BP"}, {"v(ref)", "V_REF"}, {"v(q)", "V_Q"}})
+        voltages.add(name, corners[0].sweep.line(node).times(figure.scale, 1));
     auto& currents = out.plot(fmt::format("Fig. {}b: I_Q in the corners", figure.number), figure.x_label, "I_Q (nA)");
     currents.log_x = currents.log_y = log;
     for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().times(figure.scale, 1e9));

@@ -12,7 +12,7 @@ Line histogram_of(const std::vector<double>& values, int bins) {
     std::vector<double> counts(static_cast<std::size_t>(bins));
     for (const double v : values) ++counts[static_cast<std::size_t>(std::min(width > 0 ? (v - *low) / width : 0, bins - 1.0))];
     for (std::size_t k = 0; k < counts.size(); ++k)
-        for (const double x : {0.0, 1.0}) out.x.push_back(*low + (static_cast<double>(k) + x) * width), out.y.push_back(counts[k]);
+        out.x.push_back(*low + (static_cast<double>(k) + 0.5) * width), out.y.push_back(counts[k]);
     return out;
 }
 

@@ -20,8 +20,8 @@ Result<Inverters> Inverters::swept(double step, double supply) {
     return Inverters{std::move(*found), supply};
 }
 
-Result<Inverters> Inverters::ordered(const std::string& orders) {
-    auto found = found_in({"inverters", {}, orders});
+Result<Inverters> Inverters::ordered(const std::string& orders, std::vector<std::string> settings) {
+    auto found = found_in({"inverters", std::move(settings), orders});
     if (!found) return found.error();
     return Inverters{std::move(*found), 0.7};
 }

@@ -14,7 +14,7 @@ struct Inverters {
 
     /// Under these orders; V_IN in steps of so many volts is the usual one.
     static Result<Inverters> swept(double step, double supply = 0.7);
-    static Result<Inverters> ordered(const std::string& orders);
+    static Result<Inverters> ordered(const std::string& orders, std::vector<std::string> settings = {});
 
     /// What it drives out of an output held at half the supply, A over V.
     Line current(char which) const;

@@ -102,7 +102,7 @@ Result<void> claim_causes(Outcome& out) {
 
 /// Bulk current over I_BIAS, and both drains' room.
 Result<void> draw(Outcome& out) {
-    auto found = found_in({"bias", {}, ".dc ibias 10n 3u 10n\n.save i(m3b) i(m4a)"});
+    auto found = found_in({"bias", {}, ".dc ibias 50n 3u 10n\n.save i(m3b) i(m4a)"});
     if (!found) return found.error();
     const auto I_P = found->line("dc", "i(m3b)"), I_N = found->line("dc", "i(m4a)"), V_BN = found->line("dc", "v(bn)");
     Line bulks;
@@ -116,7 +116,7 @@ Result<void> draw(Outcome& out) {
     auto of_M3B = V_BN.times(1e9, -1);
     for (double& v : of_M3B.y) v += 0.7;
     Line needed;
-    for (const double I : {10e-9, 30e-9, 100e-9, 300e-9, 1e-6, 3e-6}) {
+    for (const double I : {50e-9, 100e-9, 300e-9, 1e-6, 3e-6}) {
         const auto state = bias_state({bias_setting(BiasAxis::current, I)});
         if (!state) return state.error();
         needed.x.push_back(1e9 * I), needed.y.push_back(state->needs_M4A);

@@ -230,8 +230,8 @@ Result<Outcome> work(const StudyOptions& options) {
     Chips process, mismatch;
     double deviations[2][3];  // of I_Q, %
     for (const auto& row : rows) {
-        Plot V_plot{fmt::format("V_Q of 1000 chips, {}", row.name), "V_Q (mV)", "chips", {}};
-        Plot I_plot{fmt::format("I_Q of 1000 chips, {}", row.name), "I_Q (nA)", "chips", {}};
+        Plot V_plot{fmt::format("V_Q of 1000 chips, {}", row.name), "V_Q (mV)", "chips, in 30 parts", {}};
+        Plot I_plot{fmt::format("I_Q of 1000 chips, {}", row.name), "I_Q (nA)", "chips, in 30 parts", {}};
         for (std::size_t k = 0; k < 3; ++k) {
             auto chips = chips_of(row.circuit, ways[k]);
             if (!chips) return chips.error();
