@@ -8,7 +8,7 @@
 
 namespace corpuscle::studies::fig62 {
 
-constexpr double slow = 1e-3, fast = 1e6;  // Hz
+constexpr double slow = 1e-3, fast = 1e5;  // Hz
 constexpr double largest = 0.35;           // V: half the supply, what a filter's node can go to either side
 
 /// V/sqrt(Hz) over Hz; alone: without what the bias generator adds.
@@ -64,7 +64,8 @@ Result<Outcome> work(const StudyOptions& options) {
     out.finds("INVC takes more than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
               "E.4: very power inefficient (INVC is meant, errata I14)");
     out.note(
-        "The bias generator's divider is of some hundred megohms; its noise comes in through BN and BP until the capacitances at REF short "
+        "The bias generator's divider is of very large resistances (E.2); its noise comes in through BN and BP until the capacitances at "
+        "REF short "
         "it.");
     out.note("The cards' flicker noise is a choice (nt), so 1/f noises compare with each other, not with the thesis's.");
     return out;
