@@ -1,66 +1,48 @@
-// The bias generator along its current: fig. 53.
+// Fig. 53: the bias generator along its current.
 
-#include <fmt/format.h>
-#include <cmath>
-
-#include "study/deck.hpp"
+#include "study/bias_figure.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::fig53 {
 
-constexpr double half_supply = 0.35, near = 0.1, apart = 5e-3;  // V; I_Q within a tenth of I_BIAS and V_Q within 5 mV: it works
+constexpr BiasFigure figure{BiasAxis::current, "53", "I_BIAS (nA)", "A", 1e9, {100e-9, 2e-6}, {100e-9, 700e-9}};
 
-/// From where to where the replica's voltage and current are as they should be.
-struct Works {
-    double from = Claim::none, to = Claim::none;
-    Works(const Line& I_Q, const Line& V_Q) {
-        for (std::size_t k = 0; k < I_Q.x.size(); ++k) {
-            if (std::abs(I_Q.y[k] / I_Q.x[k] - 1) > near || std::abs(V_Q.y[k] - half_supply) > apart) continue;
-            if (std::isnan(from)) from = I_Q.x[k];
-            to = I_Q.x[k];
-        }
-    }
-};
+/// Whether both transistors between which BN lies are saturated.
+Result<bool> saturated(double I_BIAS) {
+    const auto s = bias_state({bias_setting(BiasAxis::current, I_BIAS)});
+    if (!s) return s.error();
+    return s->V_M3B >= s->needs_M3B && s->V_M4A >= s->needs_M4A;
+}
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const std::string source = "thesis E.2, fig. 53";
-    Plot voltages{"V_BN and V_BP along I_BIAS, typical", "I_BIAS (nA)", "V", {}, true};
-    Plot currents{"I_Q along I_BIAS", "I_BIAS (nA)", "I_Q (nA)", {}, true, true};
-    double highest_low = 0, lowest_high = 1;
-    for (const char* corner : {"tt", "ss", "ff"}) {
-        const auto found = found_in({"bias", {fmt::format("corner={}", corner)}, ".dc ibias 10n 3u 2n"});
-        if (!found) return found.error();
-        const auto I_Q = found->line("dc", "i(vis)");
-        const Works works(I_Q, found->line("dc", "v(q)"));
-        highest_low = std::max(highest_low, works.from), lowest_high = std::min(lowest_high, works.to);
-        currents.add(corner, I_Q.times(1e9, 1e9));
-        if (corner == std::string_view("tt")) {
-            const std::string why =
-                "I_Q within a tenth of I_BIAS and V_Q within 5 mV of half the supply here; a range is read off a figure there";
-            out.claim("typical: works from", works.from, "A").printed_as(100e-9, source).because(why);
-            out.claim("typical: works to", works.to, "A")
-                .printed_as(2e-6, source)
-                .because("the junctions of the bulks, forward biased by almost 0.6 V, take the rest of the current");
-            const auto V_BN = found->line("dc", "v(bn)");
-            out.claim("typical: V_BN at 100 nA", V_BN.at(100e-9), "V")
-                .printed_as(600e-3, source)
-                .because(
-                    "body bias acts on the threshold alone here; V_T0 is set so that the unbiased inverter carries 17.5 nA as printed");
-            voltages.add("V_BN", V_BN.times(1e9, 1)).add("V_BP", found->line("dc", "v(bp)").times(1e9, 1));
-        }
-        if (auto ok = options.at(1.0 / 3); !ok) return ok.error();
+    const auto corners = make(figure, out, options);
+    if (!corners) return corners.error();
+    const auto& typical = corners->front();
+    const auto V_BN = typical.sweep.line("v(bn)");
+    const std::string why =
+        "V_BN follows from V_T, n and I_SQ of the card, whose V_T is set so that the unbiased inverter carries 17.5 nA as printed; what "
+        "thresholds lower by some tens of millivolts would do stands in bias-valid";
+    for (const auto& [I, printed] : {std::pair{100e-9, 100e-3}, {2e-6, 600e-3}}) {
+        auto& c =
+            out.claim(I < 1e-6 ? "typical: V_BN at 100 nA" : "typical: V_BN at 2 uA", V_BN.at(I), "V").printed_as(printed, figure.source());
+        if (c.needs_reason()) c.because(why);
     }
-    out.claim("corners: works from", highest_low, "A").printed_as(100e-9, source);
-    out.claim("corners: works to", lowest_high, "A")
-        .printed_as(700e-9, source)
-        .because("as typically, and corners of ours are three deviations");
-    currents.add("I_Q = I_BIAS", {{10, 3000}, {10, 3000}});
-    out.plots = {voltages.shape("V_BN from 100 to 600 mV over 100 nA to 2 uA"), currents.shape("three corners, each with its own range")};
+    out.finds("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).least() > 0, figure.source());
+    const auto inside = saturated(200e-9), below = saturated(0.5 * typical.works.from), above = saturated(2 * typical.works.to);
+    for (const auto* s : {&inside, &below, &above})
+        if (!*s) return s->error();
+    const char* words = "E.2: they are in the range, and in the linear region below and above it";
+    out.finds("M3B and M4A are saturated at 200 nA", *inside, words);
+    out.finds("one of them is not at half the current at which it begins to work", !*below, words);
+    out.finds("one of them is not at twice the current up to which it works", !*above, words);
+    out.plots[0].shape("V_BN from 100 to 600 mV over 100 nA to 2 uA");
+    out.plots[1].shape("three corners, each with its own range; common to all is 100 to 700 nA");
     return out;
 }
 
 const Study study{"fig53", "The bias generator along its current",
-                  "It works from 100 nA to 2 uA typically, from 100 to 700 nA in corners. Thesis E.2, fig. 53", work};
+                  "It works from 100 nA to 2 uA typically, V_BN from 100 to 600 mV, and from 100 to 700 nA in corners. Thesis E.2, fig. 53",
+                  work};
 
 }  // namespace corpuscle::studies::fig53

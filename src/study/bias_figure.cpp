@@ -1,0 +1,86 @@
+#include "study/bias_figure.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace corpuscle {
+namespace {
+
+/// One end of a range, with what stops the generator of that corner there.
+Result<void> claim_end(Outcome& out, const std::string& what, const BiasSweep& sweep, double end, bool open, double printed,
+                       const BiasFigure& figure) {
+    auto& claim = out.claim(what, end, figure.unit).printed_as(printed, figure.source());
+    auto why = why_it_ends(sweep, end, open);
+    if (!why) return why.error();
+    claim.because(std::move(*why));
+    return {};
+}
+
+Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
+    const auto& typical = corners[0];
+    if (auto ok =
+            claim_end(out, "typical: works from", typical.sweep, typical.works.from, typical.works.open_below, figure.typical[0], figure);
+        !ok)
+        return ok;
+    if (auto ok = claim_end(out, "typical: works to", typical.sweep, typical.works.to, typical.works.open_above, figure.typical[1], figure);
+        !ok)
+        return ok;
+    if (std::isnan(figure.corners[0])) return {};
+    const BiasCorner *lowest = corners.data(), *highest = lowest;
+    for (const auto& c : corners) {
+        if (c.works.from > lowest->works.from) lowest = &c;
+        if (c.works.to < highest->works.to) highest = &c;
+    }
+    const auto name = [](const char* what, const BiasCorner& c) {
+        return fmt::format("all corners: works {} ({} is the first to end)", what, c.name);
+    };
+    if (auto ok =
+            claim_end(out, name("from", *lowest), lowest->sweep, lowest->works.from, lowest->works.open_below, figure.corners[0], figure);
+        !ok)
+        return ok;
+    return claim_end(out, name("to", *highest), highest->sweep, highest->works.to, highest->works.open_above, figure.corners[1], figure);
+}
+
+void draw(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
+    const bool log = figure.axis == BiasAxis::current;
+    auto& voltages = out.plot(fmt::format("Fig. {}a: body voltages, typical", figure.number), figure.x_label, "V");
+    voltages.log_x = log;
+    for (const auto& [node, name] : {std::pair{"v(bn)", "V_BN"}, {"v(bp)", "V_BP"}, {"v(ref)", "V_REF"}, {"v(q)", "V_Q"}})
+        voltages.add(name, corners[0].sweep.line(node).times(figure.scale, 1));
+    auto& currents = out.plot(fmt::format("Fig. {}b: I_Q in the corners", figure.number), figure.x_label, "I_Q (nA)");
+    currents.log_x = currents.log_y = log;
+    for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().times(figure.scale, 1e9));
+    if (log) currents.add("I_Q = I_BIAS", {{10, 3000}, {10, 3000}});
+    auto& misses = out.plot("How far off: 1 is V_Q off by 5 mV or I_Q by a tenth, the worse of both", figure.x_label, "margins");
+    misses.log_x = log, misses.log_y = true;
+    for (const auto& c : corners) misses.add(c.name, c.sweep.miss().times(figure.scale, 1));
+    misses.add("just works", {{corners[0].sweep.miss().x.front() * figure.scale, corners[0].sweep.miss().x.back() * figure.scale}, {1, 1}});
+}
+
+}  // namespace
+
+Result<std::string> why_it_ends(const BiasSweep& sweep, double end, bool open) {
+    auto settings = sweep.settings;
+    settings.push_back(bias_setting(sweep.axis, end));
+    const auto state = bias_state(settings);
+    if (!state) return state.error();
+    if (open) return "works to the end of what was tried; " + state->words();
+    const bool by_current = sweep.miss_of_current().at(end) > sweep.miss_of_voltage().at(end);
+    return fmt::format("{} leaves its margin; {}", by_current ? "I_Q" : "V_Q", state->words());
+}
+
+Result<std::vector<BiasCorner>> make(const BiasFigure& figure, Outcome& out, const StudyOptions& options) {
+    std::vector<BiasCorner> corners;
+    for (const char* name : {"tt", "ss", "ff"}) {
+        auto sweep = BiasSweep::along(figure.axis, {fmt::format("corner={}", name)});
+        if (!sweep) return sweep.error();
+        const auto works = sweep->works();
+        corners.push_back({name, std::move(*sweep), works});
+        if (auto ok = options.at(static_cast<double>(corners.size()) / 4); !ok) return ok.error();
+    }
+    if (auto ok = claim_ranges(figure, corners, out); !ok) return ok.error();
+    draw(figure, corners, out);
+    return corners;
+}
+
+}  // namespace corpuscle

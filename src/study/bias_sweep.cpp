@@ -1,0 +1,127 @@
+#include "study/bias_sweep.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "signal/quantity.hpp"
+#include "study/claim.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double k_over_q = 1.380649e-23 / 1.602176634e-19;  // V/K
+
+double parameter(const Found& found, std::string_view name) { return found.circuit->parameters.find(name)->second; }
+
+std::string command(BiasAxis axis, const std::string& range) {
+    constexpr const char* swept[] = {"ibias", "vdd", "temp"};
+    return fmt::format(".dc {} {}", swept[static_cast<int>(axis)], range);
+}
+
+/// The drain's voltage from which a transistor that carries this current is saturated.
+double saturation_voltage(const circuit::Circuit& c, std::string_view name, double current) {
+    const auto& element = c.elements[static_cast<std::size_t>(c.element(name))];
+    const auto& card = c.models[static_cast<std::size_t>(element.model)].values;
+    const auto of = [](const circuit::Values& values, std::string_view what) { return values.find(what)->second; };
+    const double kelvin = c.temperature + 273.15, warmth = kelvin / (of(card, "tnom") + 273.15);
+    const double aspect = of(element.values, "w") / of(element.values, "l") * of(element.values, "m") / of(element.values, "stack");
+    const double i_f = current / (of(card, "isq") * std::pow(warmth, of(card, "tis")) * aspect);
+    return k_over_q * kelvin * (std::sqrt(1 + i_f) + 3);
+}
+
+}  // namespace
+
+Result<BiasSweep> BiasSweep::along(BiasAxis axis, std::vector<std::string> settings) {
+    constexpr const char* ranges[] = {"10n 3u 2n", "0.4 0.9 2m", "-55 125 5"};
+    return along(axis, ranges[static_cast<int>(axis)], std::move(settings));
+}
+
+Result<BiasSweep> BiasSweep::along(BiasAxis axis, const std::string& range, std::vector<std::string> settings) {
+    auto found = found_in({"bias", settings, command(axis, range)});
+    if (!found) return found.error();
+    return BiasSweep{axis, std::move(settings), std::move(*found)};
+}
+
+Line BiasSweep::line(const std::string& name) const { return found.line("dc", name); }
+
+Line BiasSweep::miss_of_voltage() const {
+    auto out = V_Q();
+    const auto supply = line("v(vdd)");
+    for (std::size_t k = 0; k < out.x.size(); ++k) out.y[k] = std::abs(out.y[k] - supply.y[k] / 2) / bias_voltage_margin;
+    return out;
+}
+
+Line BiasSweep::miss_of_current() const {
+    auto out = I_Q();
+    for (std::size_t k = 0; k < out.x.size(); ++k) {
+        const double asked = axis == BiasAxis::current ? out.x[k] : parameter(found, "i_bias");
+        out.y[k] = std::abs(out.y[k] / asked - 1) / bias_current_margin;
+    }
+    return out;
+}
+
+Line BiasSweep::miss() const {
+    auto out = miss_of_voltage();
+    const auto other = miss_of_current();
+    for (std::size_t k = 0; k < out.x.size(); ++k) out.y[k] = std::max(out.y[k], other.y[k]);
+    return out;
+}
+
+BiasSweep::Range BiasSweep::works() const {
+    const auto m = miss();
+    const auto best = static_cast<std::size_t>(std::min_element(m.y.begin(), m.y.end()) - m.y.begin());
+    if (m.y.empty() || m.y[best] > 1) return {Claim::none, Claim::none, false, false};
+    std::size_t low = best, high = best;
+    while (low > 0 && m.y[low - 1] <= 1) --low;
+    while (high + 1 < m.y.size() && m.y[high + 1] <= 1) ++high;
+    const auto edge = [&](std::size_t in, std::size_t out) {
+        return m.x[in] + (m.x[out] - m.x[in]) * (1 - m.y[in]) / (m.y[out] - m.y[in]);
+    };
+    const bool all_below = low == 0, all_above = high + 1 == m.x.size();
+    return {all_below ? m.x[low] : edge(low, low - 1), all_above ? m.x[high] : edge(high, high + 1), all_below, all_above};
+}
+
+double BiasSweep::Range::share_of(double least, double most) const {
+    return std::max(0.0, std::min(to, most) - std::max(from, least)) / (most - least);
+}
+
+BiasSweep::Range common(const BiasSweep::Range& a, const BiasSweep::Range& b) {
+    return {std::max(a.from, b.from), std::min(a.to, b.to), a.open_below && b.open_below, a.open_above && b.open_above};
+}
+
+Result<BiasState> bias_state(const std::vector<std::string>& settings) {
+    const auto found = found_in({"bias", settings, ".op\n.save i(m3b) i(m4a)"});
+    if (!found) return found.error();
+    const auto at = [&](const char* name) { return found->at_rest(name); };
+    BiasState out{at("v(q)"),
+                  at("i(vis)"),
+                  at("v(bn)"),
+                  at("v(bp)"),
+                  at("v(ref)"),
+                  at("v(vdd)") - at("v(bn)"),
+                  at("v(bn)"),
+                  0,
+                  0,
+                  0,
+                  parameter(*found, "i_bias")};
+    out.needs_M3B = saturation_voltage(*found->circuit, "m3b", out.asked);
+    out.needs_M4A = saturation_voltage(*found->circuit, "m4a", out.asked);
+    out.bulks = -at("i(m3b)") - at("i(m4a)");
+    return out;
+}
+
+std::string BiasState::words() const {
+    const auto mV = [](double v) { return format_quantity(v, "V"); };
+    return fmt::format(
+        "there V_Q is {} and I_Q {}; M4A has {} of the {} from which it is saturated, M3B {} of {}, and the bulks' junctions "
+        "take {:.2g} % of I_BIAS from BN",
+        mV(V_Q), format_quantity(I_Q, "A"), mV(V_M4A), mV(needs_M4A), mV(V_M3B), mV(needs_M3B), 100 * bulks / asked);
+}
+
+std::string bias_setting(BiasAxis axis, double value) {
+    constexpr const char* names[] = {"i_bias", "supply", "temp"};
+    return fmt::format("{}={}", names[static_cast<int>(axis)], value);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,175 @@
+// Equations 45 to 47 against the solved circuits, as the errata correct them; where an erratum matters the printed form stands beside.
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "study/deck.hpp"
+#include "study/inverters.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::eq45_47 {
+
+constexpr double phi_t = 1.380649e-23 * 300.15 / 1.602176634e-19, e = 2.718281828459045;  // V at 27 C
+constexpr double low = 0.4;                                                               // V: a supply at which weak inversion holds
+constexpr double saturated = 0.6;  // V: one at which it almost holds, and drains are far enough from their sources for eq. 46
+
+// One array; an inverter of such arrays tied to itself, another whose output is held where that rests, and one that is open.
+constexpr const char* circuit = R"(Arrays and inverters in weak inversion
+.lib '../process/tsmc180.lib' tt
+.param low=0.4 v_q=0.2 stronger=1
+vdd vdd 0 {low}
+vd d 0 0.2
+vg g 0 0.2
+vs1 d d1 0
+m1 d1 g 0 0 nch w=1.5u l=0.5u m=2 stack=8
+vs2 d d2 0
+m2 d2 g 0 0 nch w=1.5u l=0.5u
+* tied to itself, both bulks lifted alike
+vbn bn 0 0
+ebp bp 0 vdd bn 1
+visq sq 0 0
+mpq q q vdd bp pch w=6u l=0.5u m=2 stack=8
+mnq q q sq  bn nch w=1.5u l=0.5u m=2 stack=8
+* the same with the bulks at the output
+mp0 q0 q0 vdd q0 pch w=6u l=0.5u m=2 stack=8 mulu0={stronger}
+mn0 q0 q0 0   q0 nch w=1.5u l=0.5u m=2 stack=8
+* held at v_q, bulks at the rails and their voltage moved with vb; and open
+vin in 0 {v_q}
+vb b 0 0
+ebpb bph 0 vdd 0 1
+vh h 0 {v_q}
+eb1 bp1 bph b 0 1
+mph h in vdd bp1 pch w=6u l=0.5u m=2 stack=8
+mnh h in 0   b   nch w=1.5u l=0.5u m=2 stack=8
+mpo o in vdd vdd pch w=6u l=0.5u m=2 stack=8
+mno o in 0   0   nch w=1.5u l=0.5u m=2 stack=8
+)";
+
+Result<Found> run(const std::vector<std::string>& settings, const std::string& orders) { return found_in({circuit, settings, orders}); }
+
+/// The card's numbers of a transistor here; V_A of a stack is that of all its units.
+struct Array {
+    double n, V_T, I_S, V_A;
+    Array(const circuit::Circuit& c, const char* name) {
+        const auto& m = c.elements[static_cast<std::size_t>(c.element(name))];
+        const auto& values = c.models[static_cast<std::size_t>(m.model)].values;
+        const auto of = [](const circuit::Values& v, const char* what) { return v.find(what)->second; };
+        n = of(values, "n"), V_T = of(values, "vto"), V_A = of(values, "ve") * of(m.values, "l") * of(m.values, "stack");
+        I_S = of(values, "isq") * of(m.values, "w") / of(m.values, "l") * of(m.values, "m") / of(m.values, "stack");
+    }
+    double weak(double V_GS, double V_BS) const { return I_S * e * std::exp((V_GS + (n - 1) * V_BS - V_T) / (n * phi_t)); }
+};
+
+void claim_both(Outcome& out, const std::string& what, double by_corrected, double by_printed, const char* equation, const char* erratum) {
+    out.claim(fmt::format("{}, over eq. {} as corrected", what, equation), by_corrected).printed_as(1, fmt::format("errata {}", erratum));
+    auto& c =
+        out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).printed_as(1, fmt::format("eq. {}", equation));
+    if (c.needs_reason()) c.because(fmt::format("misprinted: errata {}", erratum));
+}
+
+Result<void> claim_currents(Outcome& out) {
+    const auto f = run({}, ".dc vbn 0 0.15 5m");
+    if (!f) return f.error();
+    const Array N(*f->circuit, "m1");
+    const double I_D = f->line("dc", "i(vs1)").at(0), I_unit = f->line("dc", "i(vs2)").at(0);
+    claim_both(out, "an array's I_D at V_GS = 0.2 V", I_D / (2 * N.weak(0.2, 0)), I_D / N.weak(0.2, 0), "45a", "I1");
+    const auto I_Q = f->line("dc", "i(visq)"), V_Q = f->line("dc", "v(q)");
+    for (const double V_BN : {0.0, 0.15}) {
+        const double weak = N.weak(V_Q.at(V_BN), V_BN);
+        claim_both(out, fmt::format("I_Q at {:g} V and V_BN = {:g} V", low, V_BN), I_Q.at(V_BN) / (2 * weak), I_Q.at(V_BN) / weak, "45b",
+                   "I1, I1a");
+    }
+    const double slope = std::log(I_Q.at(0.1) / I_Q.at(0.05)) / 0.05;
+    out.claim("ln I_Q over V_BN, both bulks lifted alike: slope", slope, "1/V")
+        .printed_as((N.n - 1) / (N.n * phi_t), "E.1: I_Q grows exponentially with (n-1) V_BN; by eq. 45b (n-1)/(n phi_t)");
+    out.claim("an array of 2x8 over one unit", I_D / I_unit).printed_as(2.0 / 8, "eq. 45c with eq. 31: S_eq");
+    return {};
+}
+
+/// G_m, G_o and G_mb of the held inverter, as slopes.
+struct Slopes {
+    double I_Q = 0, G_m = 0, G_o = 0, G_mb = 0;
+    static Result<Slopes> at(double V_Q, double supply) {
+        const std::vector<std::string> here = {fmt::format("v_q={}", V_Q), fmt::format("low={}", supply)};
+        Slopes out;
+        for (auto& [source, slope] : {std::pair{"vin", &out.G_m}, {"vh", &out.G_o}, {"vb", &out.G_mb}}) {
+            const double middle = source == std::string_view("vb") ? 0 : V_Q;
+            const auto f = run(here, fmt::format(".dc {} {} {} 1m", source, middle - 2e-3, middle + 2e-3));
+            if (!f) return f.error();
+            *slope = std::abs(f->line("dc", "i(vh)").slope_at(middle));
+        }
+        return out;
+    }
+};
+
+Result<void> claim_gain(Outcome& out) {
+    const std::vector<std::string> here = {fmt::format("low={}", saturated)};
+    const auto rest = run(here, ".op");
+    if (!rest) return rest.error();
+    const double V_Q = rest->at_rest("v(q)"), I_Q = rest->at_rest("i(visq)");
+    const Array N(*rest->circuit, "mnq"), P(*rest->circuit, "mpq");
+    const auto s = Slopes::at(V_Q, saturated);
+    if (!s) return s.error();
+    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").printed_as(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b of this I_Q");
+    out.claim("G_o", s->G_o, "S").printed_as(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c of this I_Q, with V_A = V_E L of the card");
+    const double by_printed = 1 / (N.n * phi_t * (1 / P.V_A + 1 / N.V_A));
+    claim_both(out, "A_V = G_m / G_o", s->G_m / s->G_o / (2 * by_printed), s->G_m / s->G_o / by_printed, "46d", "I2");
+    const double step = 20e-6;
+    const auto open = run(here, fmt::format(".dc vin {} {} 1u", V_Q - step, V_Q + step));
+    if (!open) return open.error();
+    const auto V_o = open->line("dc", "v(o)");
+    out.claim("V_o 20 uV above V_Q: below V_Q by", V_Q - V_o.at(V_o.x[V_o.x.size() - 1]), "V")
+        .printed_as(s->G_m / s->G_o * (V_o.x.back() - V_Q), "eq. 46a");
+    const auto biased = Inverters::swept(1e-3);
+    if (!biased) return biased.error();
+    auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", biased->at_rest('a'), "S")
+                  .printed_as(2 * biased->taken('a').at(0) / (N.n * phi_t), "eq. 46b of its I_Q");
+    if (c.needs_reason()) c.because("eq. 46b is for weak inversion; 200 nA in these arrays is moderate");
+    return {};
+}
+
+Result<void> claim_rest(Outcome& out) {
+    const auto f = found_in({"quiescent", {}, ".op"});
+    if (!f) return f.error();
+    const double V_Q = f->at_rest("v(qa)"), V_Q0 = f->at_rest("v(qb)"), V_DD = 0.7;
+    const Array N(*f->circuit, "mn2a"), P(*f->circuit, "mp1a");
+    const auto s = Slopes::at(low / 2, low);
+    if (!s) return s.error();
+    const double away = V_Q0 - V_DD / 2;
+    out.claim("V_Q with bulks at the rails", V_Q, "V")
+        .printed_as(V_Q0 + (N.n - 1) * away, "eq. 47a, second line, of V_Q0 as solved (errata I4: as printed)");
+    out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").printed_as((N.n - 1) * away, "eq. 47a, second line");
+    out.claim("G_mb / (G_m + G_o) at 0.4 V", s->G_mb / (s->G_m + s->G_o)).printed_as(N.n - 1, "eq. 47a, both lines");
+    for (const double stronger : {1.0, 2.0, 4.0}) {
+        const auto there = run({fmt::format("stronger={}", stronger)}, ".op");
+        if (!there) return there.error();
+        const double middle = low / 2 + (N.V_T - P.V_T) / (2 * N.n), shift = phi_t / 2 * std::log(stronger * P.I_S / N.I_S);
+        out.claim(fmt::format("V_Q0 at {:g} V with I_SP of {:g} I_SN", low, stronger), there->at_rest("v(q0)"), "V")
+            .printed_as(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");
+        if (stronger == 1) continue;
+        out.claim(fmt::format("the same, from V_DD / 2 + (V_TP + V_TN) / 2n, I_SP of {:g} I_SN", stronger),
+                  there->at_rest("v(q0)") - middle, "V")
+            .printed_as(-shift, "eq. 47b with the printed -")
+            .because("the sign is misprinted: a stronger PMOS raises V_Q (errata I5)");
+    }
+    return {};
+}
+
+Result<Outcome> work(const StudyOptions& options) {
+    Outcome out;
+    if (auto ok = claim_currents(out); !ok) return ok.error();
+    if (auto ok = options.at(0.3); !ok) return ok.error();
+    if (auto ok = claim_gain(out); !ok) return ok.error();
+    if (auto ok = options.at(0.6); !ok) return ok.error();
+    if (auto ok = claim_rest(out); !ok) return ok.error();
+    out.note(
+        "What is made is solved transistor by transistor with the card, at 0.4 V so that all is in weak inversion (eq. 46 at 0.6 V, where "
+        "drains are saturated, too); what is printed is the "
+        "equation, of the card's n, V_T, I_SQ and V_E.");
+    return out;
+}
+
+const Study study{"eq45-47", "The inverter's equations",
+                  "I_Q, G_m, G_o, A_V and V_Q by eq. 45 to 47, against circuits solved. Thesis E.1 (errata I1, I2, I4, I5)", work};
+
+}  // namespace corpuscle::studies::eq45_47

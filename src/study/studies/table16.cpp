@@ -1,0 +1,114 @@
+// Tables 16, 19 and 20: the arrays of the bias generator and of the three inverters, as built.
+
+#include <fmt/format.h>
+#include <cmath>
+#include <sstream>
+
+#include "study/deck.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::table16 {
+
+/// A row as it is printed: m columns of n units of W by L, um; and whom it sizes in one of our netlists.
+struct Row {
+    const char *table, *name;
+    double m, n, W, L;
+    const char *circuit, *devices;
+    const char* otherwise = "";  ///< by which erratum they are built otherwise
+};
+constexpr Row rows[] = {
+    {"16", "M1A-B", 2, 8, 6.0, 0.5, "bias", "m1a m1b"},
+    {"16", "M2A-B", 2, 8, 1.5, 0.5, "bias", "m2a m2b"},
+    {"16", "M3A,B", 2, 8, 6.0, 0.5, "bias", "m3a m3b"},
+    {"16", "M4A-C", 2, 8, 1.5, 0.5, "bias", "m4a m4b m4c"},
+    {"16", "M5A,B", 2, 8, 6.0, 0.5, "bias", "m5a m5b"},
+    {"19", "INVA M1", 2, 8, 6.0, 0.5, "inverter_biased", "xa.mp1"},
+    {"19", "INVA M2", 2, 8, 1.5, 0.5, "inverter_biased", "xa.mn2"},
+    {"19", "INVB M1A-C", 2, 8, 6.0, 0.5, "invb", "xh.mp1a xh.mp1b xh.mp1c"},
+    {"19", "INVB M2A-C", 2, 8, 1.5, 0.5, "invb", "xh.mn2a xh.mn2b xh.mn2c"},
+    {"20", "M1A-C", 2, 8, 6.0, 0.5, "invc", "xh.xb.mp1a xh.xb.mp1b xh.xb.mp1c"},
+    {"20", "M2A-C", 2, 8, 1.5, 0.5, "invc", "xh.xb.mn2a xh.xb.mn2b xh.xb.mn2c"},
+    {"20", "M3A,C", 8, 1, 6.0, 0.5, "invc", "xh.mp3a xh.mp3c"},
+    {"20", "M3B,D", 2, 4, 6.0, 0.5, "invc", "xh.mp3b xh.mp3d"},
+    {"20", "M4A,C", 8, 1, 1.5, 0.5, "invc", "xh.mn4a xh.mn4c"},
+    {"20", "M4B,D", 2, 4, 1.5, 0.5, "invc", "xh.mn4b xh.mn4d"},
+    {"20", "M5A", 16, 1, 6.0, 0.5, "invc", "xh.mp5a"},
+    {"20", "M5B", 2, 8, 6.0, 0.5, "invc", "xh.mp5b"},
+    {"20", "M6A", 8, 2, 1.5, 0.5, "invc", "xh.mn6a", "S7: 16x1, as M5A"},
+    {"20", "M6B", 2, 4, 1.5, 0.5, "invc", "xh.mn6b", "S7: 2x8, as M5B"},
+};
+
+const circuit::Element& element_of(const circuit::Circuit& c, const std::string& name) {
+    return c.elements[static_cast<std::size_t>(c.element(name))];
+}
+double number(const circuit::Element& e, const char* name) {
+    const auto found = e.values.find(name);
+    return found == e.values.end() ? 1 : found->second;  // m, stack
+}
+double gates(const circuit::Element& e) { return 1e12 * number(e, "m") * number(e, "stack") * number(e, "w") * number(e, "l"); }  // um^2
+
+/// Whether all of a row's devices are as it says; their gates' area is added.
+bool as_printed(const Row& row, const circuit::Circuit& c, double& area) {
+    bool all = true;
+    std::istringstream names(row.devices);
+    for (std::string name; names >> name;) {
+        const auto& e = element_of(c, name);
+        const double made[] = {number(e, "m"), number(e, "stack"), 1e6 * number(e, "w"), 1e6 * number(e, "l")};
+        const double printed[] = {row.m, row.n, row.W, row.L};
+        for (int k = 0; k < 4; ++k) all = all && std::abs(made[k] - printed[k]) < 1e-9;
+        area += gates(e);
+    }
+    return all;
+}
+
+/// What M6 does to INVC: by how much it is a different current at both rails.
+Result<void> lopsided(Outcome& out) {
+    double ratios[2];
+    for (const bool printed : {false, true}) {
+        std::vector<std::string> settings;
+        if (printed) settings = {"xh.mn6a=8x2", "xh.mn6b=2x4"};
+        const auto found = found_in({"invc", settings, ".dc vin 0 0.7 10m"});
+        if (!found) return found.error();
+        const auto I = found->line("dc", "i(vhalf)");
+        ratios[printed] = std::abs(I.y.back() / I.y.front());
+    }
+    out.claim("INVC with M6 as built: current out at V_IN = V_DD over that at 0", ratios[0], "times")
+        .printed_as(1, "fig. 60a: the exact same shape as INVB's");
+    out.claim("INVC with M6 as printed: the same", ratios[1], "times")
+        .between(0.9, 1.1, "fig. 60a: as INVB's, which is symmetric")
+        .because("M6 as printed divides by 8 where M5 divides by 64: errata S7");
+    return {};
+}
+
+Result<Outcome> work(const StudyOptions& options) {
+    Outcome out;
+    std::map<std::string, std::shared_ptr<const circuit::Circuit>> circuits;
+    std::map<std::string, double> areas;
+    for (const auto& row : rows) {
+        auto& c = circuits[row.circuit];
+        if (!c) {
+            auto made = circuit_of({row.circuit});
+            if (!made) return made.error();
+            c = std::move(*made);
+        }
+        const auto source = fmt::format("table {}", row.table);
+        auto& area = areas[std::string_view(row.name).starts_with("INV") ? std::string(row.name, 4) : source];
+        auto& claim = out.finds(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
+                                as_printed(row, *c, area), source);
+        if (claim.needs_reason()) claim.because(fmt::format("errata {}", row.otherwise));
+    }
+    out.claim("gates of the bias generator", areas["table 16"], "um^2");
+    out.claim("gates of INVA", areas["INVA"], "um^2");
+    out.claim("gates of INVB over INVA's", areas["INVB"] / areas["INVA"], "times").printed_as(3, "E.3: three times more area");
+    out.claim("gates of INVC over INVA's", areas["table 20"] / areas["INVA"], "times");
+    if (auto ok = lopsided(out); !ok) return ok.error();
+    out.note(
+        "The text's replica of M4A and M5C is M4C and M5B (errata I6): table 16 has no M5C, and M4A and M5A set BN and BP. Table 19's "
+        "caption is table 16's (errata I12).");
+    return options.at(1) ? Result<Outcome>(out) : options.at(1).error();
+}
+
+const Study study{"table16", "The inverters' arrays as built",
+                  "Sizes of the bias generator and of INVA, INVB and INVC. Thesis tables 16, 19 and 20", work};
+
+}  // namespace corpuscle::studies::table16
