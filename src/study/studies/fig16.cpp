@@ -59,7 +59,7 @@ Result<void> tell_rheobases(Outcome& out, const StudyOptions& options) {
     out.claim(fmt::format("LIF-A with u_rest = {} V: least current that fires", u_rest), *raised, "A")
         .printed_as(theta / R, "thesis 3.2: theta / R")
         .because("it is (theta - u_rest) / R (errata B5a), which is the same at u_rest = 0 alone");
-    out.claim("the same, as mended", *raised, "A").printed_as((theta - u_rest) / R, "errata B5a: (theta - u_rest) / R");
+    out.claim("the same, as mended", *raised, "A").as_follows((theta - u_rest) / R, "errata B5a: (theta - u_rest) / R");
     return options.at(0.8);
 }
 
@@ -75,7 +75,8 @@ Result<Outcome> work(const StudyOptions& options) {
         .printed_as(near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R")
         .because("the approximation is for currents far above the leak's, and this one is about twice it (errata B5b)");
     out.claim("LIF-A: frequency, by the solution of (5)", f_A, "Hz")
-        .printed_as(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))), "errata B5b");
+        .as_follows(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))),
+                    "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
     out.claim("LIF-B: frequency", f_B, "Hz")
         .printed_as((amplitude - leak) / C / (theta - reset), "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]");
     const auto many = under("lif-a", 100 * amplitude);
