@@ -99,7 +99,7 @@ Result<Outcome> work(const StudyOptions& options) {
     if (auto ok = options.at(0.6); !ok) return ok.error();
     if (auto ok = tell_spikes(out, spikes, "sa1"); !ok) return ok.error();
     if (auto ok = tell_spikes(out, spikes, "fa1"); !ok) return ok.error();
-    out.plots = {currents.shape("first order: straight lines of slope 1"), spikes.shape("the same")};
+    out.plots = {std::move(currents), std::move(spikes)};
     out.note("FA-I's worst spike is the last of a tail, where the current is little above the leak and a small charge takes long.");
     out.note(
         "Equal numbers of spikes at all three steps are part of this: else there is no worst one. What is exact here is the model at 0.01 "

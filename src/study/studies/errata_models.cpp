@@ -103,11 +103,11 @@ Result<void> algorithm_5(Outcome& out, const Line& force, Plot& rows) {
         .at_most(8e-6 * (press::most - press::least), "eq. 12: a high-pass of gain K_B cannot give more than K_B times the step")
         .because("it is unstable (B8)");
     out.claim("Alg. 5: spikes if I' is I[n-1], as printed", static_cast<double>(value.size()), "spikes")
-        .as_follows(static_cast<double>(ours->size()), "sa1 of the catalogue with fig. 16's theta")
+        .between(static_cast<double>(ours->size()), static_cast<double>(ours->size()), "sa1 of the catalogue with fig. 16's theta")
         .because("a pole at -k_2 makes it a filter of frequencies near half the sample rate; what it lets through is next to nothing (B8)");
     out.claim("spikes of I_A alone", static_cast<double>(alone.size()), "spikes");
     out.claim("Alg. 5: spikes, as mended", static_cast<double>(mended.size()), "spikes")
-        .as_follows(static_cast<double>(ours->size()), "sa1 of the catalogue with fig. 16's theta");
+        .between(static_cast<double>(ours->size()), static_cast<double>(ours->size()), "sa1 of the catalogue with fig. 16's theta");
     rows.row("Alg. 5 as printed, I' = I[n-1]", value).row("Alg. 5 as mended", mended).row("sa1", *ours);
     return {};
 }
@@ -138,7 +138,7 @@ Result<void> algorithm_6(Outcome& out, const Line& force, Plot& rows) {
         .at_least(1, "thesis 1.2 and 3.4: discharges in retraction")
         .because("k_B I_0 is negative there; -k_B I_0 is meant, a full-wave rectifier with two gains, as 4.3.2 says (B12)");
     out.claim("Alg. 6: the same, as mended", press::count(mended, later), "spikes")
-        .as_follows(press::count(*ours, later), "fa1 of the catalogue");
+        .between(press::count(*ours, later), press::count(*ours, later), "fa1 of the catalogue");
     rows.row("Alg. 6 as printed", printed).row("Alg. 6 as mended", mended).row("fa1", *ours);
     return {};
 }

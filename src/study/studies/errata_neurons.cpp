@@ -53,7 +53,7 @@ Result<void> algorithm_4(Outcome& out) {
         .because("nothing of u[n-1] is in u[n]: a step's charge is all there is (B6)");
     const auto mended = algorithms::lif_b(I, {});
     out.claim("Alg. 4: spikes, as mended", static_cast<double>(mended.spikes.size()), "spikes")
-        .as_follows(static_cast<double>(told->spikes.size()), "sa1 of the catalogue");
+        .between(static_cast<double>(told->spikes.size()), static_cast<double>(told->spikes.size()), "sa1 of the catalogue");
     out.plot("Membrane of SA-I under the press", "time (s)", "u (V)")
         .add("Alg. 4 as printed", u)
         .add("as mended", mended.u)

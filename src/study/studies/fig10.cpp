@@ -35,10 +35,7 @@ void tell_press(Outcome& out, const Found& press, double tau) {
         if (const double d = std::abs(answer.y[k] - slope.at(answer.x[k])); d > off) off = d;
     out.claim("under the press: farthest from -RC dF/dt, as a share of its largest", 100 * off / slope.absolute().most(), "%")
         .at_most(2, "thesis 2.2 and 2.3: a differentiator; the range is ours, for steps of at most 1 ms");
-    out.plot("Under the press, a volt for each newton", "time (s)", "voltage (V)")
-        .add("v(out)", answer)
-        .add("-RC dF/dt", slope)
-        .shape("the derivative, inverted: something in both ramps, nothing in the plateau");
+    out.plot("Under the press, a volt for each newton", "time (s)", "voltage (V)").add("v(out)", answer).add("-RC dF/dt", slope);
 }
 
 Result<Outcome> work(const StudyOptions&) {

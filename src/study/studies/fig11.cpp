@@ -128,7 +128,7 @@ Result<Outcome> work(const StudyOptions& options) {
         .printed_as(1, "thesis 2.3: linear");
     out.claim("INVC: the same", large->invc / small->invc)
         .at_most(1, "thesis 2.3: large signals are distorted; INVC draws more than a resistor beyond its linear range");
-    out.plots.push_back(plot.shape("active: nearly the passive one's exponential"));
+    out.plots.push_back(std::move(plot));
     out.note(
         "Of the references' ways to a low transconductance (bulk or drain driven inputs, pseudo-resistors) only those of figs. 12 and 13 "
         "and the "

@@ -72,9 +72,7 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto force = press::samples(1e-3);
     if (!force) return force.error();
     tell_currents(out, Currents(*told), *force);
-    out.plot("Membrane, T = 1 ms", "time (s)", "u (V)")
-        .add("u", told->traces.at("u"))
-        .shape("rises from rest with the force, to theta and back to u_rst with each spike");
+    out.plot("Membrane, T = 1 ms", "time (s)", "u (V)").add("u", told->traces.at("u"));
 
     Plot frequencies{"Instantaneous frequency", "time (s)", "frequency (Hz)", {}};
     for (const auto& r : readings) {

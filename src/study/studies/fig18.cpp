@@ -93,7 +93,7 @@ Result<Outcome> work(const StudyOptions& options) {
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("T = 1 ms", press::frequency(*algorithm))
         .points("exactly", press::frequency(told->spikes))
-        .add("force (10 N)", force->times(1, 10))
+        .add("force, 10 Hz for a newton", force->times(1, 10))
         .shape(
             "in protraction, slightly late, and in retraction; \"the maximum amplitude for the protraction and retraction phase matches\" "
             "data that are lost");

@@ -61,7 +61,7 @@ Result<Outcome> work(const StudyOptions& options) {
         out.plot(fmt::format("{}: instantaneous frequency", name), "time (s)", "frequency (Hz)")
             .points("to the next spike, at the first", press::frequency(*train))
             .points("the same at the second", press::frequency_behind(*train))
-            .add("force (10 N)", force->times(1, 10))
+            .add("force, 10 Hz for a newton", force->times(1, 10))
             .shape(name == std::string_view("SA-I")
                        ? "high in protraction, sustained and slowly decaying in the plateau, almost nothing in retraction"
                        : "discharges in protraction and retraction only, unequally high");

@@ -72,8 +72,7 @@ Result<Outcome> work(const StudyOptions& options) {
         out.finds(fmt::format("{}: the digital way is nearer to the model's times than the chip", c.model),
                   out.claims[n - 8].made < out.claims[n - 2].made,
                   "thesis 1.3: analog blocks depend on their accuracy, linearity and noise");
-        out.plots.push_back(
-            rows.shape("both ways are to answer as the nerve does: from the transducer to pulses, with and without conversion"));
+        out.plots.push_back(rows);
     }
     if (auto ok = tell_shared(out); !ok) return ok.error();
     out.note(

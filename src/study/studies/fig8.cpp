@@ -71,7 +71,7 @@ Result<Outcome> work(const StudyOptions& options) {
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("sa1-kim", press::frequency(spikes))
         .points("sa1", press::frequency(own->spikes))
-        .add("force (10 N)", force->times(1, 10))
+        .add("force, 10 Hz for a newton", force->times(1, 10))
         .shape("rises with the force's slope, up and down; the thesis finds that more suitable to SA-II");
     out.plot("Current of the words", "time (s)", "current (uA)").add("I", kim->traces.at("I").times(1, 1e6));
     out.note(

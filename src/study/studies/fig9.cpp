@@ -63,9 +63,7 @@ Result<void> tell_inhibition(Outcome& out) {
     out.claim("spikes of the slope without it, over those with it",
               press::count(without->spikes, slope) / press::count(with->spikes, slope))
         .at_least(1.1, "thesis 2.2: inhibition; a tenth is ours");
-    out.plot("Threshold's rise under a lasting slope, ten times the gain", "time (s)", "a (V)")
-        .add("a_+", with->traces.at("a_+"))
-        .shape("jumps at each spike, falls back between them");
+    out.plot("Threshold's rise under a lasting slope, ten times the gain", "time (s)", "a (V)").add("a_+", with->traces.at("a_+"));
     return {};
 }
 
@@ -97,7 +95,7 @@ Result<Outcome> work(const StudyOptions& options) {
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("fa1-lee", press::frequency(told->spikes))
         .points("fa1", press::frequency(*own))
-        .add("force (10 N)", force->times(1, 10));
+        .add("force, 10 Hz for a newton", force->times(1, 10));
     out.note(
         "The thesis says of Lee's neuron that it has no leak, an adaptive threshold, and a membrane that \"increases by a non-proportional "
         "rate\"; the "
