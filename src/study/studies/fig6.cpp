@@ -42,7 +42,7 @@ Result<void> tell(Outcome& out, Plot& rows, const Way& way, const std::vector<do
     return {};
 }
 
-/// One converter for many sensors: what channel 500 of 1000 hears late, at the same conversions a second and channel.
+/// One converter for ten sensors: each is converted at a tenth of the rate (how late each channel is besides is left out).
 Result<void> tell_shared(Outcome& out) {
     const std::string name = "fsr+f2v+adc+sa1";
     const auto alone = train_of({name});
