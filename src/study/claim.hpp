@@ -23,6 +23,11 @@ struct Claim {
     Claim& between(double least, double most, std::string where) { return low = least, high = most, source = std::move(where), *this; }
     Claim& at_least(double least, std::string where) { return between(least, none, std::move(where)); }
     Claim& at_most(double most, std::string where) { return between(none, most, std::move(where)); }
+    /// Within a hundredth of what was not printed but follows: from a mended equation, from another model.
+    Claim& as_follows(double value, std::string from) {
+        const double off = 0.01 * (value < 0 ? -value : value);
+        return between(value - off, value + off, std::move(from));
+    }
     Claim& because(std::string why) { return note = std::move(why), *this; }
 
     bool judged() const { return low == low || high == high; }

@@ -27,8 +27,8 @@ struct Outcome {
         return claims.emplace_back(
             Claim{.what = std::move(what), .made = is_so ? 1.0 : 0.0, .low = 1, .source = std::move(source), .is_truth = true});
     }
-    Plot& plot(std::string title, std::string x_label, std::string y_label) {
-        return plots.emplace_back(Plot{std::move(title), std::move(x_label), std::move(y_label), {}});
+    Plot& plot(std::string title, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false) {
+        return plots.emplace_back(Plot{std::move(title), std::move(x_label), std::move(y_label), {}, log_x, log_y});
     }
     void note(std::string text) { notes.push_back(std::move(text)); }
 };

@@ -62,7 +62,7 @@ Result<Told> told_of(const Asked& asked) {
     if (!touch) return touch.error();
     const auto plan = plan_any_afferent(asked.afferent, *wishes_of(asked), {.traces = asked.traces});
     if (!plan) return plan.error();
-    const auto afferent = make_afferent(*plan, {touch->clock.T()});
+    const auto afferent = make_afferent(*plan, {touch->clock.T(), asked.method, asked.sampled});
     const auto places = places_of(asked, *afferent);
     if (!places) return places.error();
     const auto late = static_cast<std::size_t>(afferent->delay());

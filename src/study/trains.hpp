@@ -17,6 +17,8 @@ struct Asked {
     double rate = 10e3;                        ///< Hz
     std::uint64_t seed = 0;
     std::vector<std::string> traces = {};  ///< inner quantities to be told: "u", "I_B"; of a netlist "v(vf)", "i(m1)", as --trace has them
+    Method method = Method::exact;         ///< of a model
+    bool sampled = false;                  ///< spikes on the samples, as in the thesis
 };
 
 /// What it answers: the times of its spikes, s, and what it means to be outside each range that it left on the way.

@@ -74,7 +74,7 @@ TEST(Studies, KimsHoldIsWithinHisSpread) {
 }
 
 TEST(Studies, MoreBitsAndSamplesMakeSmallerErrors) {
-    const auto outcome = run("fig6");
+    const auto outcome = run("resolution");
     for (const char* name : {"sa1", "fa1"}) {
         const auto at = [&](const char* what) { return claim(outcome, std::string(name) + what + ": rms error of spike times").made; };
         EXPECT_GT(at(": 4 bits, 10 kHz"), 10 * at(": 12 bits, 10 kHz"));

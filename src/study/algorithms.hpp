@@ -1,0 +1,25 @@
+#pragma once
+// The thesis's algorithms over samples, as its errata mend them: what a misprinted one is shown beside. The models themselves are those of
+// the catalogue (press::as_algorithm), which are held against these in test/model/thesis_test.cpp.
+
+#include <vector>
+
+#include "study/line.hpp"
+
+namespace corpuscle::algorithms {
+
+struct Membrane {
+    double C = 500e-9, leak = 500e-9, theta = 0.5, reset = 0.25;  ///< F, A, V, V; u_rest is 0
+};
+struct Fired {
+    std::vector<double> spikes;  ///< s
+    Line u;
+};
+
+/// Algorithm 4: u[n] = u[n-1] + (T / C) (I[n] - I_leak0).
+Fired lif_b(const Line& current, const Membrane&);
+
+/// k_x1 = K k_x2 and k_x2 of Algorithms 5 and 6 for a corner f (Hz).
+double k2(double f, double T);
+
+}  // namespace corpuscle::algorithms

@@ -1,0 +1,25 @@
+#include "study/apart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/distance.hpp"
+
+namespace corpuscle {
+
+Result<Apart> apart(const std::vector<double>& exact, const std::vector<double>& other) {
+    const auto alignment = align(exact, other, 2 / 50e-3);
+    if (!alignment) return alignment.error();
+    Apart out;
+    std::vector<double> late;
+    for (const auto& m : alignment->moved) late.push_back(other[m.b] - exact[m.a]);
+    for (const double t : late) out.worst = std::max(out.worst, std::abs(t)), out.rms += t * t / static_cast<double>(late.size());
+    out.rms = std::sqrt(out.rms);
+    out.unmatched = static_cast<double>(exact.size() + other.size() - 2 * late.size());
+    if (late.empty()) return out;
+    std::sort(late.begin(), late.end());
+    out.median = (late[late.size() / 2] + late[(late.size() - 1) / 2]) / 2;
+    return out;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,42 @@
+#include "study/press.hpp"
+
+#include <fmt/format.h>
+
+namespace corpuscle::press {
+
+Result<Line> samples(double T) {
+    auto touch = touch_of({.afferent = {}, .rate = 1 / T});
+    if (!touch) return touch.error();
+    return touch->line();
+}
+
+std::string pattern(const std::vector<double>& train) {
+    std::string out;
+    for (const auto* phase : {&rest, &up, &plateau, &down, &after})
+        out += fmt::format("{}{:g}", out.empty() ? "" : " ", count(train, *phase));
+    return out;
+}
+
+Line frequency(const std::vector<double>& train) {
+    Line out{{}, instantaneous_rates(train)};
+    if (!train.empty()) out.x.assign(train.begin(), train.end() - 1);
+    return out;
+}
+
+Line frequency_behind(const std::vector<double>& train) {
+    Line out{{}, instantaneous_rates(train)};
+    if (!train.empty()) out.x.assign(train.begin() + 1, train.end());
+    return out;
+}
+
+Claim& known_as(Claim& c, double value, const std::string& mark) {
+    c.source = fmt::format("{}: {}", quantity_of(value, c), mark);
+    return c;
+}
+
+Asked as_algorithm(std::string afferent, std::vector<std::string> settings) {
+    return {
+        .afferent = std::move(afferent), .settings = std::move(settings), .rate = 1e3, .method = Method::backward_euler, .sampled = true};
+}
+
+}  // namespace corpuscle::press

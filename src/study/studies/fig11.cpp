@@ -1,0 +1,145 @@
+// Thesis fig. 11: a passive and an active high-pass: of an ideal resistor, of an ideal transconductor, and of transistors.
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "study/deck.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::fig11 {
+
+/// A plain inverter and INVC tied to themselves as loads.
+constexpr auto loads = R"(Currents of loads
+.lib '../process/tsmc180.lib' tt
+.include 'parts/transconductor.inc'
+vdd vdd 0 0.7
+ibias gp 0 200n
+xbias vdd gp bp bn bias
+vin in 0 0.35
+ea a 0 in 0 1
+xa a a vdd bp bn inva
+ec c 0 in 0 1
+xc c c gpc gnc vdd bp bn invc
+.dc vin 0.15 0.55 5m
+.save i(ea) i(ec)
+.end
+)";
+/// Filter C behind a step about half the supply: of INVC, and of a resistor.
+constexpr auto steps = R"(High-passes under a step
+.lib '../process/tsmc180.lib' tt
+.include 'parts/transconductor.inc'
+.param size=20m r=1g
+vdd vdd 0 0.7
+ibias gp 0 200n
+xbias vdd gp bp bn bias
+vf vf 0 pwl(0 0.35 50m 0.35 50.1m {0.35+size})
+cc vf hp 8.8p
+xc hp hp gpc gnc vdd bp bn invc
+ca vf a 8.8p
+ra a mid {r}
+vmid mid 0 0.35
+.tran 1m 0.4
+.save v(hp) v(a)
+.end
+)";
+constexpr double half = 0.35, wide = 0.1, on = 50.1e-3;  // V: half the supply, and how far from it is looked; s
+
+double apart(const Line& a, const Line& b) {
+    double out = 0;
+    for (std::size_t k = 0; k < a.x.size(); ++k) out = std::max(out, std::abs(a.y[k] - b.y[k]));
+    return out;
+}
+
+void tell_ideal(Outcome& out, const Found& ideal) {
+    const auto a = ideal.line("ac", "vm(a)"), b = ideal.line("ac", "vm(b)");
+    out.claim("ideal: farthest of the active one's gain from the passive one's", apart(a, b))
+        .at_most(1e-6, "thesis 2.3: tau = C / G_m for RC; R is 1 / G_m here");
+    for (const auto& [node, C, printed] : {std::tuple{"b", 0.8e-12, 30.0}, {"c", 8.8e-12, 2.7}}) {
+        const double f = ideal.line("ac", fmt::format("vp({})", node)).where(M_PI / 4);
+        out.claim(fmt::format("ideal, 6.6 Gohm and {:.2g} pF: corner", C * 1e12), f, "Hz").printed_as(printed, "thesis 4.3.1");
+        out.claim(fmt::format("ideal, {:.2g} pF: tau over C / G_m", C * 1e12), 1 / (2 * M_PI * f) / (C * 6.6e9))
+            .printed_as(1, "thesis 2.3");
+    }
+    out.plot("Gain", "frequency (Hz)", "gain", true, true)
+        .add("passive: C and R", a)
+        .add("active: C and G_m", b)
+        .add("active, eleven times the C", ideal.line("ac", "vm(c)"))
+        .shape("the same high-pass, with 1 / G_m for R");
+}
+
+/// A load's current times the resistance that touches it at half the supply, over the voltage from there.
+Line straightened(const Line& current) {
+    const double slope = current.slope_at(half), middle = current.at(half);
+    Line out;
+    for (std::size_t k = 0; k < current.x.size(); ++k)
+        out.x.push_back(current.x[k] - half), out.y.push_back((current.y[k] - middle) / slope);
+    return out;
+}
+double bend(const Line& straight) {
+    return 100 * std::max(std::abs(straight.at(-wide) / wide + 1), std::abs(straight.at(wide) / wide - 1));
+}
+
+void tell_loads(Outcome& out, const Found& found) {
+    const auto plain = straightened(found.line("dc", "i(ea)")), invc = straightened(found.line("dc", "i(ec)"));
+    out.claim("a plain inverter as a load: bend of its current at 100 mV", bend(plain), "%")
+        .at_least(5, "thesis 2.3: active devices are very non-linear by nature; more than 5 % is ours");
+    out.claim("INVC as a load: the same", bend(invc), "%")
+        .at_most(bend(plain), "thesis 2.3: techniques that balance linearity and low transconductance");
+    out.plot("Current times the resistance at half the supply", "voltage from half the supply (V)", "current times resistance (V)")
+        .add("plain inverter", plain)
+        .add("INVC", invc)
+        .add("resistor", {{-0.2, 0.2}, {-0.2, 0.2}})
+        .shape("a resistor obeys Ohm's law; a transconductor of transistors does not");
+}
+
+/// What is left of a step after a time, as a share of it at once; of v(hp), v(a).
+struct Left {
+    double invc, resistor;
+};
+Result<Left> left_of(double size, double resistance, Plot* plot) {
+    const auto found = found_in({steps, {fmt::format("size={}", size), fmt::format("r={}", resistance)}, {}});
+    if (!found) return found.error();
+    const auto share = [&](const char* node) {
+        auto v = found->line("tran", node);
+        const double before = v.at(on - 2e-4), top = v.at(on + 1e-4) - before;
+        for (double& y : v.y) y = (y - before) / top;
+        return v;
+    };
+    const auto hp = share("v(hp)"), a = share("v(a)");
+    if (plot) plot->add(fmt::format("INVC, {:g} mV", size * 1e3), hp);
+    if (plot && size > wide) plot->add("resistor", a);
+    return Left{hp.at(on + 50e-3), a.at(on + 50e-3)};
+}
+
+Result<Outcome> work(const StudyOptions& options) {
+    Outcome out;
+    const auto ideal = found_in({"high_pass_ideal", {}, ".ac dec 50 10m 10k"}), bent = found_in({loads, {}, {}});
+    if (!ideal) return ideal.error();
+    if (!bent) return bent.error();
+    tell_ideal(out, *ideal), tell_loads(out, *bent);
+    if (auto ok = options.at(0.5); !ok) return ok.error();
+    const double resistance = 1 / bent->line("dc", "i(ec)").absolute().slope().absolute().at(half + 10e-3);
+    Plot plot{"After a step, as a share of it", "time (s)", "share", {}};
+    const auto small = left_of(20e-3, resistance, &plot), large = left_of(200e-3, resistance, &plot),
+               resistor = left_of(20e-3, resistance, nullptr);
+    for (const auto* p : {&small, &large, &resistor})
+        if (!*p) return p->error();
+    out.claim("resistor: share left of 200 mV after 50 ms, over that of 20 mV", large->resistor / small->resistor)
+        .printed_as(1, "thesis 2.3: linear");
+    out.claim("INVC: the same", large->invc / small->invc)
+        .at_most(1, "thesis 2.3: large signals are distorted; INVC draws more than a resistor beyond its linear range");
+    out.plots.push_back(std::move(plot));
+    out.note(
+        "Of the references' ways to a low transconductance (bulk or drain driven inputs, pseudo-resistors) only those of figs. 12 and 13 "
+        "and the "
+        "thesis's own are built here.");
+    return out;
+}
+
+const Study study{"fig11", "Passive and active high-pass",
+                  "An active load of transconductance G_m replaces R, so tau = C / G_m; a resistor and an ideal transconductor are linear, "
+                  "transistors are "
+                  "not. Thesis 2.3, fig. 11",
+                  work};
+
+}  // namespace corpuscle::studies::fig11
