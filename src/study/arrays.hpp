@@ -19,7 +19,7 @@ struct PrintedArray {
     double g_by_I, V_A, gain, slope, g_by_A, sigma;
 };
 
-/// What the heads of two tables should say of g_md and of g_mg/A, in S and S/m^2, and where ours stand.
+/// What the heads of two tables should say of g_md and of g_mg/A, in S and S/um^2, and where ours stand.
 struct PrintedArrays {
     const char* circuit;
     std::span<const PrintedArray> arrays;
@@ -52,9 +52,9 @@ inline constexpr PrintedArray printed_trapezoids[] = {
 };
 
 inline constexpr PrintedArrays rectangles = {
-    "rectangular_arrays", printed_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e6, "its nS read as uS: errata U7", ""};
+    "rectangular_arrays", printed_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e-6, "its nS read as uS: errata U7", ""};
 inline constexpr PrintedArrays trapezoids = {
-    "trapezoidal_arrays",          printed_trapezoids, "table 13", "table 14", "table 15", 1e-10, 1e6, "divided by ten: errata U8",
+    "trapezoidal_arrays",          printed_trapezoids, "table 13", "table 14", "table 15", 1e-10, 1e-6, "divided by ten: errata U8",
     "its nS read as uS: errata U9"};
 
 const PrintedArray& printed(const PrintedArrays&, std::string_view name);
@@ -62,13 +62,15 @@ const PrintedArray& printed(const PrintedArrays&, std::string_view name);
 /// Ours, SI.
 struct OurArray {
     const PrintedArray* printed = nullptr;
-    double S = 0, A = 0, A_T = 0;
+    double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< the last two of its card
     double g_md = 0, g_mg = 0, g_ms = 0, g_mb = 0, I_D = 0, V_T = 0;
     double g_by_I() const { return g_mg / I_D; }
     double V_A() const { return I_D / g_md; }
     double gain() const;  ///< dB
     double slope() const { return g_mb / g_mg; }
-    double g_by_A() const { return g_mg / A; }
+    double g_by_A() const { return 1e-12 * g_mg / A; }  ///< S/um^2
+    /// The mismatch that the card's law gives a lone transistor of its area, %.
+    double law(double g_by_I) const;
 };
 struct OurArrays : std::vector<OurArray> {
     const OurArray& operator()(std::string_view name) const;
@@ -81,9 +83,13 @@ struct Meant {
     const PrintedArray* printed;
     std::string ours;
 };
+std::vector<Meant> all_meant(const PrintedArrays&);
 Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant>);
-/// sigma/mu of the drain currents of 1000 chips, %, in the order of the printed ones.
+/// sigma/mu of drain currents, %, in the order of what is meant.
+Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Meant>);
 Result<std::vector<double>> mismatch_of(const PrintedArrays&);
+/// Of its deviation these draws know this, %.
+double known_to();
 
 /// A column of a table: what is printed, in its unit, and ours.
 struct Column {
@@ -100,7 +106,7 @@ void put_column(Outcome&, const Column&, const OurArrays&, const std::string& so
 void put_sizes(Outcome&, const PrintedArrays&, const OurArrays&);
 void put_small_signals(Outcome&, const PrintedArrays&, const OurArrays&);
 void put_ratios(Outcome&, const PrintedArrays&, const OurArrays&);
-void put_mismatch(Outcome&, const PrintedArrays&, const std::vector<double>& sigmas);
+void put_mismatch(Outcome&, const PrintedArrays&, const OurArrays&, const std::vector<double>& sigmas);
 
 /// g_mg + g_md + g_mb = g_ms (eq. 27) tells the unit of the printed g_md: by how much the sum misses with the one read here and, in S,
 /// with the head's.
