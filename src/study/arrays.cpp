@@ -28,17 +28,19 @@ double value(const circuit::Element& e, const char* name, double otherwise) {
 
 /// Of the copy whose gate moves: its transistors stand one above the other.
 void size(OurArray& out, const circuit::Circuit& circuit, const std::string& array) {
-    double per_S = 0, W = 0;
+    double per_S = 0;
     for (const auto& e : circuit.elements) {
         if (!e.name.starts_with(array + ".mg")) continue;
         const double m = value(e, "m", 1), n = value(e, "stack", 1), L = value(e, "l", 0);
+        out.lengths.insert(out.lengths.end(), static_cast<std::size_t>(m * n), L);
         const auto& card = circuit.models[static_cast<std::size_t>(e.model)].values;
         out.A_VT = card.at("avt"), out.A_IS = card.at("ais");
-        W = value(e, "w", 0), per_S += n * L / (m * W), out.A += m * n * W * L;
+        const double W = out.W = value(e, "w", 0);
+        per_S += n * L / (m * W), out.A += m * n * W * L;
     }
     out.S = 1 / per_S;
     const double rows = out.printed->rows, columns = out.printed->columns;
-    out.A_T = circuit::rectangle_area(W, out.A / (W * rows * columns), rows, columns);
+    out.A_T = circuit::rectangle_area(out.W, out.A / (out.W * rows * columns), rows, columns);
 }
 
 /// What V_T as printed, taken for V_T0 of the plain equations, makes of g_mg/I_D in saturation.

@@ -62,6 +62,8 @@ const PrintedArray& printed(const PrintedArrays&, std::string_view name);
 /// Ours, SI.
 struct OurArray {
     const PrintedArray* printed = nullptr;
+    double W = 0;                                      ///< of its units
+    std::vector<double> lengths{};                     ///< of each unit, from the drain down
     double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< the last two of its card
     double g_md = 0, g_mg = 0, g_ms = 0, g_mb = 0, I_D = 0, V_T = 0;
     double g_by_I() const { return g_mg / I_D; }
