@@ -54,9 +54,9 @@ function rowsOf(series, height) {
 
 /// Logarithms are drawn as such and labelled with what they are of: the chart library's own log axes are for times.
 const logTicks = (lo, hi) => {
-    const ticks = [];
+    const ticks = [], within = hi - lo > 5 ? [1] : [1, 2, 5];
     for (let decade = Math.floor(lo); decade <= Math.ceil(hi); ++decade)
-        for (const m of [1, 2, 5]) {
+        for (const m of within) {
             const v = decade + Math.log10(m);
             if (v >= lo - 1e-9 && v <= hi + 1e-9) ticks.push({v, label: String(Number((10 ** v).toPrecision(3)))});
         }

@@ -80,7 +80,7 @@ void put_errata(Outcome& out, const std::vector<At>& all) {
 Plot picture() {
     Plot out{"Eq. 23: inversion along the pinch-off voltage", "(V_P - V_S)/phi_t", "i_f", {}, false, true};
     Line exact, weak, strong;
-    for (double u = -2.3; u < 2; u += 0.05) {
+    for (double u = -2.3; u < 1.4; u += 0.05) {
         const double q = std::pow(10, u), i = q * (q + 2), x = f_of(i);
         exact.x.push_back(x), exact.y.push_back(i);
         if (x < 1) weak.x.push_back(x), weak.y.push_back(2 * std::exp(x + 1));

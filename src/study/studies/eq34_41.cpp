@@ -13,6 +13,14 @@ namespace corpuscle::studies::eq34_41 {
 constexpr double I_in = 100e-9, supply = 0.7, V_out = 0.35;  // A, V
 constexpr int sizes[] = {4, 8, 16};
 
+constexpr double unit_length = 0.5e-6;  // m
+
+double V_E_of(const circuit::Circuit& circuit) {
+    for (const auto& m : circuit.models)
+        if (m.name == "nch") return m.values.at("ve");
+    return Claim::none;
+}
+
 std::string unit_of(const std::string& model) { return fmt::format("0 {} w=1.5u l=0.5u", model); }
 std::string common(std::string_view card, double current) {
     return fmt::format("mirror\n{}iin 0 in {:g}\nvdd vdd 0 {:g}\nvout out 0 {:g}\n", card, current, supply, V_out);
@@ -53,7 +61,7 @@ Result<void> put_parallel_series(Outcome& out) {
         if (c.needs_reason()) c.because(of_card);
         const double I = -whole->at_rest("i(vout)"), G_o = -whole->by("i(vout)", "vout");
         auto& early = out.claim(fmt::format("N = {}: V_A = I_out/G_o - V_out, with the card", n), I / G_o - V_out, "V");
-        early.printed_as(8e6 * 0.5e-6 * n, "thesis eq. 36 with the card's V_E = 8 V/um and L = N times 0.5 um");
+        early.printed_as(V_E_of(*whole->circuit) * unit_length * n, "thesis eq. 36 with the card's V_E and L of N units");
         if (early.needs_reason())
             early.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
     }
@@ -61,7 +69,7 @@ Result<void> put_parallel_series(Outcome& out) {
 }
 
 Result<void> put_split(Outcome& out) {
-    Plot plot{"Attenuation of a splitting mirror along N", "N", "I_in/I_out", {}, false, true};
+    Plot plot{"Attenuation of a splitting mirror along N", "N", "I_in/I_out over N^4", {}};
     Line by_40, exact, plain_line, whole_line;
     for (const int n : sizes) {
         const auto plain = split(plain_card, "plain", n), whole = split(whole_card, "nch", n);
@@ -84,9 +92,9 @@ Result<void> put_split(Outcome& out) {
         if (printed.needs_reason()) printed.because("eq. 40 takes S_C >> S_B + S_D: errata C6");
         auto& c = out.claim(what + "I_in/I_out, with the card", I_in / whole->I_out).printed_as(by_38_39, "eq. 38 and 39");
         if (c.needs_reason()) c.because(of_card);
-        by_40.x.push_back(n), by_40.y.push_back(N2 * N2), exact.x.push_back(n), exact.y.push_back(by_38_39);
-        plain_line.x.push_back(n), plain_line.y.push_back(I_in / plain->I_out), whole_line.x.push_back(n),
-            whole_line.y.push_back(I_in / whole->I_out);
+        by_40.x.push_back(n), by_40.y.push_back(1), exact.x.push_back(n), exact.y.push_back(by_38_39 / (N2 * N2));
+        plain_line.x.push_back(n), plain_line.y.push_back(I_in / plain->I_out / (N2 * N2)), whole_line.x.push_back(n),
+            whole_line.y.push_back(I_in / whole->I_out / (N2 * N2));
         const double units = 4.0 * n, of_parallel_series = 2.0 * n * n;  // of the same attenuation: N^2 in parallel and in series
         auto& half = out.claim(fmt::format("Units of a splitting mirror over those of a parallel-series one of its attenuation, N = {}", n),
                                units / of_parallel_series);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "circuit/cost/area.hpp"
 #include "study/array_text.hpp"
 #include "study/arrays.hpp"
 #include "study/deck.hpp"
@@ -17,8 +18,10 @@ void put_tables(Outcome& out) {
     out.claim("B2's V_A over A's, as printed", printed(rectangles, "B2").V_A / a.V_A)
         .printed_as(4, "thesis B.1: 4 times \"A1\"; errata U15: A is meant");
     out.claim("C2's V_A over A's, as printed", printed(rectangles, "C2").V_A / a.V_A).printed_as(2, "the same");
-    out.claim("A_T of C1 as an area, of its margins' rectangle", printed(rectangles, "C1").A_T, "um^2");
-    out.claim("The same as a perimeter, um", 2 * (1.62 + 1.86));
+    out.claim("C1: A_T as an area", 1e12 * circuit::rectangle_area(1.12e-6, 0.90e-6, 1, 1), "um^2")
+        .printed_as(printed(rectangles, "C1").A_T, "table 10; errata U16");
+    using Rule = circuit::RectangleRule;
+    out.claim("C1: the perimeter of the same rectangle, um", 1e6 * 2 * (1.12e-6 + Rule::around_W + 0.90e-6 + Rule::around_L));
 }
 
 /// (U14) Printed deviations by area, among arrays of one inversion.

@@ -7,6 +7,7 @@
 #include "circuit/cost/area.hpp"
 #include "study/array_text.hpp"
 #include "study/deck.hpp"
+#include "study/spread.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::fig46 {
@@ -40,6 +41,25 @@ Result<void> put_lengths(Outcome& out) {
     return {};
 }
 
+/// How far 1/16 is spread over chips, made by 4 units in parallel to 4 in series, and by 16 in parallel to one.
+Result<void> put_spread(Outcome& out) {
+    const std::string unit = "0 nch w=1.5u l=0.5u";
+    const auto deviation = [&](int m, int n) -> Result<double> {
+        const auto chips = all_found_in({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", whole_card, V_out) +
+                                             units_text("a", "in", "in", "0", m, 1, unit) + units_text("b", "out", "in", "0", 1, n, unit),
+                                         {},
+                                         ".op\n.mc 1000 process=0"});
+        if (!chips) return chips.error();
+        return spread_of(*chips, "i(vo)").percent();
+    };
+    const auto arrays = deviation(4, 4), parallel = deviation(16, 1);
+    if (!arrays || !parallel) return arrays ? parallel.error() : arrays.error();
+    out.claim("1/16 by 4 units in parallel to 4 in series: deviation of I_out over 1000 chips", std::abs(*arrays), "%")
+        .at_most(std::abs(*parallel),
+                 "thesis C.2: less variability, and less area, than parallel alone, which has the number at the right");
+    return {};
+}
+
 Result<Outcome> work(const StudyOptions&) {
     const auto found = found_in({"parallel_series_mirror", {}, ".dc vo 0 0.7 5m"});
     if (!found) return found.error();
@@ -66,7 +86,8 @@ Result<Outcome> work(const StudyOptions&) {
                   single / plain)
             .at_most(1, "thesis B.1, C.1: area-efficient");
     }
-    if (auto ok = put_lengths(out); !ok) return ok.error();
+    for (const auto put : {put_lengths, put_spread})
+        if (auto ok = put(out); !ok) return ok.error();
     out.plots = {currents.shape("circuit diagrams only; C.1: I_out is I_in over N^2"),
                  slopes.shape("C.1: G_o falls as the channel lengthens (eq. 36)")};
     return out;

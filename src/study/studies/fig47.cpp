@@ -8,16 +8,18 @@
 
 namespace corpuscle::studies::fig47 {
 
-constexpr double I_in = 100e-9, supply = 0.7, V_out = 0.35, step = 0.1;  // A, V; what the supply moves by
+constexpr double I_in = 100e-9, supply = 0.7, step = 0.1;  // A, V; what the supply moves by
+constexpr double S_A = 8, S_B = 0.5, S_C = 8, S_D = 0.5;   // in units: 8x1 and 2x4
 
 Result<Outcome> work(const StudyOptions&) {
-    const auto at = found_in({"split_mirror", {}, ".op\n.tf i(vout) vout\n.tf i(vout) vdd\n.dc vdd 0.4 1.2 5m"});
+    const auto at = found_in({"split_mirror", {}, ".op\n.tf i(vout) vout\n.tf i(vout) vdd"});
+    const auto supplied = found_in({"split_mirror", {"iin2=0"}, ".dc vdd 0.4 1.2 5m"});  // M_C alone on vdd
     const auto along = found_in({"split_mirror", {}, ".dc iin 1n 1u 1n"});
-    if (!at || !along) return at ? along.error() : at.error();
+    if (!at || !along || !supplied) return !at ? at.error() : !along ? along.error() : supplied.error();
     Outcome out;
     const std::string source = "thesis C.2",
                       of_card = "the parallel diodes bear more voltage than the arrays in series, and are modulated by it";
-    const double I = -at->at_rest("i(vout)"), exact = 8 * (0.5 + 8 + 0.5) / (0.5 * 0.5) * 1.0;
+    const double I = -at->at_rest("i(vout)"), exact = S_A * (S_B + S_C + S_D) / (S_B * S_D);
     out.claim("I_in/I_out, the equations alone", I_in / -at->at_rest("i(vout2)"))
         .printed_as(exact, "thesis eq. 38 and 39, exact (errata C5, C6)");
     auto& approximate = out.claim("I_in/I_out, the equations alone, beside eq. 40", I_in / -at->at_rest("i(vout2)"))
@@ -27,7 +29,7 @@ Result<Outcome> work(const StudyOptions&) {
     if (card.needs_reason()) card.because(of_card);
 
     const double G_o = -at->by("i(vout)", "vout"), G_dd = -at->by("i(vout)", "vdd");
-    const auto out_along = at->line("dc", "i(vout)").times(1, -1), C = at->line("dc", "i(vdd)").times(1, -1);
+    const auto out_along = supplied->line("dc", "i(vout)").times(1, -1), C = supplied->line("dc", "i(vdd)").times(1, -1);
     out.claim("dI_out/dV_out, G_o", G_o, "S");
     out.claim("dI_out/dV_DD", G_dd, "S");
     out.finds("The supply moves the output more than the output's own voltage does", std::abs(G_dd) > G_o,
@@ -38,9 +40,9 @@ Result<Outcome> work(const StudyOptions&) {
         .between(0.1, 10, source + ": \"can be in the same order of I_out magnitude\" (a tenth to ten times here)");
     out.claim("What is left of it in the circuit", (C.at(supply + step) - C.at(supply)) / I);
     out.note(
-        "M_B, saturated, holds the sum of I_DC and I_out: M_C's current can grow by what the output loses, and most of M_C's own change is "
-        "taken back "
-        "by the node between them.");
+        "M_B, saturated, nearly holds the sum of I_DC and I_out: the node between them rises until M_C takes no more than the output loses "
+        "and M_B gives, "
+        "little of its own change.");
 
     Plot by_supply{"What the supply does to the split current", "V_DD (V)", "over its value at 0.7 V", {}};
     by_supply.add("I_out", out_along.times(1, 1 / I)).add("I_DC", C.times(1, 1 / C.at(supply)));
