@@ -47,7 +47,7 @@ void put_text(Outcome& out, const OurArrays& ours) {
         .printed_as(printed(rectangles, "D2").g_by_A / printed(rectangles, "B2").g_by_A, source + ": widely different; table 12");
 }
 
-void put_mismatch_text(Outcome& out, const std::vector<double>& sigma) {
+void put_mismatch_text(Outcome& out, const OurArrays& ours, const std::vector<double>& sigma) {
     const std::string source = "thesis B.1";
     const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&printed(rectangles, name) - printed_rectangles)]; };
     for (const char* name : {"B2", "C2", "D2"})
@@ -56,7 +56,10 @@ void put_mismatch_text(Outcome& out, const std::vector<double>& sigma) {
     const double least = *std::min_element(sigma.begin(), sigma.end());
     auto& c = out.finds("C1 has the least deviation", of("C1") == least, source);
     if (c.needs_reason())
-        c.because(fmt::format("B1's is {:.2f} % and C1's {:.2f} %, known to {:.1f} % of themselves", of("B1"), of("C1"), known_to()));
+        c.because(
+            fmt::format("these draws know B1's {:.2f} % and C1's {:.2f} % to {:.1f} % of themselves and do not tell; by the card's law "
+                        "they are {:.2f} and {:.2f} %",
+                        of("B1"), of("C1"), known_to(), ours("B1").law(ours("B1").g_by_I()), ours("C1").law(ours("C1").g_by_I())));
 }
 
 Result<Outcome> work(const StudyOptions&) {
@@ -69,11 +72,13 @@ Result<Outcome> work(const StudyOptions&) {
     put_mismatch(out, rectangles, *ours, *sigma);
     put_errata(out);
     put_text(out, *ours);
-    put_mismatch_text(out, *sigma);
+    put_mismatch_text(out, *ours, *sigma);
     return out;
 }
 
-const Study study{"table12", "Ratios and mismatch of the rectangular arrays",
-                  "g_mg/I_D, Early voltage, gain, n - 1, g_mg of an area and the mismatch of 1000 draws. Thesis B.1, table 12", work};
+const Study study{
+    "table12", "Ratios and mismatch of the rectangular arrays",
+    "g_mg/I_D, Early voltage, gain, n - 1, g_mg of an area and the mismatch (of 1000 draws there, of 2000 here). Thesis B.1, table 12",
+    work};
 
 }  // namespace corpuscle::studies::table12

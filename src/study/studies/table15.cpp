@@ -103,7 +103,9 @@ Result<Outcome> work(const StudyOptions&) {
     return out;
 }
 
-const Study study{"table15", "Ratios and mismatch of the trapezoidal arrays",
-                  "g_mg/I_D, Early voltage, gain, n - 1, g_mg of an area and the mismatch of 1000 draws. Thesis B.2, table 15", work};
+const Study study{
+    "table15", "Ratios and mismatch of the trapezoidal arrays",
+    "g_mg/I_D, Early voltage, gain, n - 1, g_mg of an area and the mismatch (of 1000 draws there, of 2000 here). Thesis B.2, table 15",
+    work};
 
 }  // namespace corpuscle::studies::table15
