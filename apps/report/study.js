@@ -45,17 +45,18 @@ function showDeviations(host, studies) {
 function rowsOf(series, height) {
     const at = new Map();
     series.forEach(({x, y, style}, s) => x.forEach((t, k) => {
+        if (t === null) return;
         if (!at.has(t)) at.set(t, [t, ...series.map(() => null)]);
-        at.get(t)[s + 1] = style === "raster" ? height - s : y[k];
+        at.get(t)[s + 1] = style === "raster" ? height - s : style === "path" ? null : y[k];
     }));
     return [...at.values()].sort((a, b) => a[0] - b[0]);
 }
 
 /// Logarithms are drawn as such and labelled with what they are of: the chart library's own log axes are for times.
 const logTicks = (lo, hi) => {
-    const ticks = [];
+    const ticks = [], within = hi - lo > 5 ? [1] : [1, 2, 5];
     for (let decade = Math.floor(lo); decade <= Math.ceil(hi); ++decade)
-        for (const m of [1, 2, 5]) {
+        for (const m of within) {
             const v = decade + Math.log10(m);
             if (v >= lo - 1e-9 && v <= hi + 1e-9) ticks.push({v, label: String(Number((10 ** v).toPrecision(3)))});
         }
@@ -69,6 +70,7 @@ function showPlot(host, plot) {
     element(figure, "div", "key", plot.series.map(({name}, k) => `<span><span class="chip" style="background: ${colour(k)}"></span>${escaped(name)}</span>`).join(""));
     const raster = plot.series.every(({style}) => style === "raster");
     const series = plot.series.map((one) => ({...one, x: plot.log_x ? one.x.map(Math.log10) : one.x, y: plot.log_y ? one.y.map(Math.log10) : one.y}));
+    const paths = series.map((one, k) => ({...one, colour: colour(k)})).filter(({style}) => style === "path");
     const rows = rowsOf(series, series.length);
     if (!rows.length) return;
     const axis = (label, log, width) => ({axisLabelFontSize: 11, axisLabelWidth: width, ...(log ? {ticker: logTicks} : {})});
@@ -81,11 +83,32 @@ function showPlot(host, plot) {
         }])),
         axes: {x: axis(plot.x, plot.log_x, 60), y: {...axis(plot.y, plot.log_y, 56), drawAxis: !raster}},
         ...(raster ? {valueRange: [0.3, series.length + 0.7]} : {}),
+        ...(paths.length ? {valueRange: span(paths.flatMap(({y}) => y)), underlayCallback: (context, area, chart) => paths.forEach((one) => follow(chart, context, one))} : {}),
         xlabel: plot.x, ylabel: plot.y || undefined, xLabelHeight: 16, yLabelWidth: 16,
         xRangePad: 6, yRangePad: 6, legend: "never", highlightCircleSize: 0,
         gridLineColor: ink("grid"), axisLineColor: ink("axis"),
     });
     (window.charts ||= []).push(chart);
+}
+
+/// From the least to the most, with a margin.
+function span(values) {
+    const known = values.filter((v) => v !== null), least = Math.min(...known), most = Math.max(...known), margin = 0.06 * (most - least);
+    return [least - margin, most + margin];
+}
+
+/// A path, through its points as they come; null lifts the pen.
+function follow(chart, context, {x, y, colour}) {
+    context.beginPath();
+    context.strokeStyle = colour, context.lineWidth = 1.4;
+    let down = false;
+    x.forEach((t, k) => {
+        if (t === null || y[k] === null) return void (down = false);
+        const [left, top] = chart.toDomCoords(t, y[k]);
+        if (down) context.lineTo(left, top); else context.moveTo(left, top);
+        down = true;
+    });
+    context.stroke();
 }
 
 /// A spike in a raster: an upright stroke.

@@ -97,6 +97,25 @@ double Found::at_rest(const std::string& name) const {
     return std::numeric_limits<double>::quiet_NaN();
 }
 
+double Found::by(std::string_view output, std::string_view source) const {
+    for (const auto& a : outcome.analyses)
+        if (const auto& words = a.command->words; a.command->name == "tf" && words.size() == 2 && words[0] == output && words[1] == source)
+            return a.findings.numbers.front().second;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+double Found::reading(std::string_view device, std::string_view name) const {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const auto bench = TestBench::make(circuit);
+    const auto* found = bench ? (*bench)->system.device(device) : nullptr;
+    if (found == nullptr) return none;
+    std::vector<double> x;
+    for (const auto& unknown : (*bench)->system.names()) x.push_back(at_rest(unknown));
+    for (const auto& r : found->readings((*bench)->system.terminals(*found, x)))
+        if (r.name == name) return r.value;
+    return none;
+}
+
 Result<std::vector<Found>> all_found_in(const Deck& deck) {
     const auto netlist = netlist_of(deck);
     if (!netlist) return netlist.error();

@@ -34,6 +34,11 @@ struct Found {
     double number(std::string_view name) const;
     /// v(q), i(vis) at the operating point (.op).
     double at_rest(const std::string& name) const;
+    /// A slope at the operating point, as .tf with these words found it: by("i(vd)", "vg") is dI/dV_G; NaN: it was not asked.
+    double by(std::string_view output, std::string_view source) const;
+    /// What .op prints of a device as designed: reading("x1.m1", "i_f"), also i_d i_r g_mg g_ms g_md g_mb v_t i_bs i_bd; NaN: there is
+    /// none.
+    double reading(std::string_view device, std::string_view name) const;
 };
 
 Result<Found> found_in(const Deck&);

@@ -1,5 +1,5 @@
 #pragma once
-// Something to look at: lines, points or rows of spikes over a common axis.
+// Something to look at: lines, points, paths or rows of spikes over a common axis.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace corpuscle {
 
 struct Plot {
-    enum class Style { line, points, raster };
+    enum class Style { line, points, raster, path };  ///< path: a line through its points as they come; NaN lifts the pen
     struct Series {
         std::string name;
         std::vector<double> x, y;

@@ -32,7 +32,7 @@ Json document_of(const Claim& c) {
 
 Json document_of(const Plot& p) {
     Json series = Json::array();
-    constexpr const char* styles[] = {"line", "points", "raster"};
+    constexpr const char* styles[] = {"line", "points", "raster", "path"};
     for (const auto& s : p.series)
         series.push_back({{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
     return {{"title", p.title}, {"printed", p.printed}, {"x", p.x_label},  {"y", p.y_label},

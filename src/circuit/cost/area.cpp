@@ -9,8 +9,6 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr double um = 1e-6, most_rows = 4096;
-constexpr double around_W = 0.5 * um, around_L = 0.96 * um;     // of an island beyond its channel
-constexpr double between_W = 0.28 * um, between_L = 0.54 * um;  // of two units: diffusions apart; a shared one with its contacts
 
 }  // namespace
 
@@ -20,7 +18,8 @@ Area& Area::operator+=(const Area& more) {
 }
 
 double rectangle_area(double W, double L, double rows, double columns) {
-    return (rows * W + (rows - 1) * between_W + around_W) * (columns * L + (columns - 1) * between_L + around_L);
+    using Rule = RectangleRule;
+    return (rows * W + (rows - 1) * Rule::between_W + Rule::around_W) * (columns * L + (columns - 1) * Rule::between_L + Rule::around_L);
 }
 
 double array_area(double W, double L, double units) {

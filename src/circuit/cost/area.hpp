@@ -22,6 +22,10 @@ inline constexpr double capacitor_density = 2e-3;
 /// between its units, is what the thesis's tables 10 and 13 have in common (0.18 um; inferred):
 ///     A_T = (r W + (r - 1) 0.28 um + 0.5 um) (c L + (c - 1) 0.54 um + 0.96 um)
 /// exact for B1, B2, C1, C2, D1, D2 (r by c of 2x1, 2x2, 1x1, 2x2, 1x2, 2x2), E (1x1) and G1 to G3 (1x8); 3.6 % above A.
+struct RectangleRule {
+    static constexpr double around_W = 0.5e-6, around_L = 0.96e-6;     ///< m; of an island beyond its channel
+    static constexpr double between_W = 0.28e-6, between_L = 0.54e-6;  ///< of two units: diffusions apart; a shared one with its contacts
+};
 double rectangle_area(double W, double L, double rows, double columns);
 /// The least of the rectangles that hold so many units.
 double array_area(double W, double L, double units);

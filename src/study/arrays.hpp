@@ -1,0 +1,119 @@
+#pragma once
+// The transistor arrays of the thesis's appendix B: what it prints of them, and ours at the same half volt.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "study/study.hpp"
+
+namespace corpuscle {
+
+/// A row of tables 10 to 12 or 13 to 15, to the letter, slips included: lengths in um, areas in um^2, S_eq as a ratio; the rest in the
+/// units of the table's head.
+struct PrintedArray {
+    const char *name, *ours;  ///< ours: its subcircuit in the netlist
+    double rows, columns;     ///< as it is drawn; inferred from A_T
+    double S, A, A_T, share;
+    double g_md, g_mg, g_ms, g_mb, I_D, V_T;
+    double g_by_I, V_A, gain, slope, g_by_A, sigma;
+};
+
+/// What the heads of two tables should say of g_md and of g_mg/A, in S and S/um^2, and where ours stand.
+struct PrintedArrays {
+    const char* circuit;
+    std::span<const PrintedArray> arrays;
+    const char *sizes, *small_signals, *ratios;  ///< "table 10"
+    double g_md, g_by_A;
+    const char *g_md_is, *g_by_A_is;  ///< what is said where these are not what is printed; ""
+};
+
+inline constexpr PrintedArray printed_rectangles[] = {
+    // clang-format off
+    {"A", "xa", 1, 1, 2.3333, 0.0756, 1.0120, 0.075, 1.021, 31.83, 41.28, 8.430, 2.141, 531.7, 14.87, 2.10, 29.9, 0.265, 421.0, 15.6},
+    {"B1", "xb1", 2, 1, 0.2333, 0.7560, 3.0132, 0.251, 0.013, 3.272, 4.154, 0.869, 0.240, 479.6, 13.63, 18.4, 48.0, 0.265, 4.328, 4.41},
+    {"B2", "xb2", 2, 2, 0.5833, 0.3024, 3.0132, 0.100, 0.067, 7.691, 9.809, 2.051, 0.510, 531.7, 15.07, 7.65, 41.2, 0.266, 25.43, 8.00},
+    {"C1", "xc1", 1, 1, 1.2444, 1.0800, 3.0132, 0.335, 0.079, 13.97, 17.91, 3.857, 0.853, 501.4, 16.38, 10.8, 45.0, 0.276, 13.86, 4.39},
+    {"C2", "xc2", 2, 2, 2.3333, 0.3024, 3.0132, 0.100, 0.498, 30.67, 39.34, 8.165, 2.048, 531.7, 14.98, 4.11, 35.8, 0.266, 101.4, 7.73},
+    {"D1", "xd1", 1, 2, 12.444, 0.4032, 3.0132, 0.134, 3.808, 125.2, 163.3, 34.31, 6.928, 553.7, 18.02, 1.82, 30.3, 0.274, 310.5, 7.97},
+    {"D2", "xd2", 2, 2, 9.3333, 0.3024, 3.0132, 0.100, 4.085, 127.3, 165.5, 33.72, 8.565, 531.7, 14.86, 2.10, 29.9, 0.265, 421.0, 7.41},
+    // clang-format on
+};
+
+/// F with the short transistor at the drain, as the text has it.
+inline constexpr PrintedArray printed_trapezoids[] = {
+    // clang-format off
+    {"E", "xe", 1, 1, 0.0805, 2.1924, 5.6856, 0.386, 31.73, 1.550, 1.963, 0.410, 0.120, 441.4, 12.96, 37.82, 53.8, 0.264, 0.709, 2.36},
+    {"F", "xf", 1, 2, 0.0845, 2.0874, 5.6856, 0.367, 36.85, 1.587, 2.010, 0.419, 0.123, 442.6, 12.90, 33.38, 52.7, 0.264, 0.760, 2.51},
+    {"G1", "xg1", 1, 8, 0.2917, 0.6048, 5.6856, 0.106, 180.7, 3.886, 4.941, 1.038, 0.256, 531.7, 15.18, 14.17, 46.7, 0.267, 6.425, 5.77},
+    {"G2", "xg2", 1, 8, 0.5490, 0.6048, 5.6856, 0.106, 103.5, 6.988, 8.869, 1.870, 0.461, 531.7, 15.17, 44.54, 56.6, 0.268, 11.55, 7.46},
+    {"G3", "xg3", 1, 8, 2.0416, 0.6048, 5.6856, 0.106, 691.1, 23.52, 29.91, 6.316, 1.531, 531.7, 15.36, 22.15, 50.6, 0.269, 38.89, 14.9},
+    // clang-format on
+};
+
+inline constexpr PrintedArrays rectangles = {
+    "rectangular_arrays", printed_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e-6, "its nS read as uS: errata U7", ""};
+inline constexpr PrintedArrays trapezoids = {
+    "trapezoidal_arrays",          printed_trapezoids, "table 13", "table 14", "table 15", 1e-10, 1e-6, "divided by ten: errata U8",
+    "its nS read as uS: errata U9"};
+
+const PrintedArray& printed(const PrintedArrays&, std::string_view name);
+
+/// Ours, SI.
+struct OurArray {
+    const PrintedArray* printed = nullptr;
+    double W = 0;                                      ///< of its units
+    std::vector<double> lengths{};                     ///< of each unit, from the drain down
+    double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< the last two of its card
+    double g_md = 0, g_mg = 0, g_ms = 0, g_mb = 0, I_D = 0, V_T = 0;
+    double g_by_I() const { return g_mg / I_D; }
+    double V_A() const { return I_D / g_md; }
+    double gain() const;  ///< dB
+    double slope() const { return g_mb / g_mg; }
+    double g_by_A() const { return 1e-12 * g_mg / A; }  ///< S/um^2
+    /// The mismatch that the card's law gives a lone transistor of its area, %.
+    double law(double g_by_I) const;
+};
+struct OurArrays : std::vector<OurArray> {
+    const OurArray& operator()(std::string_view name) const;
+};
+
+/// At V_G = V_D = 0.5 V; every unit is solved.
+Result<OurArrays> arrays_of(const PrintedArrays&);
+/// The same of other subcircuits of its netlist, each beside the row that is meant.
+struct Meant {
+    const PrintedArray* printed;
+    std::string ours;
+};
+std::vector<Meant> all_meant(const PrintedArrays&);
+Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant>);
+/// sigma/mu of drain currents, %, in the order of what is meant.
+Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Meant>);
+Result<std::vector<double>> mismatch_of(const PrintedArrays&);
+/// Of its deviation these draws know this, %.
+double known_to();
+
+/// A column of a table: what is printed, in its unit, and ours.
+struct Column {
+    const char *what, *unit;
+    double (*made)(const OurArray&);
+    double PrintedArray::* printed;
+    double factor = 1;                         ///< of what is printed, to SI
+    std::string (*why)(const OurArray&) = {};  ///< where they differ
+    const char* reading = "";                  ///< of what is printed, where that is not its head's
+};
+/// A claim a cell.
+void put_column(Outcome&, const Column&, const OurArrays&, const std::string& source);
+
+void put_sizes(Outcome&, const PrintedArrays&, const OurArrays&);
+void put_small_signals(Outcome&, const PrintedArrays&, const OurArrays&);
+void put_ratios(Outcome&, const PrintedArrays&, const OurArrays&);
+void put_mismatch(Outcome&, const PrintedArrays&, const OurArrays&, const std::vector<double>& sigmas);
+
+/// g_mg + g_md + g_mb = g_ms (eq. 27) tells the unit of the printed g_md: by how much the sum misses with the one read here and, in S,
+/// with the head's.
+void put_sum_rule(Outcome&, const PrintedArrays&, double head, const std::string& erratum);
+/// The ratios that other columns make: I_D/g_md and g_mg/g_md, too.
+void put_ratio_rule(Outcome&, const PrintedArrays&, double head, const std::string& erratum);
+
+}  // namespace corpuscle

@@ -1,0 +1,99 @@
+// Fig. 46: the conventional mirror and the one of parallel and series arrays: ratio and output conductance along the output's voltage,
+// and why arrays: lengths of other thresholds make another ratio than the aspect ratios say.
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "circuit/cost/area.hpp"
+#include "study/array_text.hpp"
+#include "study/deck.hpp"
+#include "study/spread.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::fig46 {
+
+constexpr double I_in = 100e-9, V_out = 0.35;  // A, V
+constexpr int sizes[] = {1, 2, 4, 8};
+
+/// A mirror of a short unit and a long transistor of its own threshold, as B1's of table 11, against one of the same ratio by arrays.
+Result<void> put_lengths(Outcome& out) {
+    const auto b1 = circuit_of({"rectangular_arrays"});
+    if (!b1) return b1.error();
+    const auto& values = (*b1)->elements[static_cast<std::size_t>((*b1)->element("xb1.mg1"))].values;
+    const double L = values.at("l"), shift = values.at("delvto"), ratio = L / 0.18e-6;
+    const int n = static_cast<int>(std::lround(ratio));
+    const std::string unit = "0 nch018 w=0.42u l=0.18u";
+    const auto mirror = [&](const std::string& output) {
+        return found_in(
+            {fmt::format("mirror\n{}iin 0 in 100n\nma in in {}\nvo out 0 {}\n", whole_card, "0 " + unit, V_out) + output, {}, ".op"});
+    };
+    const auto by_length = mirror(fmt::format("mb out in 0 0 nch018 w=0.42u l={} delvto={}\n", L, shift));
+    const auto by_array = mirror(units_text("b", "out", "in", "0", 1, n, unit));
+    if (!by_length || !by_array) return by_length ? by_array.error() : by_length.error();
+    const double long_one = I_in / -by_length->at_rest("i(vo)"), array = I_in / -by_array->at_rest("i(vo)");
+    out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the aspect ratios'", 1e6 * L), long_one / ratio)
+        .printed_as(1, "thesis eq. 33");
+    if (auto& c = out.claims.back(); c.needs_reason()) c.because("their thresholds differ (table 11, A and B1)");
+    out.claim(fmt::format("0.18 um to {} units of 0.18 um in series: the same", n), array / ratio)
+        .printed_as(1, "thesis C.1: a better mirror");
+    out.finds("The array's ratio is nearer to what the sizes say than the long transistor's",
+              std::abs(array / ratio - 1) < std::abs(long_one / ratio - 1), "thesis C.1");
+    return {};
+}
+
+/// How far 1/16 is spread over chips, made by 4 units in parallel to 4 in series, and by 16 in parallel to one.
+Result<void> put_spread(Outcome& out) {
+    const std::string unit = "0 nch w=1.5u l=0.5u";
+    const auto deviation = [&](int m, int n) -> Result<double> {
+        const auto chips = all_found_in({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", whole_card, V_out) +
+                                             units_text("a", "in", "in", "0", m, 1, unit) + units_text("b", "out", "in", "0", 1, n, unit),
+                                         {},
+                                         ".op\n.mc 1000 process=0"});
+        if (!chips) return chips.error();
+        return spread_of(*chips, "i(vo)").percent();
+    };
+    const auto arrays = deviation(4, 4), parallel = deviation(16, 1);
+    if (!arrays || !parallel) return arrays ? parallel.error() : arrays.error();
+    out.claim("1/16 by 4 units in parallel to 4 in series: deviation of I_out over 1000 chips", std::abs(*arrays), "%")
+        .at_most(std::abs(*parallel),
+                 "thesis C.2: less variability, and less area, than parallel alone, which has the number at the right");
+    return {};
+}
+
+Result<Outcome> work(const StudyOptions&) {
+    const auto found = found_in({"parallel_series_mirror", {}, ".dc vo 0 0.7 5m"});
+    if (!found) return found.error();
+    Outcome out;
+    Plot currents{"I_out of mirrors of N in parallel to N in series, 100 nA in", "V_out (V)", "I_out N^2 (nA)", {}};
+    Plot slopes{"Output conductance", "V_out (V)", "G_o N^2 (nS)", {}, false, true};
+    for (const int n : sizes) {
+        const double N2 = n * n;
+        const auto I = found->line("dc", fmt::format("i(v{})", n)).times(1, -1), slope = I.slope();
+        const auto name = n == 1 ? std::string("conventional (46a), 1 to 1") : fmt::format("parallel-series (46b), N = {}", n);
+        out.claim(fmt::format("{}: I_in/I_out at 0.35 V", name), I_in / I.at(V_out))
+            .printed_as(N2, n == 1 ? "thesis eq. 33, 1 to 1" : "thesis eq. 34");
+        auto& c = out.claim(
+            fmt::format("{}: I_out/G_o over that of 1 to 1", name),
+            I.at(V_out) / slope.at(V_out) / (found->line("dc", "i(v1)").at(V_out) / found->line("dc", "i(v1)").slope().at(V_out)));
+        c.printed_as(n, "thesis eq. 36: V_A = V_E L");
+        if (c.needs_reason())
+            c.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
+        currents.add(name, I.times(1, 1e9 * N2)), slopes.add(name, slope.between(0.02, 0.7).times(1, 1e9 * N2));
+        if (n == 1) continue;
+        const double units = 2 * n, single = circuit::array_area(1.5e-6, 0.5e-6, units),
+                     plain = circuit::array_area(1.5e-6, 0.5e-6, N2 + 1);
+        out.claim(fmt::format("{}: its {:g} units in their rectangle over {:g} units in parallel to one", name, units, N2 + 1),
+                  single / plain)
+            .at_most(1, "thesis B.1, C.1: area-efficient");
+    }
+    for (const auto put : {put_lengths, put_spread})
+        if (auto ok = put(out); !ok) return ok.error();
+    out.plots = {currents.shape("circuit diagrams only; C.1: I_out is I_in over N^2"),
+                 slopes.shape("C.1: G_o falls as the channel lengthens (eq. 36)")};
+    return out;
+}
+
+const Study study{"fig46", "Current mirrors, conventional and of arrays",
+                  "Ratio, output conductance, and what other lengths do. Thesis C.1, fig. 46", work};
+
+}  // namespace corpuscle::studies::fig46

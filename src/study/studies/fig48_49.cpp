@@ -1,0 +1,113 @@
+// Figs. 48 and 49: one transistor as a diode, its bulk at the source (X), at the gate (Y), and at the gate behind a second one (Z).
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "study/deck.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::fig48_49 {
+
+constexpr double plot_to = 0.9, floor_of_plot = 1e-13;  // V, A
+constexpr double weak = 10e-9, moderate = 1e-6;         // A: where X and Y are compared
+
+/// Of two curves over one sweep, the sum.
+Line sum(const Line& a, const Line& b) {
+    Line out = a;
+    for (std::size_t k = 0; k < out.y.size(); ++k) out.y[k] += b.y[k];
+    return out;
+}
+
+/// What stands above the floor, in nA: the axis is a logarithm's.
+Line drawn(const Line& I) {
+    Line out;
+    for (std::size_t k = 0; k < I.x.size(); ++k)
+        if (I.x[k] <= plot_to && I.y[k] > floor_of_plot) out.x.push_back(I.x[k]), out.y.push_back(1e9 * I.y[k]);
+    return out;
+}
+
+Line turned(const Line& of) { return {of.y, of.x}; }
+
+struct Diodes {
+    Line X, Y, B_Y, Z, B_Z, bulk;
+};
+
+void put_currents(Outcome& out, const Diodes& d) {
+    const std::string source = "thesis app. D, fig. 49";
+    const double at = d.Y.where(weak);
+    out.claim("I_BY over I_DY in weak inversion, at 10 nA", d.B_Y.at(at) / d.Y.at(at))
+        .at_most(0.01, source + ": I_DY is much larger (a hundredth here)");
+    out.claim("I_SY over I_DY there", sum(d.Y, d.B_Y).at(at) / d.Y.at(at)).printed_as(1, source + ": approximately");
+    const auto decade = [](const Line& I, double from) { return 0.06 / std::log10(I.at(from + 0.06) / I.at(from)); };
+    out.claim("I_BY: voltage for ten times the current, at 0.4 V", decade(d.B_Y, 0.4), "V")
+        .between(0.055, 0.07, source + ": increases exponentially (60 mV and an ideality)");
+    out.claim("I_BY: the same at 0.7 V, over that at 0.4 V", decade(d.B_Y, 0.7) / decade(d.B_Y, 0.4))
+        .printed_as(1, source + ": does not stop increasing exponentially");
+    out.claim("I_DY: the same at 0.7 V, over that at 0.15 V", decade(d.Y, 0.7) / decade(d.Y, 0.15))
+        .at_least(2, source + ": stops increasing exponentially (half as steep here)");
+    Line difference = d.B_Y;
+    for (std::size_t k = 0; k < difference.y.size(); ++k) difference.y[k] -= d.Y.y[k];
+    out.claim("I_BY overtakes I_DY at", difference.where(0, 0.3), "V")
+        .at_most(1, source + ": until I_BY is greater; no number is printed, the axes' ends are lost");
+}
+
+void put_voltages(Outcome& out, const Diodes& d, double n) {
+    const std::string source = "thesis eq. 44";
+    for (const auto& [I, where] : {std::pair{weak, "10 nA"}, {moderate, "1 uA"}}) {
+        const double V_X = d.X.where(I), V_Y = d.Y.where(I);
+        out.claim(fmt::format("V_X/V_Y at {}", where), V_X / V_Y).printed_as(n, source + ": n");
+        out.claim(fmt::format("Delta V_T = V_X - V_Y at {}", where), V_X - V_Y, "V").printed_as((n - 1) * V_Y, source + ": (n - 1) V_Y");
+        out.finds(fmt::format("V_X > V_Y at {}", where), V_X > V_Y, "thesis app. D");
+    }
+}
+
+void put_augmented(Outcome& out, const Diodes& d) {
+    const std::string source = "thesis app. D, fig. 48c: M_Z0 limits the parasitic bulk current";
+    out.claim("Z: I_BZ up to the supply of 0.7 V at most", d.B_Z.between(0, 0.7).most(), "A")
+        .at_most(d.B_Y.at(0.7) / 10, source + " (a tenth of I_BY here)");
+    out.claim("Z: its bulk up to 0.7 V at most", d.bulk.between(0, 0.7).most(), "V").at_most(0.7, "the same");
+    out.claim("Z: I_DZ over I_DY at 0.2 V", d.Z.at(0.2) / d.Y.at(0.2)).printed_as(1, "the same as 48b while the bulk current is small");
+    out.claim("Z: I_DZ over I_DY at 0.6 V, where the limit costs", d.Z.at(0.6) / d.Y.at(0.6))
+        .between(0.5, 1, "the same, less of body bias");
+}
+
+Result<Outcome> work(const StudyOptions&) {
+    const auto found = found_in({"body_diodes", {}, ".dc vin 0 0.95 1m"});
+    if (!found) return found.error();
+    const auto curve = [&](const char* name) { return found->line("dc", name); };
+    const Diodes d{curve("i(vdx)"), curve("i(vdy)"), curve("i(vby)"), curve("i(vdz)"), curve("i(vbz)"), curve("v(bz0)")};
+    double n = 0;
+    for (const auto& m : found->circuit->models)
+        if (m.name == "nch") n = m.values.at("n");
+    Outcome out;
+    put_currents(out, d);
+    put_voltages(out, d, n);
+    put_augmented(out, d);
+    Plot by_voltage{"Currents of the diodes (49a)", "V_X, V_Y, V_Z (V)", "nA", {}, false, true};
+    by_voltage.add("I_DX", drawn(d.X))
+        .add("I_DY", drawn(d.Y))
+        .add("I_BY", drawn(d.B_Y))
+        .add("I_SY = I_DY + I_BY", drawn(sum(d.Y, d.B_Y)))
+        .add("I_DZ", drawn(d.Z))
+        .add("I_BZ", drawn(d.B_Z));
+    Plot by_current{"Voltages of the diodes (49b)", "I (nA)", "V", {}, true};
+    by_current.add("V_X", turned(drawn(d.X)))
+        .add("V_Y", turned(drawn(d.Y)))
+        .add("n V_Y", turned(drawn(d.Y)).times(1, n))
+        .add("V_Z", turned(drawn(d.Z)));
+    out.plots = {
+        by_voltage.shape(
+            "I_DY far above I_DX and I_BY in weak inversion; I_BY goes on exponentially and overtakes I_DY; I_SY is I_DY until then"),
+        by_current.shape("V_X above V_Y at every current, about n V_Y")};
+    out.note(
+        "Units of 1.5/0.5 um of the circuits' card; the thesis's are \"low-V_T\" ones of a size that is not told. The figures are 48a to "
+        "48c (errata C8), the bulk of X "
+        "is at its source (C7), and lifting an NMOS's bulk takes a well of its own (C9).");
+    return out;
+}
+
+const Study study{"fig48-49", "A transistor as a diode, its bulk forward biased",
+                  "Currents and voltages of a plain, a body-biased and an augmented body-biased diode. Thesis app. D, figs. 48 and 49",
+                  work};
+
+}  // namespace corpuscle::studies::fig48_49

@@ -1,0 +1,55 @@
+// Table 11: currents and small signals of the rectangular arrays; and the sums that tell its misprints.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "study/arrays.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::table11 {
+
+Result<Outcome> work(const StudyOptions&) {
+    const auto found = arrays_of(rectangles);
+    if (!found) return found.error();
+    const auto& ours = *found;
+    Outcome out;
+    put_small_signals(out, rectangles, ours);
+
+    const std::string source = "thesis B.1";
+    const auto I = [&](const char* name) { return ours(name).I_D; };
+    out.claim("B2's current over C2's", I("B2") / I("C2")).printed_as(0.25, source);
+    out.claim("D2's current over C2's", I("D2") / I("C2")).printed_as(4, source);
+    out.claim("A's current over C2's", I("A") / I("C2"))
+        .printed_as(printed(rectangles, "A").I_D / printed(rectangles, "C2").I_D, "table 11");
+    out.finds("A carries more than C2, of the same S_eq", I("A") > I("C2"), source);
+    const double V_T = ours("A").V_T;
+    out.finds("A, B2, C2 and D2 have one threshold", ours("B2").V_T == V_T && ours("C2").V_T == V_T && ours("D2").V_T == V_T, source);
+    const auto shift = [&](const char* name) { return ours(name).V_T - V_T; };
+    const auto printed_shift = [&](const char* name) { return 1e-3 * (printed(rectangles, name).V_T - printed(rectangles, "A").V_T); };
+    for (const char* name : {"B1", "C1", "D1"})
+        out.claim(fmt::format("{}: threshold above A's", name), shift(name), "V")
+            .printed_as(printed_shift(name), "table 11")
+            .because(
+                "set so that it carries the printed current at the specific current of the short unit, which is another in each geometry");
+    out.finds(
+        "As printed, V_T rises as L falls and as W grows: no lowering by the drain, which was at 0 V",
+        printed(rectangles, "A").V_T > printed(rectangles, "B1").V_T && printed(rectangles, "D1").V_T > printed(rectangles, "C1").V_T &&
+            printed(rectangles, "C1").V_T > printed(rectangles, "B1").V_T && printed(rectangles, "D1").V_T > printed(rectangles, "A").V_T,
+        "errata U13, against \"due to DIBL\" (B.1, C.1)");
+
+    put_sum_rule(out, rectangles, 1e-9, "errata U7: g_md in uS, not nS");
+    const auto& d2 = printed(rectangles, "D2");
+    out.claim("D2: g_ms by its sum", 1e-6 * (d2.g_mg + d2.g_md + d2.g_mb), "S")
+        .printed_as(1e-6 * d2.g_ms, "table 11; errata U10: 165.1 is meant");
+    out.claim("D2: g_ms by four times A's", 4e-6 * printed(rectangles, "A").g_ms, "S").printed_as(1e-6 * d2.g_ms, "the same");
+    double worst = 0;
+    for (const auto& a : ours) worst = std::max(worst, std::abs((a.g_mg + a.g_md + a.g_mb) / a.g_ms - 1));
+    out.claim("Ours: the sum misses g_ms at most by", 100 * worst, "%").at_most(1e-4, "eq. 27, to what is solved");
+    return out;
+}
+
+const Study study{"table11", "Currents and small signals of the rectangular arrays",
+                  "Seven arrays at V_G = V_D = 0.5 V; their slopes, which must add up, tell two misprints. Thesis B.1, table 11", work};
+
+}  // namespace corpuscle::studies::table11

@@ -1,0 +1,84 @@
+// Table 12: ratios and mismatch of the rectangular arrays, and what the text makes of them.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "study/arrays.hpp"
+#include "study/studies.hpp"
+
+namespace corpuscle::studies::table12 {
+
+/// What columns are, by the numbers of table 11.
+void put_errata(Outcome& out) {
+    put_ratio_rule(out, rectangles, 1e-9, "errata U6 and U7: V_A is I_D/g_md, and g_md in uS");
+    for (const auto& a : printed_rectangles)
+        out.claim(fmt::format("{}: g_mb/g_mg by table 11 as printed", a.name), a.g_mb / a.g_mg)
+            .printed_as(a.slope, "table 12, errata U5: not g_mg/g_mb");
+    const auto& d1 = printed(rectangles, "D1");
+    out.claim("D1: g_mg/I_D by table 11 as printed", d1.g_mg / d1.I_D, "1/V").printed_as(18.07, "errata U12, for 18.02");
+}
+
+void put_text(Outcome& out, const OurArrays& ours) {
+    const std::string source = "thesis B.1";
+    const auto V_A = [&](const char* name) { return ours(name).V_A(); };
+    const auto printed_V_A = [&](const char* name) { return printed(rectangles, name).V_A; };
+    for (const auto& [name, times] : {std::pair{"B2", 4.0}, {"C2", 2.0}}) {
+        auto& c = out.claim(fmt::format("{}: V_A over A's, as L_eq", name), V_A(name) / V_A("A"))
+                      .printed_as(times, source + fmt::format("; by its table {:.2f}", printed_V_A(name) / printed_V_A("A")));
+        if (c.needs_reason())
+            c.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
+    }
+    const auto gain = [](const OurArray& a, const OurArray& b) { return a.gain() < b.gain(); };
+    const auto best = std::max_element(ours.begin(), ours.end(), gain);
+    out.finds("B1 has the highest V_A and the largest g_mg/g_md, B2's less at the same total area",
+              best->printed->name == std::string_view("B1") && V_A("B1") > V_A("B2"), source);
+    const double a = ours("A").g_by_I();
+    double apart = 0;
+    for (const char* name : {"B2", "C2", "D2"}) apart = std::max(apart, std::abs(ours(name).g_by_I() / a - 1));
+    out.claim("g_mg/I_D of B2, C2 and D2 is from A's at most", 100 * apart, "%").at_most(5, source + ": the same (5 % here)");
+    if (auto& c = out.claims.back(); c.needs_reason())
+        c.because("velocity saturation and length modulation of the card tell one unit from a stack more than the foundry's model does");
+    const auto slope = std::minmax_element(ours.begin(), ours.end(), [](const auto& x, const auto& y) { return x.slope() < y.slope(); });
+    out.claim("Slope factor n = 1 + g_mb/g_mg: the largest of the seven over the least",
+              (1 + slope.second->slope()) / (1 + slope.first->slope()))
+        .printed_as(1.276 / 1.265, source + ": similar; table 12");
+    out.claim("g_mg/A: D2's over B2's, of equal active area", ours("D2").g_by_A() / ours("B2").g_by_A())
+        .printed_as(printed(rectangles, "D2").g_by_A / printed(rectangles, "B2").g_by_A, source + ": widely different; table 12");
+}
+
+void put_mismatch_text(Outcome& out, const OurArrays& ours, const std::vector<double>& sigma) {
+    const std::string source = "thesis B.1";
+    const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&printed(rectangles, name) - printed_rectangles)]; };
+    for (const char* name : {"B2", "C2", "D2"})
+        out.claim(fmt::format("{}: deviation over A's, of a quarter of its area", name), of(name) / of("A"))
+            .printed_as(0.5, source + ": half; errata U14: inversely to the root of the area, not proportional");
+    const double least = *std::min_element(sigma.begin(), sigma.end());
+    auto& c = out.finds("C1 has the least deviation", of("C1") == least, source);
+    if (c.needs_reason())
+        c.because(
+            fmt::format("these draws know B1's {:.2f} % and C1's {:.2f} % to {:.1f} % of themselves and do not tell; by the card's law "
+                        "they are {:.2f} and {:.2f} %",
+                        of("B1"), of("C1"), known_to(), ours("B1").law(ours("B1").g_by_I()), ours("C1").law(ours("C1").g_by_I())));
+}
+
+Result<Outcome> work(const StudyOptions&) {
+    const auto ours = arrays_of(rectangles);
+    if (!ours) return ours.error();
+    Outcome out;
+    put_ratios(out, rectangles, *ours);
+    const auto sigma = mismatch_of(rectangles);
+    if (!sigma) return sigma.error();
+    put_mismatch(out, rectangles, *ours, *sigma);
+    put_errata(out);
+    put_text(out, *ours);
+    put_mismatch_text(out, *ours, *sigma);
+    return out;
+}
+
+const Study study{
+    "table12", "Ratios and mismatch of the rectangular arrays",
+    "g_mg/I_D, Early voltage, gain, n - 1, g_mg of an area and the mismatch (of 1000 draws there, of 2000 here). Thesis B.1, table 12",
+    work};
+
+}  // namespace corpuscle::studies::table12
