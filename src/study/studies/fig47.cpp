@@ -32,17 +32,16 @@ Result<Outcome> work(const StudyOptions&) {
     const auto out_along = supplied->line("dc", "i(vout)").times(1, -1), C = supplied->line("dc", "i(vdd)").times(1, -1);
     out.claim("dI_out/dV_out, G_o", G_o, "S");
     out.claim("dI_out/dV_DD", G_dd, "S");
-    out.finds("The supply moves the output more than the output's own voltage does", std::abs(G_dd) > G_o,
-              source + ": \"in addition to R_o\"");
+    out.claim("dI_out/dV_DD over G_o, in amount", std::abs(G_dd) / G_o);
     out.finds("A higher supply takes current from the output, for M_C's share grows", G_dd < 0, source);
     out.claim("I_out by a supply higher by 0.1 V", 100 * (out_along.at(supply + step) / out_along.at(supply) - 1), "%");
-    out.claim("M_C's own change with it, at its voltages, over I_out", step * at->reading("mc", "g_md") / I)
-        .between(0.1, 10, source + ": \"can be in the same order of I_out magnitude\" (a tenth to ten times here)");
-    out.claim("What is left of it in the circuit", (C.at(supply + step) - C.at(supply)) / I);
-    out.note(
-        "M_B, saturated, nearly holds the sum of I_DC and I_out: the node between them rises until M_C takes no more than the output loses "
-        "and M_B gives, "
-        "little of its own change.");
+    auto& moved = out.claim("I_DC's change with it, over I_out", (C.at(supply + step) - C.at(supply)) / I)
+                      .between(0.1, 10, source + ": \"can be in the same order of I_out magnitude\" (a tenth to ten times here)");
+    if (moved.needs_reason())
+        moved.because(
+            fmt::format("M_C at fixed voltages would change by {:.2f} of I_out; but M_B nearly holds the sum, and the node between them "
+                        "takes most of it back",
+                        step * at->reading("mc", "g_md") / I));
 
     Plot by_supply{"What the supply does to the split current", "V_DD (V)", "over its value at 0.7 V", {}};
     by_supply.add("I_out", out_along.times(1, 1 / I)).add("I_DC", C.times(1, 1 / C.at(supply)));
