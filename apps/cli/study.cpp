@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "io/output.hpp"
@@ -15,16 +16,35 @@
 namespace corpuscle {
 namespace {
 
+/// "table17" asks for table17-18, "eq40" for eq34-41.
+bool covers(std::string_view study, std::string_view asked) {
+    const auto digits = asked.find_first_of("0123456789");
+    if (digits == std::string_view::npos || digits == 0 || asked.find_first_not_of("0123456789", digits) != std::string_view::npos ||
+        !study.starts_with(asked.substr(0, digits)))
+        return false;
+    int from = 0, to = 0, number = 0;
+    const auto read = [](std::string_view text, int& out) { return std::from_chars(text.data(), text.data() + text.size(), out).ptr; };
+    const auto* dash = read(study.substr(digits), from);
+    const auto* end = study.data() + study.size();
+    if (dash == end || *dash != '-' || read({dash + 1, static_cast<std::size_t>(end - dash - 1)}, to) != end) return false;
+    read(asked.substr(digits), number);
+    return number >= from && number <= to;
+}
+
 Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) {
     std::vector<std::string_view> known = {"all"};
     for (const auto* s : all_studies) known.push_back(s->name);
     std::vector<const Study*> out;
     for (const auto& name : names) {
-        if (std::find(known.begin(), known.end(), name) == known.end())
+        bool found = false;
+        for (const auto* s : all_studies) {
+            if (name != "all" && name != s->name && !covers(s->name, name)) continue;
+            found = true;
+            if (std::find(out.begin(), out.end(), s) == out.end()) out.push_back(s);
+        }
+        if (!found)
             return bad_usage(
                 fmt::format("study: none is called '{}'{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
-        for (const auto* s : all_studies)
-            if ((name == "all" || name == s->name) && std::find(out.begin(), out.end(), s) == out.end()) out.push_back(s);
     }
     return out;
 }
@@ -32,7 +52,7 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
 std::string text_of(const Study& study, const Outcome& outcome) {
     std::vector<std::vector<std::string>> rows = {{"", "made", "printed", "deviation", "allowed", ""}};
     for (const auto& c : outcome.claims)
-        rows.push_back({c.what, quantity_of(c.made, c), quantity_of(c.printed, c), deviation_of(c), allowed_of(c), c.verdict()});
+        rows.push_back({c.what, quantity_of(c.made, c), printed_of(c), deviation_of(c), allowed_of(c), c.verdict()});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, table(rows));
     for (const auto& c : outcome.claims)
         if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.what, c.note);

@@ -28,17 +28,15 @@ function showClaims(host, claims) {
     if (claims.length) showTable(host, [], claims.map(claimCells));
 }
 
-/// Of several studies, on top: every number that was printed, and every claim that does not hold.
+/// Of several studies, before them all: every number that was printed, and whatever is off; or that alone.
 function showDeviations(host, studies) {
-    const rows = studies.flatMap(({name, claims}) => claims.filter(({printed, verdict}) => printed !== null || verdict === "does not hold")
-        .map((claim) => `<td><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
+    const rows = studies.flatMap(({name, claims}) => claims.filter((claim) => claim.on_top).map((claim) => `<td><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
     if (studies.length < 2 || !rows.length) return;
-    const verdicts = studies.flatMap(({claims}) => claims.map(({verdict}) => verdict));
-    const count = (verdict) => verdicts.filter((one) => one === verdict).length;
-    const section = element(host, "section");
-    element(section, "h2", "", `Printed and made <small>${count("agrees")} numbers agree within a tenth, ${count("differs")} differ by more; ` +
-        `${count("holds")} other claims hold, ${count("does not hold")} do not</small>`);
+    const section = element(host, "section", "deviations");
+    element(section, "h2", "", `Printed and made <small>${escaped(data.tally)}</small>`);
+    const label = element(section, "label", "", `<input type="checkbox"> only what is off`);
     showTable(section, ["study"], rows);
+    label.firstChild.addEventListener("change", (event) => section.classList.toggle("off-only", event.target.checked));
 }
 
 /// One row a distinct x, one column a series; what a series does not have there is left open.
@@ -52,13 +50,19 @@ function rowsOf(series, height) {
     return [...at.values()].sort((a, b) => a[0] - b[0]);
 }
 
+/// A number on an axis: its digits, as many as tell neighbours apart; far from 1 with an exponent.
+function shortest(v) {
+    const number = Number(v.toPrecision(6)), size = Math.abs(number);
+    return size !== 0 && (size < 1e-3 || size >= 1e6) ? number.toExponential().replace("e+", "e") : String(number);
+}
+
 /// Logarithms are drawn as such and labelled with what they are of: the chart library's own log axes are for times.
 const logTicks = (lo, hi) => {
     const ticks = [], within = hi - lo > 5 ? [1] : [1, 2, 5];
     for (let decade = Math.floor(lo); decade <= Math.ceil(hi); ++decade)
         for (const m of within) {
             const v = decade + Math.log10(m);
-            if (v >= lo - 1e-9 && v <= hi + 1e-9) ticks.push({v, label: String(Number((10 ** v).toPrecision(3)))});
+            if (v >= lo - 1e-9 && v <= hi + 1e-9) ticks.push({v, label: shortest(10 ** v)});
         }
     return ticks;
 };
@@ -73,7 +77,7 @@ function showPlot(host, plot) {
     const paths = series.map((one, k) => ({...one, colour: colour(k)})).filter(({style}) => style === "path");
     const rows = rowsOf(series, series.length);
     if (!rows.length) return;
-    const axis = (label, log, width) => ({axisLabelFontSize: 11, axisLabelWidth: width, ...(log ? {ticker: logTicks} : {})});
+    const axis = (label, log, width) => ({axisLabelFontSize: 11, axisLabelWidth: width, ...(log ? {ticker: logTicks} : {axisLabelFormatter: shortest})});
     const labels = plot.series.map(({name}, k) => `${name || "made"}${plot.series.findIndex((one) => one.name === name) === k ? "" : ` (${k + 1})`}`);
     const chart = new Dygraph(element(figure, "div", "plot"), rows, {
         labels: [plot.x, ...labels],
@@ -85,7 +89,7 @@ function showPlot(host, plot) {
         ...(raster ? {valueRange: [0.3, series.length + 0.7]} : {}),
         ...(paths.length ? {valueRange: span(paths.flatMap(({y}) => y)), underlayCallback: (context, area, chart) => paths.forEach((one) => follow(chart, context, one))} : {}),
         xlabel: plot.x, ylabel: plot.y || undefined, xLabelHeight: 16, yLabelWidth: 16,
-        xRangePad: 6, yRangePad: 6, legend: "never", highlightCircleSize: 0,
+        xRangePad: raster ? 14 : 6, yRangePad: 6, legend: "never", highlightCircleSize: 0,
         gridLineColor: ink("grid"), axisLineColor: ink("axis"),
     });
     (window.charts ||= []).push(chart);

@@ -44,7 +44,8 @@ Json for_the_page(const Study& study, Outcome outcome) {
         for (auto& s : p["series"]) s["x"] = shortened(s["x"]), s["y"] = shortened(s["y"]);
     for (std::size_t k = 0; k < outcome.claims.size(); ++k) {
         const auto& c = outcome.claims[k];
-        document["claims"][k]["texts"] = {quantity_of(c.made, c), quantity_of(c.printed, c), deviation_of(c), allowed_of(c)};
+        document["claims"][k]["on_top"] = belongs_on_top(c);
+        document["claims"][k]["texts"] = {quantity_of(c.made, c), printed_of(c), deviation_of(c), allowed_of(c)};
     }
     return document;
 }
@@ -55,7 +56,11 @@ std::string study_page(std::span<const Study* const> studies, std::span<const Ou
     Json all = Json::array();
     for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(for_the_page(*studies[k], outcomes[k]));
     const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Every figure and table, made again";
-    const Json document = {{"title", title}, {"program", "corpuscle " + std::string(version)}, {"command", command}, {"studies", all}};
+    const Json document = {{"title", title},
+                           {"program", "corpuscle " + std::string(version)},
+                           {"command", command},
+                           {"tally", tally_of(outcomes)},
+                           {"studies", all}};
     return filled(asset("study.html"), escaped(title), safe_json(document));
 }
 

@@ -13,14 +13,28 @@ namespace {
 /// Those that nobody says kilo of.
 constexpr std::array<std::string_view, 8> bare = {"%", "C", "gf", "dB", "degrees", "spikes", "times", "um^2"};
 
+/// Whether a number is what rounding leaves, which differs from machine to machine: far below what is allowed, or of a percent.
+bool is_rounding(double x, const Claim& c) {
+    double allowed = 0;
+    for (const double end : {c.low, c.high})
+        if (std::isfinite(end)) allowed = std::max(allowed, std::abs(end));
+    return std::abs(x) < 1e-5 * allowed || (c.unit == "%" && std::abs(x) < 1e-9);
+}
+
 }  // namespace
 
 std::string quantity_of(double x, const Claim& c) {
     if (std::isnan(x)) return "-";
+    if (is_rounding(x, c)) x = 0;
     if (c.is_truth) return x > 0 ? "yes" : "no";
     if (c.unit.empty()) return fmt::format("{:.4g}", x);
     if (std::find(bare.begin(), bare.end(), c.unit) != bare.end()) return fmt::format("{:.4g} {}", x, c.unit);
     return format_quantity(x, c.unit);
+}
+
+std::string printed_of(const Claim& c) {
+    const auto text = quantity_of(c.printed, c);
+    return c.follows ? fmt::format("({})", text) : text;
 }
 
 std::string allowed_of(const Claim& c) {
@@ -31,6 +45,10 @@ std::string allowed_of(const Claim& c) {
     return c.low == c.high ? quantity_of(c.low, c) : fmt::format("{} to {}", quantity_of(c.low, c), quantity_of(c.high, c));
 }
 
-std::string deviation_of(const Claim& c) { return std::isnan(c.deviation()) ? "-" : fmt::format("{:+.1f} %", 100 * c.deviation()); }
+std::string deviation_of(const Claim& c) {
+    const double percent = 100 * c.deviation();
+    if (std::isnan(percent)) return "-";
+    return std::abs(percent) < 0.05 ? "0.0 %" : fmt::format("{:+.1f} %", percent);
+}
 
 }  // namespace corpuscle

@@ -14,20 +14,18 @@ struct Claim {
     double made = 0;
     std::string unit = {};
     double printed = none;           ///< NaN: only the range, or nothing, was printed
+    bool follows = false;            ///< `printed` does not stand there itself but follows: from an equation, from words, from the model
     double low = none, high = none;  ///< what is allowed, if that is said
     std::string source = {};         ///< of what was printed
     std::string note = {};           ///< why it differs, where it does
     bool is_truth = false;           ///< made is 1 or 0: whether it is so
 
     Claim& printed_as(double value, std::string where) { return printed = value, source = std::move(where), *this; }
+    /// A number that was not printed itself but follows from what was: from an equation, from words, from the model.
+    Claim& held_to(double value, std::string from) { return follows = true, printed_as(value, std::move(from)); }
     Claim& between(double least, double most, std::string where) { return low = least, high = most, source = std::move(where), *this; }
     Claim& at_least(double least, std::string where) { return between(least, none, std::move(where)); }
     Claim& at_most(double most, std::string where) { return between(none, most, std::move(where)); }
-    /// Within a hundredth of what was not printed but follows: from a mended equation, from another model.
-    Claim& as_follows(double value, std::string from) {
-        const double off = 0.01 * (value < 0 ? -value : value);
-        return between(value - off, value + off, std::move(from));
-    }
     Claim& because(std::string why) { return note = std::move(why), *this; }
 
     bool judged() const { return low == low || high == high; }
@@ -46,8 +44,10 @@ struct Claim {
     }
 };
 
-/// What was made, printed or allowed, in the claim's unit: "350 mV", "yes", "-" for nothing.
+/// What was made or allowed, in the claim's unit: "350 mV", "yes", "-" for nothing.
 std::string quantity_of(double, const Claim&);
+/// What was printed; in brackets where it only follows.
+std::string printed_of(const Claim&);
 /// "350 mV .. 351 mV", "<= 1 nA"; "-" if nothing is said.
 std::string allowed_of(const Claim&);
 /// "-2.3 %"; "-": none.

@@ -22,6 +22,7 @@ Json document_of(const Claim& c) {
             {"made", c.is_truth ? Json(c.made > 0) : number(c.made)},
             {"unit", c.unit},
             {"printed", number(c.printed)},
+            {"follows", c.follows},
             {"deviation", number(c.deviation())},
             {"low", c.is_truth ? Json(nullptr) : number(c.low)},
             {"high", number(c.high)},
@@ -49,39 +50,45 @@ std::string cell(std::string_view text) {
     return out;
 }
 
-/// How many claims came out in each way.
-std::string tally(std::span<const Outcome> outcomes) {
-    std::vector<std::pair<std::string, int>> counts = {{"agrees", 0}, {"differs", 0}, {"holds", 0}, {"does not hold", 0}};
-    for (const auto& outcome : outcomes)
-        for (const auto& c : outcome.claims)
-            for (auto& [verdict, count] : counts) count += verdict == c.verdict();
-    return fmt::format(
-        "{} numbers agree within a tenth with what was printed, {} differ by more; {} other claims hold, {} do not. Each that differs or "
-        "does not hold says why, if that is known.",
-        counts[0].second, counts[1].second, counts[2].second, counts[3].second);
-}
+/// How many claims of a kind came out in each way.
+struct Count {
+    int good = 0, bad = 0;
+    void add(const Claim& c) { c.needs_reason() ? ++bad : ++good; }
+};
 
 void put_table(std::string& text, const Outcome& outcome) {
     if (outcome.claims.empty()) return;
     text += "| | made | printed | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
     for (const auto& c : outcome.claims)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.what), quantity_of(c.made, c), quantity_of(c.printed, c),
-                            deviation_of(c), allowed_of(c), c.verdict(),
-                            cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.what), quantity_of(c.made, c), printed_of(c), deviation_of(c),
+                            allowed_of(c), c.verdict(), cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
     text += '\n';
 }
 
 void put_deviations(std::string& text, std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
-    text += "| study | what | made | printed | deviation | reason, if more than a tenth |\n|---|---|---|---|---|---|\n";
+    text += "| study | what | made | printed | deviation | allowed | reason, where it is off |\n|---|---|---|---|---|---|---|\n";
     for (std::size_t k = 0; k < studies.size(); ++k)
         for (const auto& c : outcomes[k].claims)
-            if (!std::isnan(c.printed))
-                text +=
-                    fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} |\n", studies[k]->name, cell(c.what), quantity_of(c.made, c),
-                                quantity_of(c.printed, c), deviation_of(c), c.needs_reason() ? cell(c.note) : "");
+            if (belongs_on_top(c))
+                text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} | {6} |\n", studies[k]->name, cell(c.what),
+                                    quantity_of(c.made, c), printed_of(c), deviation_of(c), allowed_of(c),
+                                    c.needs_reason() ? cell(c.note) : "");
 }
 
 }  // namespace
+
+bool belongs_on_top(const Claim& c) { return c.needs_reason() || (!std::isnan(c.printed) && !c.follows); }
+
+std::string tally_of(std::span<const Outcome> outcomes) {
+    Count printed, follow, other;
+    for (const auto& outcome : outcomes)
+        for (const auto& c : outcome.claims)
+            if (*c.verdict() != 0) (c.judged() ? other : c.follows ? follow : printed).add(c);
+    return fmt::format(
+        "{} printed numbers agree within a tenth, {} differ by more. {} numbers agree with what follows from the printed ones (in "
+        "brackets: by an equation, by words, by the thesis's model), {} differ. {} claims in words hold, {} do not.",
+        printed.good, printed.bad, follow.good, follow.bad, other.good, other.bad);
+}
 
 Json document_of(const Study& study, const Outcome& outcome) {
     Json claims = Json::array(), plots = Json::array();
@@ -95,8 +102,9 @@ std::string markdown_of(std::span<const Study* const> studies, std::span<const O
     std::string text = fmt::format(
         "# Every figure and table, made again\n\nMade by `corpuscle study all` (`make reproduction` writes this page, and with its "
         "pictures "
-        "`out/reproduction.html`); no number on it is typed in but the printed ones. {}\n\n## Numbers that were printed\n\n",
-        tally(outcomes));
+        "`out/reproduction.html`); no number on it is typed in but the printed ones. {} Whatever is off says why, if that is known.\n\n## "
+        "Printed numbers, and whatever is off\n\n",
+        tally_of(outcomes));
     put_deviations(text, studies, outcomes);
     for (std::size_t k = 0; k < studies.size(); ++k) {
         text += fmt::format("\n## {}\n\n**{}.** {}\n\n", studies[k]->name, studies[k]->title, studies[k]->question);

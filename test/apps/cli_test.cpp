@@ -319,6 +319,26 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
 }
 
+TEST(Program, StudiesAreToldWrittenAndAskedForByAnyOfTheirNumbers) {
+    const Folder folder;
+    const auto ran = run(folder, "study fig4 table17 eq30 --json --report page.html --markdown numbers.md");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto document = Json::parse(ran.out);
+    std::vector<std::string> names;
+    for (const auto& study : document) names.push_back(study["name"]);
+    EXPECT_EQ(names, (std::vector<std::string>{"fig4", "table17-18", "eq21-30"}));
+    EXPECT_EQ(document[0]["claims"][0]["printed"], 0.2);
+    EXPECT_FALSE(document[0]["plots"][0]["series"][0]["x"].empty());
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"numbers.md", "page.html"}));
+    EXPECT_NE(folder.read("numbers.md").find("## table17-18"), std::string::npos);
+    const auto unknown = run(folder, "study fig7 --report other.html");
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_NE(unknown.err.find("study: none is called 'fig7'"), std::string::npos) << unknown.err;
+    EXPECT_EQ(run(folder, "study table19").status, 2);
+    EXPECT_EQ(folder.names().size(), 2u);
+    EXPECT_NE(run(folder, "study fig4 --quiet --report /nowhere/page.html").status, 0);
+}
+
 TEST(Program, NamesMayHoldAnyBytes) {
     const Folder folder;
     folder.write("l.csv",

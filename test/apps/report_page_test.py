@@ -664,7 +664,7 @@ del Page  # not a test by itself
 class Studies(unittest.TestCase):
     def test_every_claim_has_a_row_and_every_plot_is_drawn(self):
         path = OUT / "studies.html"
-        subprocess.run([CORPUSCLE, "study", "fig3", "kim", "--report", str(path), "--quiet"], check=True)
+        subprocess.run([CORPUSCLE, "study", "fig16", "kim", "--report", str(path), "--quiet"], check=True)
         data = data_of(path)
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
             options = webdriver.ChromeOptions()
@@ -675,7 +675,16 @@ class Studies(unittest.TestCase):
             self.addCleanup(browser.quit)
             browser.get(path.as_uri())
             self.assertEqual(browser.get_log("browser"), [])
-            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "tbody tr")), sum(len(study["claims"]) for study in data["studies"]))
+            claims = [claim for study in data["studies"] for claim in study["claims"]]
+            on_top = browser.find_elements(By.CSS_SELECTOR, ".deviations tbody tr")
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "tbody tr")) - len(on_top), len(claims))
+            self.assertEqual(len(on_top), sum(claim["on_top"] for claim in claims))
+            browser.find_element(By.CSS_SELECTOR, ".deviations input").click()
+            shown = [row for row in on_top if row.is_displayed()]
+            self.assertEqual(len(shown), sum(claim["verdict"] in ("differs", "does not hold") for claim in claims))
+            self.assertLess(len(shown), len(on_top))
+            link = on_top[0].find_element(By.TAG_NAME, "a").get_attribute("href")
+            self.assertEqual(len(browser.find_elements(By.ID, link.split("#")[1])), 1)
             points = browser.execute_script("return charts.map((chart) => chart.numRows())")
             self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
             self.assertGreater(min(points), 2)

@@ -45,7 +45,7 @@ Result<void> claim_share(Outcome& out, const std::string& what, const Printed& p
     auto& c =
         out.claim(fmt::format("{}: share of the printed {} covered{}", what, p.name, p.axis == BiasAxis::current ? " (in decades)" : ""),
                   covered(p, r, range), "%")
-            .printed_as(100, fmt::format("thesis E.2: {}", words(p, {range[0], range[1], false, false})));
+            .held_to(100, fmt::format("thesis E.2: {}", words(p, {range[0], range[1], false, false})));
     std::string note = "ours is " + words(p, r);
     for (const bool below : {true, false}) {
         const double end = below ? r.from : r.to, wanted = below ? range[0] : range[1];
@@ -94,9 +94,7 @@ Result<void> claim_causes(Outcome& out) {
     out.claim("at the upper end the bulks' junctions take of I_BIAS", 100 * high->bulks / high->asked, "%");
     out.claim("at 2 uA they take", 100 * printed_high->bulks / printed_high->asked, "%");
     out.claim("V_BN at 2 uA", printed_high->V_BN, "V").printed_as(0.6, "thesis E.2: up to 600 mV");
-    out.claim("I_Q at 2 uA", printed_high->I_Q, "A")
-        .printed_as(2e-6, "thesis E.2: I_Q = I_BIAS up to there")
-        .because(printed_high->words());
+    out.claim("I_Q at 2 uA", printed_high->I_Q, "A").held_to(2e-6, "thesis E.2: I_Q = I_BIAS up to there").because(printed_high->words());
     return {};
 }
 

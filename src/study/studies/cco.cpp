@@ -65,7 +65,7 @@ voff off 0 0.35
             "M1A and M1B let {:.2f} pA through with V_GS = 0, so that M1A, as a diode of 2 pA, is within three thermal voltages of the "
             "supply and not saturated, while M1B is",
             1e12 * off));
-    out.claim("200 pA pull up", more.at(0.35), "A").printed_as(200e-12, "1:1, table 9");
+    out.claim("200 pA pull up", more.at(0.35), "A").held_to(200e-12, "1:1, table 9");
     const auto rest = [&](const Line& line, double below) { return 100 * line.at(0.7 - below) / line.at(0.35); };
     for (const double below : {100e-3, 50e-3, 25e-3, 10e-3})
         out.claim(fmt::format("left of it {:.0f} mV below the supply", 1e3 * below), rest(leak, below), "%");

@@ -43,7 +43,7 @@ Result<Outcome> work(const StudyOptions&) {
               "%")
         .at_most(1e-9, "thesis eq. 13: printed as approximate, is exact (errata F1a)");
     out.claim("eq. 13 with a = 170 ohm: G against that with 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
-        .printed_as(1, "thesis eq. 13")
+        .held_to(1, "thesis eq. 13")
         .if_off("a misprint for 170 kohm (errata F1)");
     out.claim("eq. 14, V_Z - V_X with an ideal amplifier" + range, percent_off(*ideal, [&](double gf) { return 0.1 * G(gf) * 9.1e3; }), "%")
         .at_most(1, "thesis eq. 14" + bound);
@@ -79,8 +79,7 @@ Result<Outcome> work(const StudyOptions&) {
         .add("eq. 14, follower", percents(*follower, [&](double gf) { return 0.1 * G(gf) * 3.6e3; }))
         .add("eq. 15, fig. 21, 16x1", percents(*plain_Y, [&](double gf) { return 0.1 * G(gf); }))
         .add("eq. 15, fig. 21, 64x1", percents(*plain4_Y, [&](double gf) { return 0.1 * G(gf); }))
-        .add("eq. 15 / 17, fig. 22", percents(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }))
-        .shape("no figure");
+        .add("eq. 15 / 17, fig. 22", percents(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }));
     out.note(
         "What fig. 22 is off is the split: the single transistors of M_2 have the lower Early voltage and stand at the supply, M_1 at the "
         "next "

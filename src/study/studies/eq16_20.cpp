@@ -40,15 +40,15 @@ Result<void> eq_16_18(Outcome& out) {
     const auto V_F = found->line("dc", "v(vf)"), I_A0 = found->line("dc", "i(va0)");
     const double k_1 = ratio(*found->circuit, "m3b", "m3a"), k_4 = ratio(*found->circuit, "m4b", "m4a");
     const double R = load_of(cell->line("dc", "i(vin)").times(1, -1)).resistance.at(0.35);
-    out.claim("(16), (18): k_1 = S_3B / S_3A of table 3", k_1, "times").printed_as(0.5, "table 3, errata S1");
-    out.claim("... measured, its copy I_A0 / I_F at 1.4 uA", I_A0.at(1.4e-6) / 1.4e-6, "times").printed_as(k_1, "eq. 16, errata S1");
+    out.claim("(16), (18): k_1 = S_3B / S_3A of table 3", k_1, "times").held_to(0.5, "table 3, errata S1");
+    out.claim("... measured, its copy I_A0 / I_F at 1.4 uA", I_A0.at(1.4e-6) / 1.4e-6, "times").held_to(k_1, "eq. 16, errata S1");
     out.claim("V_F where (S_3B/S_3A) I_F = (S_4B/S_4A) I_BIASF, I_F = 1.4 uA", V_F.at(k_4 * I_BIASF / k_1), "V")
-        .printed_as(V_DD / 2, "eq. 18, errata S2a");
+        .held_to(V_DD / 2, "eq. 18, errata S2a");
     out.claim("V_F at I_F = I_BIASF, where the text has it", V_F.at(I_BIASF), "V")
-        .printed_as(V_DD / 2, "thesis 4.3.1: V_DD/2 for I_F1 = I_BIASF")
+        .held_to(V_DD / 2, "thesis 4.3.1: V_DD/2 for I_F1 = I_BIASF")
         .because("I_F1 is what M3B carries, half of I_F (errata S2a)");
     out.claim("slope dV_F/dI_F at the middle", V_F.slope_at(1.4e-6), "ohm")
-        .printed_as(k_1 * R, "eq. 18 divided by G_m1, which is that of INVB as a load (errata S2)")
+        .held_to(k_1 * R, "eq. 18 divided by G_m1, which is that of INVB as a load (errata S2)")
         .because("the mirrors' own output conductance is beside the load");
     Line by_18;
     for (const double I : V_F.x) by_18.x.push_back(I), by_18.y.push_back(V_DD / 2 + (k_1 * I - k_4 * I_BIASF) * R);
@@ -62,7 +62,7 @@ Result<void> eq_16_18(Outcome& out) {
            "V")
         .at_most(10e-3, "eq. 18, errata S2; within its linear part, 10 mV are set here");
     out.claim("as printed (18) multiplies by G_m1, and 0.2 uA more of I_F would raise V_F by", k_1 * 0.2e-6 / R, "V")
-        .printed_as(V_F.at(1.6e-6) - V_F.at(1.4e-6), "made here by the circuit")
+        .held_to(V_F.at(1.6e-6) - V_F.at(1.4e-6), "made here by the circuit")
         .because("A times S is no V; (16) divides (errata S2)");
     out.plot("V_F along I_F, and (18)", "I_F (uA)", "V_F (V)")
         .add("circuit", V_F.times(1e6, 1))
@@ -103,11 +103,11 @@ Result<void> eq_17_19(Outcome& out) {
     out.claim("(19): by the printed M6, 8x2 to 2x4", N.printed / 8, "")
         .printed_as(1.0 / 16000, "thesis 4.3.1")
         .because("8x2 to 2x4 is 1/8, where M5 has 1/64 (errata S7)");
-    out.claim("k_N exactly, by (38) and (39): one over it", 1 / (N.exact * last), "times").printed_as(18432, "errata S7b");
-    out.claim("the P mirrors' alike: one over it", 1 / (P.exact * ratio(c, "xl.mp5b", "xl.mp5a")), "times").printed_as(18432, "errata S7a");
-    out.claim("the circuit without length modulation divides by", divides(*ideal), "times").printed_as(18432, "errata S7b");
+    out.claim("k_N exactly, by (38) and (39): one over it", 1 / (N.exact * last), "times").held_to(18432, "errata S7b");
+    out.claim("the P mirrors' alike: one over it", 1 / (P.exact * ratio(c, "xl.mp5b", "xl.mp5a")), "times").held_to(18432, "errata S7a");
+    out.claim("the circuit without length modulation divides by", divides(*ideal), "times").held_to(18432, "errata S7b");
     out.claim("the circuit divides by", divides(*invc), "times")
-        .printed_as(16384, "eq. 19 with 1/256 for 1/288")
+        .held_to(16384, "eq. 19 with 1/256 for 1/288")
         .because("length modulation of the mirrors' diodes, and 1/288 is the exact split (errata S7b)");
     const double G = std::abs(invc->line("dc", "i(vb)").slope_at(0.35));
     out.claim("with k_N of (19) as printed, 1/k_N = product, filter B's corner", G / (N.printed * last) / (2 * pi * 0.8e-12), "Hz")
@@ -132,12 +132,12 @@ Result<void> eq_20(Outcome& out) {
     const Split first(c, "x1.mn1a", "x1.mn1b", "x1.mn1c", "x1.mn1d");
     const double rest = 0.5 * ratio(c, "x1.mp2b", "x1.mp2a") * ratio(c, "x1.mn3b", "x1.mn3a");
     out.claim("(20): k_A = I_A / I_F by the printed ratios, one over it", 1 / (rest * first.printed), "times")
-        .printed_as(262144, "eq. 20, errata S10");
-    out.claim("... exactly", 1 / (rest * first.exact), "times").printed_as(294912, "eq. 20 with 1/288, errata S7b, S10");
+        .held_to(262144, "eq. 20, errata S10");
+    out.claim("... exactly", 1 / (rest * first.exact), "times").held_to(294912, "eq. 20 with 1/288, errata S7b, S10");
     out.claim("the summer without length modulation divides I_F by", divides("i(va3)"), "times")
-        .printed_as(1 / (rest * first.exact), "eq. 20 exactly");
+        .held_to(1 / (rest * first.exact), "eq. 20 exactly");
     out.claim("the summer divides I_F by, at 4 N", divides("i(va)"), "times")
-        .printed_as(1 / (rest * first.printed), "eq. 20")
+        .held_to(1 / (rest * first.printed), "eq. 20")
         .because("1/288 for 1/256, and length modulation of three mirrors (circuits/summer.cir)");
     const auto rectifier = found_in({"rectifier_sa", {}, ".dc vhp 0.37 0.39 1m"});
     if (!rectifier) return rectifier.error();
@@ -145,9 +145,9 @@ Result<void> eq_20(Outcome& out) {
         return rectifier->line("dc", curve).slope_at(0.38) / rectifier->line("dc", "i(vn)").slope_at(0.38);
     };
     out.claim("k_X = S_2B / S_6B: measured of I_B", k("i(vb)"), "times")
-        .printed_as(ratio(*rectifier->circuit, "xb.mn2b", "xres.mn6b"), "errata S9: output over input");
+        .held_to(ratio(*rectifier->circuit, "xb.mn2b", "xres.mn6b"), "errata S9: output over input");
     out.claim("... of I_C as table 6 sizes it", k("i(vc)"), "times")
-        .printed_as(ratio(*rectifier->circuit, "xc.mn2b", "xres.mn6b"), "errata S9");
+        .held_to(ratio(*rectifier->circuit, "xc.mn2b", "xres.mn6b"), "errata S9");
     return {};
 }
 

@@ -27,7 +27,7 @@ Result<void> equation_1(Outcome& out) {
     const auto told = told_of({.afferent = "sa1a+lif-a", .stimulus = "ramp-hold", .settings = {"sa1a+lif-a.beta=100nA"}, .traces = {"I"}});
     if (!told) return told.error();
     out.claim("(1): I at 0.5 N of a ramp of 10 N/s; beta 100 nA, k_s 1 uA/N, k_d 100 nA s/N", told->traces.at("I").at(0.3), "A")
-        .printed_as(100e-9 + 1e-6 * 0.5 + 100e-9 * 10, "thesis 3.1, eq. 1");
+        .held_to(100e-9 + 1e-6 * 0.5 + 100e-9 * 10, "thesis 3.1, eq. 1");
     return {};
 }
 
@@ -139,19 +139,18 @@ Result<void> equation_12(Outcome& out, const StudyOptions& options) {
         off = std::max(off, std::abs(*H - right) / K_B);
         made.x.push_back(f), made.y.push_back(1e6 * std::abs(*H));
         exact.x.push_back(f), exact.y.push_back(1e6 * std::abs(right));
-        if (f == f_B)
-            out.claim("(12): phase of I_B at its corner", std::arg(*H) * 180 / M_PI, "degrees").printed_as(45, "thesis 3.3, eq. 12");
+        if (f == f_B) out.claim("(12): phase of I_B at its corner", std::arg(*H) * 180 / M_PI, "degrees").held_to(45, "thesis 3.3, eq. 12");
         if (auto ok = options.at(0.5 + f / 1100); !ok) return ok.error();
     }
     out.claim("(12): I_B / F under sines of 1 to 500 Hz off K s / (s + 2 pi f), farthest of K", 100 * off, "%")
         .at_most(1, "thesis 3.3, eq. 12; a hundredth is ours, at 20 samples a period");
-    out.claim("(12): gain at 500 Hz", made.y.back() * 1e-6, "A/N").printed_as(K_B, "thesis 3.3: limited above the corner");
-    out.claim("(12): gain at 2 Hz over that at 1 Hz", made.at(2) / made.at(1)).printed_as(2, "thesis 3.3: far below it a differentiator");
+    out.claim("(12): gain at 500 Hz", made.y.back() * 1e-6, "A/N").held_to(K_B, "thesis 3.3: limited above the corner");
+    out.claim("(12): gain at 2 Hz over that at 1 Hz", made.at(2) / made.at(1)).held_to(2, "thesis 3.3: far below it a differentiator");
     const double T = 1e-3, beta = 1 / (2 * M_PI * f_B);
     out.claim("k_x2 = 1 / (1 + 2 pi f T), by alpha and beta: beta / (T + beta)", beta / (T + beta))
-        .printed_as(algorithms::k2(f_B, T), "thesis 3.3; B9a");
+        .held_to(algorithms::k2(f_B, T), "thesis 3.3; B9a");
     out.claim("k_x1 = K k_x2, by alpha and beta: alpha / (T + beta)", K_B * beta / (T + beta), "A/N")
-        .printed_as(K_B * algorithms::k2(f_B, T), "thesis 3.3; B9a");
+        .held_to(K_B * algorithms::k2(f_B, T), "thesis 3.3; B9a");
     out.plot("I_B for a sine of force", "frequency (Hz)", "gain (uA/N)", true, true).points("model", made).add("K s / (s + 2 pi f)", exact);
     return {};
 }

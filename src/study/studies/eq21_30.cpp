@@ -74,7 +74,7 @@ void put_errata(Outcome& out, const std::vector<At>& all) {
     out.finds("(26): dI_D/dV_S is negative everywhere; g_ms > 0 of (27) and (28) is its opposite",
               std::all_of(all.begin(), all.end(), [](const At& a) { return a.by_S < 0; }), "errata U2");
     const auto& a = all.back();
-    out.claim("g_mb/g_mg", a.by_B / a.by_G).printed_as(plain_n - 1, "thesis eq. 29, upside down: errata U5");
+    out.claim("g_mb/g_mg", a.by_B / a.by_G).held_to(plain_n - 1, "thesis eq. 29, upside down: errata U5");
     out.finds("g_mg/g_mb, as (29) prints it, is 1/(n - 1) and not n - 1", std::abs(a.by_G / a.by_B * (plain_n - 1) - 1) < 1e-9,
               "errata U5");
 }
@@ -102,7 +102,7 @@ Result<Outcome> work(const StudyOptions&) {
     const auto pinched =
         found_in({fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", plain_card, plain_V_T0), {}, ".op"});
     if (!pinched) return pinched.error();
-    out.claim("(23): i_f where V_P = V_S", pinched->reading("m1", "i_f")).printed_as(3, "thesis eq. 23; errata U4");
+    out.claim("(23): i_f where V_P = V_S", pinched->reading("m1", "i_f")).held_to(3, "thesis eq. 23; errata U4");
     const auto card = circuit_of({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", whole_card), {}, ".op"});
     if (!card) return card.error();
     for (const auto& m : (*card)->models)

@@ -75,7 +75,7 @@ Result<void> put_mirror(Outcome& out) {
                       ".op"});
         if (!found) return found.error();
         out.claim(fmt::format("A mirror of S_B/S_A = {}: I_out/I_in", ratio), -found->at_rest("i(vo)") / 100e-9)
-            .printed_as(ratio, "thesis eq. 33");
+            .held_to(ratio, "thesis eq. 33");
     }
     return {};
 }
@@ -93,8 +93,8 @@ Result<Outcome> work(const StudyOptions&) {
         const double in_tables = printed_ratio(a.name, a.S);
         out.claim(fmt::format("{}: with the card at 0.5 V, its current over that of one unit of S_eq = {:.4g}", a.name, a.S),
                   whole->front())
-            .printed_as(std::isnan(in_tables) ? 1 : in_tables,
-                        fmt::format("thesis {}{}", a.equation, std::isnan(in_tables) ? "" : "; tables 11 and 14 have this for it"));
+            .held_to(std::isnan(in_tables) ? 1 : in_tables,
+                     fmt::format("thesis {}{}", a.equation, std::isnan(in_tables) ? "" : "; tables 11 and 14 have this for it"));
     }
     out.claim("The equations alone: the farthest that any of them is off, V_G 0.2 to 1.8 V, V_D 20 to 500 mV", 100 * worst, "%")
         .at_most(1e-6, "thesis eq. 31 and 32, exact in eq. 21 to 25");

@@ -56,12 +56,12 @@ Result<void> put_parallel_series(Outcome& out) {
         const auto plain = parallel_series(plain_card, "plain", n), whole = parallel_series(whole_card, "nch", n);
         if (!plain || !whole) return plain ? whole.error() : plain.error();
         const auto what = fmt::format("Parallel-series, N = {}: I_in/I_out, ", n);
-        out.claim(what + "the equations alone", I_in / -plain->at_rest("i(vout)")).printed_as(n * n, "thesis eq. 34; errata C1");
-        auto& c = out.claim(what + "with the card", I_in / -whole->at_rest("i(vout)")).printed_as(n * n, "thesis eq. 34");
+        out.claim(what + "the equations alone", I_in / -plain->at_rest("i(vout)")).held_to(n * n, "thesis eq. 34; errata C1");
+        auto& c = out.claim(what + "with the card", I_in / -whole->at_rest("i(vout)")).held_to(n * n, "thesis eq. 34");
         if (c.needs_reason()) c.because(of_card);
         const double I = -whole->at_rest("i(vout)"), G_o = -whole->by("i(vout)", "vout");
         auto& early = out.claim(fmt::format("N = {}: V_A = I_out/G_o - V_out, with the card", n), I / G_o - V_out, "V");
-        early.printed_as(V_E_of(*whole->circuit) * unit_length * n, "thesis eq. 36 with the card's V_E and L of N units");
+        early.held_to(V_E_of(*whole->circuit) * unit_length * n, "thesis eq. 36 with the card's V_E and L of N units");
         if (early.needs_reason())
             early.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
     }
@@ -77,20 +77,20 @@ Result<void> put_split(Outcome& out) {
         const double N2 = n * n, by_38_39 = N2 * (N2 + 2);
         const auto what = fmt::format("Splitting, N = {}: ", n);
         out.claim(what + "I_DC + I_DD over I_DB, the equations alone", (plain->I_C + plain->I_out) / plain->I_B)
-            .printed_as(1, "thesis eq. 37");
+            .held_to(1, "thesis eq. 37");
         out.claim(what + "I_in/I_DB, the equations alone", I_in / plain->I_B)
-            .printed_as(n * (1.0 / n + n + 1.0 / n) / ((n + 1.0 / n) / n), "thesis eq. 38");
+            .held_to(n * (1.0 / n + n + 1.0 / n) / ((n + 1.0 / n) / n), "thesis eq. 38");
         out.claim(what + "I_DC/I_out, the equations alone", plain->I_C / plain->I_out)
-            .printed_as(N2, "thesis eq. 39; errata C5: exact in saturation");
+            .held_to(N2, "thesis eq. 39; errata C5: exact in saturation");
         out.claim(what + "I_in/I_out, the equations alone", I_in / plain->I_out)
-            .printed_as(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6");
+            .held_to(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6");
         auto& high =
             out.claim(what + "eq. 40 is high by", 100 * (plain->I_out > 0 ? I_in / plain->I_out / (N2 * N2) - 1 : Claim::none), "%");
-        high.printed_as(200 / N2, "errata C6: 2/N^2, for S_C >> S_B + S_D is not that much greater");
-        auto& printed = out.claim(what + "I_in/I_out, the equations alone, beside eq. 41", I_in / plain->I_out)
-                            .printed_as(N2 * N2, "thesis eq. 41: N^4");
+        high.held_to(200 / N2, "errata C6: 2/N^2, for S_C >> S_B + S_D is not that much greater");
+        auto& printed =
+            out.claim(what + "I_in/I_out, the equations alone, beside eq. 41", I_in / plain->I_out).held_to(N2 * N2, "thesis eq. 41: N^4");
         if (printed.needs_reason()) printed.because("eq. 40 takes S_C >> S_B + S_D: errata C6");
-        auto& c = out.claim(what + "I_in/I_out, with the card", I_in / whole->I_out).printed_as(by_38_39, "eq. 38 and 39");
+        auto& c = out.claim(what + "I_in/I_out, with the card", I_in / whole->I_out).held_to(by_38_39, "eq. 38 and 39");
         if (c.needs_reason()) c.because(of_card);
         by_40.x.push_back(n), by_40.y.push_back(1), exact.x.push_back(n), exact.y.push_back(by_38_39 / (N2 * N2));
         plain_line.x.push_back(n), plain_line.y.push_back(I_in / plain->I_out / (N2 * N2)), whole_line.x.push_back(n),
@@ -98,7 +98,7 @@ Result<void> put_split(Outcome& out) {
         const double units = 4.0 * n, of_parallel_series = 2.0 * n * n;  // of the same attenuation: N^2 in parallel and in series
         auto& half = out.claim(fmt::format("Units of a splitting mirror over those of a parallel-series one of its attenuation, N = {}", n),
                                units / of_parallel_series);
-        half.printed_as(0.5, "thesis C.2: half as many");
+        half.held_to(0.5, "thesis C.2: half as many");
         if (half.needs_reason()) half.because("4 N units against 2 N^2 for 1/N^4: half at N = 4, fewer for more");
     }
     out.plots.push_back(plot.add("eq. 41, N^4", by_40)
@@ -118,11 +118,11 @@ Result<void> put_output(Outcome& out) {
     if (!found) return found.error();
     const auto I = found->line("dc", "i(vout)").times(1, -1);
     const double V_in = found->at_rest("v(in)"), G_o = I.slope_at(0.35), at = 0.65;
-    out.claim("1 to 1: I_out/I_in at V_out = V_in, with the card", I.at(V_in) / I_in).printed_as(1, "errata C2");
+    out.claim("1 to 1: I_out/I_in at V_out = V_in, with the card", I.at(V_in) / I_in).held_to(1, "errata C2");
     out.claim("1 to 1: I_out at 0.65 V by A_I I_in + G_o (V_out - V_in), over that of the solved mirror",
               (I_in + G_o * (at - V_in)) / I.at(at))
-        .printed_as(1, "eq. 35 as errata C2 has it");
-    out.claim("1 to 1: the same by A_I I_in + G_o V_out", (I_in + G_o * at) / I.at(at)).printed_as(1, "thesis eq. 35");
+        .held_to(1, "eq. 35 as errata C2 has it");
+    out.claim("1 to 1: the same by A_I I_in + G_o V_out", (I_in + G_o * at) / I.at(at)).held_to(1, "thesis eq. 35");
     out.finds("Eq. 35 as corrected is the nearer one",
               std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)), "errata C2");
     return {};

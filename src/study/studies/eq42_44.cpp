@@ -53,7 +53,7 @@ Result<void> put_43(Outcome& out) {
     double n_dio = 0;
     for (const auto& m : found->circuit->models)
         if (m.name == "nch") n_dio = m.values.at("nj");
-    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t)).printed_as(n_dio, "thesis eq. 43; the card's");
+    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t)).held_to(n_dio, "thesis eq. 43; the card's");
     out.claim("(43): ln I_B is off a straight line at most by, in %", 100 * fit.farthest, "%").at_most(2, "thesis eq. 43: an exponential");
     out.claim("(43): I_Sdio of one 1.5/0.5 um unit", std::exp(fit.at_zero), "A");
     return {};
@@ -67,9 +67,9 @@ Result<void> put_44(Outcome& out) {
          ".op"});
     if (!found) return found.error();
     const double V_X = found->at_rest("v(x)"), V_Y = found->at_rest("v(y)");
-    out.claim("(44): V_X/V_Y at 1 nA, the equations alone", V_X / V_Y).printed_as(plain_n, "thesis eq. 44");
+    out.claim("(44): V_X/V_Y at 1 nA, the equations alone", V_X / V_Y).held_to(plain_n, "thesis eq. 44");
     out.claim("(44): i_fX/i_fY there", found->reading("mx", "i_f") / found->reading("my", "i_f"))
-        .printed_as(1, "thesis app. D: about the same");
+        .held_to(1, "thesis app. D: about the same");
     out.finds("The second diode's voltage is V_Y, the lower one", V_Y < V_X, "errata C8");
     return {};
 }

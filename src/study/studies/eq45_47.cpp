@@ -61,9 +61,8 @@ struct Array {
 };
 
 void claim_both(Outcome& out, const std::string& what, double by_corrected, double by_printed, const char* equation, const char* erratum) {
-    out.claim(fmt::format("{}, over eq. {} as corrected", what, equation), by_corrected).printed_as(1, fmt::format("errata {}", erratum));
-    auto& c =
-        out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).printed_as(1, fmt::format("eq. {}", equation));
+    out.claim(fmt::format("{}, over eq. {} as corrected", what, equation), by_corrected).held_to(1, fmt::format("errata {}", erratum));
+    auto& c = out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).held_to(1, fmt::format("eq. {}", equation));
     if (c.needs_reason()) c.because(fmt::format("misprinted: errata {}", erratum));
 }
 
@@ -81,8 +80,8 @@ Result<void> claim_currents(Outcome& out) {
     }
     const double slope = std::log(I_Q.at(0.1) / I_Q.at(0.05)) / 0.05;
     out.claim("ln I_Q over V_BN, both bulks lifted alike: slope", slope, "1/V")
-        .printed_as((N.n - 1) / (N.n * phi_t), "E.1: I_Q grows exponentially with (n-1) V_BN; by eq. 45b (n-1)/(n phi_t)");
-    out.claim("an array of 2x8 over one unit", I_D / I_unit).printed_as(2.0 / 8, "eq. 45c with eq. 31: S_eq");
+        .held_to((N.n - 1) / (N.n * phi_t), "E.1: I_Q grows exponentially with (n-1) V_BN; by eq. 45b (n-1)/(n phi_t)");
+    out.claim("an array of 2x8 over one unit", I_D / I_unit).held_to(2.0 / 8, "eq. 45c with eq. 31: S_eq");
     return {};
 }
 
@@ -110,8 +109,8 @@ Result<void> claim_gain(Outcome& out) {
     const Array N(*rest->circuit, "mnq"), P(*rest->circuit, "mpq");
     const auto s = Slopes::at(V_Q, saturated);
     if (!s) return s.error();
-    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").printed_as(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b of this I_Q");
-    out.claim("G_o", s->G_o, "S").printed_as(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c of this I_Q, with V_A = V_E L of the card");
+    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").held_to(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b of this I_Q");
+    out.claim("G_o", s->G_o, "S").held_to(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c of this I_Q, with V_A = V_E L of the card");
     const double by_printed = 1 / (N.n * phi_t * (1 / P.V_A + 1 / N.V_A));
     claim_both(out, "A_V = G_m / G_o", s->G_m / s->G_o / (2 * by_printed), s->G_m / s->G_o / by_printed, "46d", "I2");
     const double step = 20e-6;
@@ -119,11 +118,11 @@ Result<void> claim_gain(Outcome& out) {
     if (!open) return open.error();
     const auto V_o = open->line("dc", "v(o)");
     out.claim("V_o 20 uV above V_Q: below V_Q by", V_Q - V_o.at(V_o.x[V_o.x.size() - 1]), "V")
-        .printed_as(s->G_m / s->G_o * (V_o.x.back() - V_Q), "eq. 46a");
+        .held_to(s->G_m / s->G_o * (V_o.x.back() - V_Q), "eq. 46a");
     const auto biased = Inverters::swept(1e-3);
     if (!biased) return biased.error();
     auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", biased->at_rest('a'), "S")
-                  .printed_as(2 * biased->taken('a').at(0) / (N.n * phi_t), "eq. 46b of its I_Q");
+                  .held_to(2 * biased->taken('a').at(0) / (N.n * phi_t), "eq. 46b of its I_Q");
     if (c.needs_reason()) c.because("eq. 46b is for weak inversion; 200 nA in these arrays is moderate");
     return {};
 }
@@ -137,19 +136,19 @@ Result<void> claim_rest(Outcome& out) {
     if (!s) return s.error();
     const double away = V_Q0 - V_DD / 2;
     out.claim("V_Q with bulks at the rails", V_Q, "V")
-        .printed_as(V_Q0 + (N.n - 1) * away, "eq. 47a, second line, of V_Q0 as solved (errata I4: as printed)");
-    out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").printed_as((N.n - 1) * away, "eq. 47a, second line");
-    out.claim("G_mb / (G_m + G_o) at 0.4 V", s->G_mb / (s->G_m + s->G_o)).printed_as(N.n - 1, "eq. 47a, both lines");
+        .held_to(V_Q0 + (N.n - 1) * away, "eq. 47a, second line, of V_Q0 as solved (errata I4: as printed)");
+    out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").held_to((N.n - 1) * away, "eq. 47a, second line");
+    out.claim("G_mb / (G_m + G_o) at 0.4 V", s->G_mb / (s->G_m + s->G_o)).held_to(N.n - 1, "eq. 47a, both lines");
     for (const double stronger : {1.0, 2.0, 4.0}) {
         const auto there = run({fmt::format("stronger={}", stronger)}, ".op");
         if (!there) return there.error();
         const double middle = low / 2 + (N.V_T - P.V_T) / (2 * N.n), shift = phi_t / 2 * std::log(stronger * P.I_S / N.I_S);
         out.claim(fmt::format("V_Q0 at {:g} V with I_SP of {:g} I_SN", low, stronger), there->at_rest("v(q0)"), "V")
-            .printed_as(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");
+            .held_to(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");
         if (stronger == 1) continue;
         out.claim(fmt::format("the same, from V_DD / 2 + (V_TP + V_TN) / 2n, I_SP of {:g} I_SN", stronger),
                   there->at_rest("v(q0)") - middle, "V")
-            .printed_as(-shift, "eq. 47b with the printed -")
+            .held_to(-shift, "eq. 47b with the printed -")
             .because("the sign is misprinted: a stronger PMOS raises V_Q (errata I5)");
     }
     return {};

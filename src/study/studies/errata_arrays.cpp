@@ -30,7 +30,7 @@ void put_mismatch_by_area(Outcome& out) {
     for (const char* name : {"B2", "C2", "D2"}) {
         const auto& p = printed(rectangles, name);
         out.claim(fmt::format("{}: its printed deviation over A's", name), p.sigma / a.sigma)
-            .printed_as(std::sqrt(a.A / p.A), "errata U14: inversely to the root of the area");
+            .held_to(std::sqrt(a.A / p.A), "errata U14: inversely to the root of the area");
     }
     const auto &e = printed(trapezoids, "E"), &g1 = printed(trapezoids, "G1");
     out.claim("E's active area over G1's, as printed", e.A / g1.A).printed_as(4, "thesis B.2; errata U18: 3.63");

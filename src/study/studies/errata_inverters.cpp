@@ -27,9 +27,9 @@ Result<void> sign_of_the_logarithm(Outcome& out) {
                   ".op"});
     if (!found) return found.error();
     const double V_Q0 = found->at_rest("v(qb)");
-    out.claim("I5: V_Q0 of transistors with those numbers", V_Q0, "V").printed_as(370.775e-3, "eq. 47b with +: errata I5");
+    out.claim("I5: V_Q0 of transistors with those numbers", V_Q0, "V").held_to(370.775e-3, "eq. 47b with +: errata I5");
     out.claim("I5: its distance from V_DD/2 + (V_TP + V_TN)/2n", V_Q0 - 0.35 - (V_TN - V_TP) / (2 * 1.27), "V")
-        .printed_as(352.847e-3 - 0.35 - (V_TN - V_TP) / (2 * 1.27), "eq. 47b as printed, 352.847 mV")
+        .held_to(352.847e-3 - 0.35 - (V_TN - V_TP) / (2 * 1.27), "eq. 47b as printed, 352.847 mV")
         .because("the sign is misprinted; at 0.7 V moderate inversion makes the rest of the difference from eq. 47b with +");
     return {};
 }
@@ -44,7 +44,7 @@ Result<void> two_generators(Outcome& out) {
                V_BN1 = by_4->line("dc", "v(bn1)");
     constexpr double asked = 200e-9, lifted = 0.1;  // A; V: fig. 53a's least V_BN
     out.claim("I18: table 16's V_BN at 200 nA", by_16->V_BN, "V").between(lifted, 0.6, "E.2, fig. 53a: 100 to 600 mV");
-    out.claim("I18: table 16's I_Q at 200 nA", by_16->I_Q, "A").printed_as(asked, "E.2: I_Q = I_BIAS");
+    out.claim("I18: table 16's I_Q at 200 nA", by_16->I_Q, "A").held_to(asked, "E.2: I_Q = I_BIAS");
     const char* why =
         "arrays of table 4's aspect ratios carry more than that at V_REF without any forward bias, so M4A is pressed into its linear "
         "region; table 4 sizes another circuit than table 16: errata I18";
@@ -53,7 +53,7 @@ Result<void> two_generators(Outcome& out) {
         auto& voltage = out.claim(fmt::format("I18: {}: V_BN at 200 nA", name), V_BN->at(0.2), "V").between(lifted, 0.6, "E.2, fig. 53a");
         if (voltage.needs_reason()) voltage.because(why);
         auto& current =
-            out.claim(fmt::format("I18: {}: I_Q at 200 nA", name), I_Q->at(0.2), "A").printed_as(asked, "4.3.1: I_BIASB is 200 nA");
+            out.claim(fmt::format("I18: {}: I_Q at 200 nA", name), I_Q->at(0.2), "A").held_to(asked, "4.3.1: I_BIASB is 200 nA");
         if (current.needs_reason()) current.because(why);
         out.claim(fmt::format("I18: {}: current at which V_BN is 100 mV", name), 1e-6 * V_BN->where(lifted), "A");
     }
@@ -82,7 +82,7 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto all = Inverters::swept(10e-3);
     if (!all) return all.error();
     const double G_B = all->at_rest('b'), G_C = all->at_rest('c'), C = G_B / (2 * pi * 2);
-    out.claim("I13: capacitor of a filter of INVB and 2 Hz", C, "F").printed_as(0.2e-6, "errata I13: of 2.5 uS");
+    out.claim("I13: capacitor of a filter of INVB and 2 Hz", C, "F").held_to(0.2e-6, "errata I13: of 2.5 uS");
     out.claim("I13: over one microfarad", C / 1e-6).at_most(1, "E.4: would need micro Farad capacitors; a fifth of one does");
     out.finds("I14: INVC, not INVB, has the very small transconductance", G_C < 1e-3 * G_B, "errata I14");
     const auto fine = Inverters::ordered(".dc vin 0.345 0.355 20u");
@@ -91,7 +91,7 @@ Result<Outcome> work(const StudyOptions& options) {
     for (std::size_t k = 0; k < rest.x.size(); ++k) rest.y[k] -= rest.x[k];
     const double V_Q = rest.where(0);
     auto& zero =
-        out.claim("I16: INVC's V_Q in fig. 57's terms, from half the supply", V_Q, "V").printed_as(-3e-3, "347 mV of fig. 61 less 350 mV");
+        out.claim("I16: INVC's V_Q in fig. 57's terms, from half the supply", V_Q, "V").held_to(-3e-3, "347 mV of fig. 61 less 350 mV");
     if (zero.needs_reason()) zero.because("ours is displaced by less and upwards: fig61");
     if (auto ok = two_generators(out); !ok) return ok.error();
     out.note(

@@ -42,9 +42,9 @@ Result<void> algorithm_1(Outcome& out) {
         mended[k] = over(*force, [&](double F, double before) { return k_d / step * std::abs(F - before); }).most();
     }
     out.claim("Alg. 1: dynamic part at T = 1 ms over that at 0.1 ms, as printed", printed[0] / printed[1])
-        .printed_as(1, "thesis 3.1: eq. 1 knows no T")
+        .held_to(1, "thesis 3.1: eq. 1 knows no T")
         .because("F' is F[n] - F[n-1] there; it must be divided by the step, which the text names h and eq. 1 lacks (B2)");
-    out.claim("Alg. 1: the same with k_d / T", mended[0] / mended[1]).as_follows(1, "thesis 3.1: eq. 1 knows no T");
+    out.claim("Alg. 1: the same with k_d / T", mended[0] / mended[1]).held_to(1, "thesis 3.1: eq. 1 knows no T");
     return {};
 }
 
@@ -54,13 +54,13 @@ Result<void> algorithm_2(Outcome& out, const Line& force) {
     const auto plus = over(force, [](double F, double before) { return F + before > 0 ? F - before : 0; });
     const auto mended = over(force, [](double F, double before) { return F - before > 0 ? 0 : before - F; });
     out.claim("Alg. 2: sum of I- under the press, as printed", sum(minus), "N")
-        .as_follows(press::most - press::least, "thesis 3.1, eq. 3: max(-F', 0); what the press falls by")
+        .held_to(press::most - press::least, "thesis 3.1, eq. 3: max(-F', 0); what the press falls by")
         .because("the test is on F[n] + F[n-1], which forces never make negative; F[n] - F[n-1] is meant (B3)");
     out.claim("Alg. 2: least I+, as printed", plus.least(), "N")
         .at_least(0, "thesis 3.1, eq. 2: max(F', 0)")
         .because("as before: falling force goes into I+ with its sign (B3)");
     out.claim("Alg. 2: sum of I-, as mended", sum(mended), "N")
-        .as_follows(press::most - press::least, "thesis 3.1, eq. 3: what the press falls by");
+        .held_to(press::most - press::least, "thesis 3.1, eq. 3: what the press falls by");
     return {};
 }
 
@@ -117,7 +117,7 @@ void gains(Outcome& out, const Line& force) {
     const auto B = [&](double K) { return filtered(force, K, 20, Reading::mended).most(); };
     const double k_A = 2;
     out.claim("I_B with k_A doubled, K_B in A/A as printed, over that with k_A = 1 uA/N", B(8e-6 * k_A) / B(8e-6))
-        .printed_as(1, "eq. 10 and 12: I_B hangs on the force, not on I_A")
+        .held_to(1, "eq. 10 and 12: I_B hangs on the force, not on I_A")
         .because("K_B and K_C are in A/N: 8 and 2 uA/N, the same at k_A = 1 uA/N alone (B10)");
 }
 

@@ -33,11 +33,11 @@ void algorithm_3(Outcome& out) {
     out.claim("Alg. 3: u after two samples of 2 uA, as printed", membrane_a(k_a, r * (1 + r), 0, 2e-6, 2), "V")
         .at_most(2, "eq. 5: never above R I")
         .because("it grows by k_b each sample (B4)");
-    out.claim("Alg. 3: u after ten thousand, as mended", membrane_a(k_a, right_b, 0, 2e-6, 10000), "V").printed_as(2, "eq. 5: R I");
+    out.claim("Alg. 3: u after ten thousand, as mended", membrane_a(k_a, right_b, 0, 2e-6, 10000), "V").held_to(2, "eq. 5: R I");
     out.claim("Alg. 3: u at rest for u_rest = 0.1 V, with k_c = u_rest as printed", membrane_a(k_a, right_b, u_rest, 0, 20000), "V")
-        .printed_as(u_rest, "eq. 5")
+        .held_to(u_rest, "eq. 5")
         .because("k_c is u_rest / (1 + RC/T); the printed one is right for RC far below T, and cannot be seen at u_rest = 0 (B5)");
-    out.claim("Alg. 3: the same, k_c as mended", membrane_a(k_a, right_b, u_rest / (1 + r), 0, 20000), "V").printed_as(u_rest, "eq. 5");
+    out.claim("Alg. 3: the same, k_c as mended", membrane_a(k_a, right_b, u_rest / (1 + r), 0, 20000), "V").held_to(u_rest, "eq. 5");
 }
 
 /// Algorithm 4 as printed: u_rest, not u[n-1], is what the current is added to (B6).
@@ -87,10 +87,10 @@ Result<void> one_a_sample(Outcome& out) {
     if (!ours) return ours.error();
     const double right = (current - leak) / 500e-9 / 0.25;
     out.claim("Alg. 4: frequency at 400 uA, one spike a sample as printed", static_cast<double>(printed.spikes.size()) / 0.1, "Hz")
-        .printed_as(right, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]")
+        .held_to(right, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]")
         .because("where a sample brings more than theta - u_rst, what is left over stays above theta and grows (B6c)");
     out.claim("LIF-B at 400 uA, spikes within a sample as here", static_cast<double>(ours->size()) / 0.1, "Hz")
-        .printed_as(right, "thesis 3.2, the same");
+        .held_to(right, "thesis 3.2, the same");
     return {};
 }
 
@@ -118,9 +118,9 @@ Result<Outcome> work(const StudyOptions& options) {
     if (auto ok = options.at(0.5); !ok) return ok.error();
     const double current = 2e-6, below = -0.25;
     out.claim("(6) and (7): frequency with u_rst 0.25 V below u_rest", 1 / interval(current, below, 1), "Hz")
-        .printed_as((current - leak) / C / (1 - below), "thesis 3.2: \"equal\" to [I - I_leak0] / [C (theta - u_rst)]");
+        .held_to((current - leak) / C / (1 - below), "thesis 3.2: \"equal\" to [I - I_leak0] / [C (theta - u_rst)]");
     out.claim("(6) and (7): the same with u_rst 0.25 V above it", 1 / interval(current, -below, 1), "Hz")
-        .printed_as((current - leak) / C / (1 + below), "thesis 3.2, the same");
+        .held_to((current - leak) / C / (1 + below), "thesis 3.2, the same");
     if (auto& c = out.claims[out.claims.size() - 2]; true)
         c.because("below u_rest nothing leaks, so the interval has two parts; the formula is exact for u_rst at or above u_rest (B6b)");
     if (auto ok = one_a_sample(out); !ok) return ok.error();

@@ -32,7 +32,7 @@ Result<void> tell_M6(Outcome& out) {
     out.claim("S7: ... as printed", wrong.resistance.at(0.35), "ohm").printed_as(6.6e9, "thesis 4.3.1").because(M6);
     const double G = std::abs(mended->line("dc", "i(vhalf)").slope_at(0.35));
     out.claim("S8: G_m with the output held, times the load's resistance, both at 350 mV", G * right.resistance.at(0.35), "times")
-        .printed_as(146e-12 * 6.6e9, "thesis 4.3.1 (6.6 Gohm) and E.4 (146 pS)");
+        .held_to(146e-12 * 6.6e9, "thesis 4.3.1 (6.6 Gohm) and E.4 (146 pS)");
     out.plot("INVC as a load, with the printed M6 and mended (S7)", "V_IN (mV)", "current (pA)")
         .shape("zero at half the supply")
         .add("mended, 16x1 to 2x8", right.current.between(0.1, 0.6).times(1e3, 1e12))
@@ -52,17 +52,17 @@ Result<void> tell_weights(Outcome& out) {
     };
     const double B = gain("i(vb)"), C = gain("i(vc)"), C_mended = gain("i(vc2)");
     out.claim("S9a: K_B / K_C by table 6", B / C, "times")
-        .printed_as(4, "thesis 3.3: 8 and 2")
+        .held_to(4, "thesis 3.3: 8 and 2")
         .because("table 6 sizes M2 of I_C for a gain of 1 (errata S9a)");
-    out.claim("S9a: ... M2 of I_C 4x8, as intended here", B / C_mended, "times").printed_as(4, "thesis 3.3: 8 and 2");
+    out.claim("S9a: ... M2 of I_C 4x8, as intended here", B / C_mended, "times").held_to(4, "thesis 3.3: 8 and 2");
     // I_F/2 goes through INVB's conductance into V_F, from there into I_N: I_N is I_F/2 over what INVC divides by
     const double divides = invc->line("dc", "i(vb)").slope_at(0.35) / invc->line("dc", "i(vhalf)").slope_at(0.35);
     const auto k_A = [&](const char* curve) { return summer->line("dc", curve).at(1.2e-6) / 1.2e-6 * divides; };
     out.claim("S10a: K_B / k_A by tables 6 and 7", B / k_A("i(va)"), "times")
-        .printed_as(8, "thesis 3.3: 8 uA/N and 1 uA/N")
+        .held_to(8, "thesis 3.3: 8 uA/N and 1 uA/N")
         .because("one of the summer's M2 (1/64) and M3 (1/8) is too many (errata S10a)");
     auto& mended =
-        out.claim("S10a: ... M3B 12x4, as intended here", B / k_A("i(va2)"), "times").printed_as(8, "thesis 3.3: 8 uA/N and 1 uA/N");
+        out.claim("S10a: ... M3B 12x4, as intended here", B / k_A("i(va2)"), "times").held_to(8, "thesis 3.3: 8 uA/N and 1 uA/N");
     if (mended.needs_reason()) mended.because("M3B was chosen six times as wide, for the plateau to fire as the model's");
     return {};
 }
@@ -80,9 +80,9 @@ Result<void> tell_charging(Outcome& out) {
     const double charge = OscillatorAlone::I_CHARGE;
     const double by_errata = (charge + much - I) / (charge + OscillatorAlone::I_LEAK - I);
     out.claim("S16: at 300 pA, filled with I_LEAK 200 pA faster than with 2 pA", speed[1] / speed[0], "times")
-        .printed_as(by_errata, "errata S16: I_CHARGE + I_LEAK - I");
+        .held_to(by_errata, "errata S16: I_CHARGE + I_LEAK - I");
     out.claim("S16: ... by the printed I_CHARGE - I", speed[1] / speed[0], "times")
-        .printed_as(1, "thesis 4.4: I_CHARGE - I")
+        .held_to(1, "thesis 4.4: I_CHARGE - I")
         .because("the leak, too, pulls to the supply");
     return {};
 }
@@ -92,7 +92,7 @@ void tell_chip(const std::string& name, const std::vector<double>& chip, const s
     const std::string source = "the model's, made here; thesis 4.4: similar";
     for (const auto& [phase, stretch] : {std::pair{"rising", P::up}, {"holding", P::hold}, {"falling", P::down}, {"after", P::after}}) {
         auto& c =
-            out.claim(fmt::format("{}: spikes, {}", name, phase), spikes_in(chip, stretch)).printed_as(spikes_in(model, stretch), source);
+            out.claim(fmt::format("{}: spikes, {}", name, phase), spikes_in(chip, stretch)).held_to(spikes_in(model, stretch), source);
         if (c.needs_reason()) c.because(why);
     }
 }

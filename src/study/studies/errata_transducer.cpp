@@ -25,7 +25,7 @@ void tell_sensor(Outcome& out) {
         .at_least(50, "thesis 4.1")
         .if_off("the press begins below it, and so does fig. 24's 20 gf");
     out.claim("F3: dI_F/dF at 20 gf over that at 400 gf, by m = 0.72", sensor.slope(20) / sensor.slope(400), "times")
-        .printed_as(12.0 / 4, "thesis 4.2, fig. 24b")
+        .held_to(12.0 / 4, "thesis 4.2, fig. 24b")
         .if_off("(400/20)^0.28 is what eq. 13 gives; both printed numbers are \"approximately\"");
     out.claim("F3: m that would give fig. 24b's", 1 - std::log(12.0 / 4) / std::log(400.0 / 20))
         .printed_as(sensor.m, "thesis 4.1")
@@ -50,17 +50,17 @@ Result<void> tell_transistors(Outcome& out) {
                (found->at_rest(fmt::format("v(x{}.vx)", name)) * sensor.conductance(4 / gram_force));
     };
     out.claim("F7: V_BS of fig. 21's M_1 with its bulk at vss", -found->at_rest("v(xplain.vx)"), "V")
-        .printed_as(-0.1, "thesis 4.2: V_BS = -V_X, at V_Y = 0.1 V; it is the bulk that is at vss");
-    out.claim("F8: I_F over I_F0 with S_1 = 4/4, S_2 = 16", current("built")).printed_as(1.0 / 17, "S_1 / (S_1 + S_2) by table 1");
+        .held_to(-0.1, "thesis 4.2: V_BS = -V_X, at V_Y = 0.1 V; it is the bulk that is at vss");
+    out.claim("F8: I_F over I_F0 with S_1 = 4/4, S_2 = 16", current("built")).held_to(1.0 / 17, "S_1 / (S_1 + S_2) by table 1");
     out.claim("F8: the same beside S_1 / S_2, as printed", current("built"))
-        .printed_as(1.0 / 16, "thesis 4.2: I_F = (S_1/S_2) I_D2, taken for the share of I_F0")
+        .held_to(1.0 / 16, "thesis 4.2: I_F = (S_1/S_2) I_D2, taken for the share of I_F0")
         .if_off("S_1 / S_2 is I_F over I_D2, not over I_F0, and M_2's single transistors take some more");
     out.claim("F8: I_F over I_F0 with the \"maximum\" S_1 / S_2 (16x1 and 4x4)", current("swapped"))
         .at_most(0.5, "thesis 4.2: the aim is a smaller I_F; a half is stated here")
         .if_off("the minimum is meant");
     out.claim("F9: V_X at 4 N and 0.7 V with 8x1 as M_3", found->at_rest("v(xbuilt.vx)"), "V")
-        .printed_as(0.1, "thesis 4.2, fig. 24c: V_X follows V_Y");
-    out.claim("F9: V_X without any M_3, bulks at vss", found->at_rest("v(xwithout.vx)"), "V").printed_as(0.1, "thesis 4.2, fig. 24c");
+        .held_to(0.1, "thesis 4.2, fig. 24c: V_X follows V_Y");
+    out.claim("F9: V_X without any M_3, bulks at vss", found->at_rest("v(xwithout.vx)"), "V").held_to(0.1, "thesis 4.2, fig. 24c");
     out.claim("F9: V_Z without any M_3", found->at_rest("v(xwithout.vz)"), "V")
         .at_most(0.525, "thesis 4.2, fig. 24c: V_Z at most V_DD - 175 mV")
         .if_off("with no body bias the gates must be higher: the second M_1 of table 1 is M_3");
@@ -107,10 +107,10 @@ mnb db g 0 b nch w=1.5u l=0.5u m=16
 Result<void> tell_reference(Outcome& out) {
     const double V_20 = 17 * 12e-9 / sensor.slope(20), V_400 = 17 * 4e-9 / sensor.slope(400);
     out.claim("F12: V_Y that makes 12 nA/gf at 20 gf", V_20, "V")
-        .printed_as(0.1, "the reading that is built")
+        .held_to(0.1, "the reading that is built")
         .if_off("no one V_Y gives both printed slopes");
     out.claim("F12: V_Y that makes 4 nA/gf at 400 gf", V_400, "V")
-        .printed_as(0.1, "the reading that is built")
+        .held_to(0.1, "the reading that is built")
         .if_off("no one V_Y gives both printed slopes");
     const double I_mid = 2 * 700e-9, I_most = 0.1 * sensor.conductance(400) / 17;
     out.claim("F12: force at which half of I_F is I_BIASF, at 0.1 V",

@@ -57,8 +57,7 @@ void tell_ideal(Outcome& out, const Found& ideal) {
     for (const auto& [node, C, printed] : {std::tuple{"b", 0.8e-12, 30.0}, {"c", 8.8e-12, 2.7}}) {
         const double f = ideal.line("ac", fmt::format("vp({})", node)).where(M_PI / 4);
         out.claim(fmt::format("ideal, 6.6 Gohm and {:.2g} pF: corner", C * 1e12), f, "Hz").printed_as(printed, "thesis 4.3.1");
-        out.claim(fmt::format("ideal, {:.2g} pF: tau over C / G_m", C * 1e12), 1 / (2 * M_PI * f) / (C * 6.6e9))
-            .printed_as(1, "thesis 2.3");
+        out.claim(fmt::format("ideal, {:.2g} pF: tau over C / G_m", C * 1e12), 1 / (2 * M_PI * f) / (C * 6.6e9)).held_to(1, "thesis 2.3");
     }
     out.plot("Gain", "frequency (Hz)", "gain", true, true)
         .add("passive: C and R", a)
@@ -125,7 +124,7 @@ Result<Outcome> work(const StudyOptions& options) {
     for (const auto* p : {&small, &large, &resistor})
         if (!*p) return p->error();
     out.claim("resistor: share left of 200 mV after 50 ms, over that of 20 mV", large->resistor / small->resistor)
-        .printed_as(1, "thesis 2.3: linear");
+        .held_to(1, "thesis 2.3: linear");
     out.claim("INVC: the same", large->invc / small->invc)
         .at_most(1, "thesis 2.3: large signals are distorted; INVC draws more than a resistor beyond its linear range");
     out.plots.push_back(std::move(plot));

@@ -31,7 +31,7 @@ Result<double> split() {
 Result<void> tell_pairs(Outcome& out, const StudyOptions& options) {
     const std::string source = "thesis 2.3, words";
     Plot& plot = out.plot("How far a pair alone is straight (slope within 5 %)", "transconductance over tail current (1/V)", "V");
-    plot.shape("no figure; \"the transconductance linearity is also proportional to the transistor inversion\"");
+    plot.shape("\"the transconductance linearity is also proportional to the transistor inversion\"");
     Line straight, g_m;
     for (const double i_b : {1e-9, 3e-9, 10e-9, 30e-9, 100e-9, 300e-9, 1e-6, 3e-6, 10e-6, 30e-6}) {
         const auto pair = pair_alone(i_b, 2, 8);
@@ -86,16 +86,16 @@ Result<Outcome> work(const StudyOptions& options) {
     const std::string source = "thesis 2.3, fig. 12";
     out.claim("G_m, of all three (chosen as INVC's of circuits/invc.cir)", all->g_m, "S");
     out.claim("current of M_M over that of M_1", *i_m, "times")
-        .printed_as(S_M / S_1, source + ": \"proportionally to their dimensions\"")
+        .held_to(S_M / S_1, source + ": \"proportionally to their dimensions\"")
         .if_off("M_M's drain is at vss, M_1's at the load: the single transistors of M_M have the lower Early voltage");
     out.claim("splitting alone: G_m with M_M over that without", no_n->g_m / bare->g_m)
-        .printed_as(S_1 / (S_1 + S_M), source + ": lower by the share of the current, in weak inversion")
+        .held_to(S_1 / (S_1 + S_M), source + ": lower by the share of the current, in weak inversion")
         .if_off("the split is off by as much");
     out.claim("cancelling alone: G_m with M_N over that without", no_m->g_m / bare->g_m)
-        .printed_as((S_1 - S_N) / (S_1 + S_N), source + ": the difference of two transconductances, in weak inversion")
+        .held_to((S_1 - S_N) / (S_1 + S_N), source + ": the difference of two transconductances, in weak inversion")
         .if_off("a difference of nearly equal numbers shows each one's error many times over");
     out.claim("both: G_m over that of the pair alone", all->g_m / bare->g_m)
-        .printed_as((S_1 - S_N) / (S_1 + S_N + S_M), source + ", in weak inversion")
+        .held_to((S_1 - S_N) / (S_1 + S_N + S_M), source + ", in weak inversion")
         .if_off("the two above, multiplied");
     out.claim("straight (slope within 5 %) to", all->straight, "V");
     out.claim("the same of the pair alone", bare->straight, "V");
@@ -103,7 +103,6 @@ Result<Outcome> work(const StudyOptions& options) {
               "thesis 2.3: they balance linearity and transconductance; stated here");
     out.claim("power", all->power, "W");
     Plot& plot = out.plot("Output current, of the largest positive one, over the input", "V_+ - V_- (V)", "I / largest");
-    plot.shape("no curve; the circuit alone is drawn");
     for (const auto& [name, t] : {std::pair{"all of it", &*all}, {"without M_N", &*no_n}, {"the pair alone", &*bare}})
         plot.add(name, t->current.between(-0.15, 0.15).times(1, t->sense() / t->most));
     out.note("Beyond 0.2 V the tail falls below the output, held at 0.35 V here, and M_N conducts the other way; the curve ends before.");

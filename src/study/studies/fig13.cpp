@@ -40,11 +40,11 @@ Result<Outcome> work(const StudyOptions& options) {
         "carries more than its share";
     for (const double N : {2.0, 4.0, 8.0})
         out.claim(fmt::format("N = {}: G_m is divided by", N), weak_by.at(N), "times")
-            .printed_as(N * N, source + ": N^2, current and transconductance alike")
+            .held_to(N * N, source + ": N^2, current and transconductance alike")
             .if_off(why);
     const auto bare = pair_alone(i_b, 2, 8);
     if (!bare) return bare.error();
-    out.claim("N = 8: largest current, of the tail's", i_b / eight.most, "times").printed_as(64, source + ": N^2").if_off(why);
+    out.claim("N = 8: largest current, of the tail's", i_b / eight.most, "times").held_to(64, source + ": N^2").if_off(why);
     out.claim("N = 8: G_m (chosen as INVC's of circuits/invc.cir)", eight.g_m, "S");
     out.claim("straight (slope within 5 %) to", eight.straight, "V");
     out.claim("the same of the pair alone", bare->straight, "V");
@@ -80,12 +80,12 @@ vout out 0 0.35
     out.plot("What N parallel to N in series divide G_m by, over N^2", "N", "times")
         .add(fmt::format("tail {:g} pA", i_b * 1e12), weak_by)
         .add(fmt::format("tail {:g} nA", strong * 1e9), strong_by)
-        .shape("the circuit alone is drawn; by the words N^2");
+        .shape("by the words N^2");
     out.plot("Three of one transconductance", "V_+ - V_- (V)", "I (pA)")
         .add("fig. 12", cancelling->current.between(-0.15, 0.15).times(1, 1e12 * cancelling->sense()))
         .add("fig. 13", eight.current.between(-0.15, 0.15).times(1, 1e12 * eight.sense()))
         .add("INVC", invc->current.between(-0.15, 0.15).times(1, 1e12 * invc->sense()))
-        .shape("no figure; the thesis names the balance of linearity and small transconductance");
+        .shape("the thesis names the balance of linearity and small transconductance");
     return out;
 }
 

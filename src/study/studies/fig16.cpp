@@ -54,12 +54,12 @@ Result<void> tell_rheobases(Outcome& out, const StudyOptions& options) {
     if (!A) return A.error();
     if (!B) return B.error();
     if (!raised) return raised.error();
-    out.claim("LIF-A: least current that fires", *A, "A").printed_as(theta / R, "thesis 3.2: theta / R");
-    out.claim("LIF-B: least current that fires", *B, "A").printed_as(leak, "thesis 3.2: I_leak0");
+    out.claim("LIF-A: least current that fires", *A, "A").held_to(theta / R, "thesis 3.2: theta / R");
+    out.claim("LIF-B: least current that fires", *B, "A").held_to(leak, "thesis 3.2: I_leak0");
     out.claim(fmt::format("LIF-A with u_rest = {} V: least current that fires", u_rest), *raised, "A")
-        .printed_as(theta / R, "thesis 3.2: theta / R")
+        .held_to(theta / R, "thesis 3.2: theta / R")
         .because("it is (theta - u_rest) / R (errata B5a), which is the same at u_rest = 0 alone");
-    out.claim("the same, as mended", *raised, "A").as_follows((theta - u_rest) / R, "errata B5a: (theta - u_rest) / R");
+    out.claim("the same, as mended", *raised, "A").held_to((theta - u_rest) / R, "errata B5a: (theta - u_rest) / R");
     return options.at(0.8);
 }
 
@@ -72,29 +72,29 @@ Result<Outcome> work(const StudyOptions& options) {
     const double f_A = measure<LastRate>(A->spikes, {on, off}), f_B = measure<LastRate>(B->spikes, {on, off});
     const double near = amplitude / C / (theta - reset);
     out.claim("LIF-A: frequency", f_A, "Hz")
-        .printed_as(near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R")
+        .held_to(near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R")
         .because("the approximation is for currents far above the leak's, and this one is about twice it (errata B5b)");
     out.claim("LIF-A: frequency, by the solution of (5)", f_A, "Hz")
-        .as_follows(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))),
-                    "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
+        .held_to(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))),
+                 "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
     out.claim("LIF-B: frequency", f_B, "Hz")
-        .printed_as((amplitude - leak) / C / (theta - reset), "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]");
+        .held_to((amplitude - leak) / C / (theta - reset), "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]");
     const auto many = under("lif-a", 100 * amplitude);
     if (!many) return many.error();
     out.claim("LIF-A: frequency at a hundred times the current", measure<LastRate>(many->spikes, {on, off}), "Hz")
-        .printed_as(100 * near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R");
+        .held_to(100 * near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R");
     if (auto ok = tell_rheobases(out, options); !ok) return ok.error();
 
     const auto &u_A = A->traces.at("u"), &u_B = B->traces.at("u");
     const auto fall_A = release(u_A), fall_B = release(u_B);
     const double from = fall_A.x.front();
     out.claim("u_A: what is left of it after RC", fall_A.at(from + R * C) / fall_A.at(from))
-        .printed_as(std::exp(-1), "thesis 3.2: exponentially");
+        .held_to(std::exp(-1), "thesis 3.2: exponentially");
     out.claim("u_A: what is left of that after another RC, nearly", fall_A.at(6 - 1e-3) / fall_A.at(6 - 1e-3 - R * C))
-        .printed_as(std::exp(-1), "thesis 3.2: exponentially");
+        .held_to(std::exp(-1), "thesis 3.2: exponentially");
     const double ends = at_rest(fall_B);
     const auto line = fall_B.between(from, ends - 1e-3).straight();
-    out.claim("u_B: slope of its fall", line.slope, "V/s").printed_as(-leak / C, "thesis 3.2: linearly, by (6) and (7)");
+    out.claim("u_B: slope of its fall", line.slope, "V/s").held_to(-leak / C, "thesis 3.2: linearly, by (6) and (7)");
     out.claim("u_B: farthest from a straight line on its way", line.farthest, "V").at_most(1e-3, "thesis 3.2: linearly; within 1 mV here");
     out.finds("u_B: rests at u_rest from then on", fall_B.between(ends, 6).most() == 0, "thesis 3.2: until it reaches u_rest");
     out.claim("spikes of LIF-A over those of LIF-B", static_cast<double>(A->spikes.size()) / static_cast<double>(B->spikes.size()))

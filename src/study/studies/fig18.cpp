@@ -38,9 +38,9 @@ void tell_currents(Outcome& out, const Currents& i, const Line& force) {
     out.finds("I is I_A while the filtered force is positive and I_B while it is negative", one, "thesis 3.4, fig. 18a");
     const double up = i.A.most(), down = i.B.most();
     out.claim("largest I_A", up, "A"), out.claim("largest I_B", down, "A");
-    auto& ratio = out.claim("their ratio", up / down).printed_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
+    auto& ratio = out.claim("their ratio", up / down).held_to(3.5 / 2.75, "thesis 3.4: k_A and k_B");
     if (ratio.needs_reason()) ratio.because("what the filter still holds of the rise when the force begins to fall takes from I_B");
-    out.claim("the same above the leak", (up - leak) / (down - leak)).printed_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
+    out.claim("the same above the leak", (up - leak) / (down - leak)).held_to(3.5 / 2.75, "thesis 3.4: k_A and k_B");
     out.claim("I_A: its peak behind the slope's", i.A.peak() - force.slope().peak(), "s")
         .at_least(1e-3, "thesis 3.4: slightly delayed in protraction; at least a sample of 1 ms");
     out.claim("I above the leak until, after protraction", i.A.where(leak, i.A.peak()) - press::up.to, "s");

@@ -55,7 +55,7 @@ Result<Outcome> work(const StudyOptions&) {
     out.claim("19b: conductance off the straight line from 20 to 400 gf", 100 * bend(G), "%")
         .at_most(10, source + ": \"almost linearly\"; the bound is stated here");
     out.claim("19b: slope at 20 gf over slope at 400 gf", sensor.slope(least_gf) / sensor.slope(most_gf), "times")
-        .printed_as(1, source + ": \"as the slope factor m is close to unity\"")
+        .held_to(1, source + ": \"as the slope factor m is close to unity\"")
         .if_off("m is 0.72, so that the slope falls as F^-0.28 (errata F3)");
     out.claim("19a: resistance off the straight line from 20 to 400 gf", 100 * bend(R), "%")
         .at_least(10, source + ": \"highly non-linear\"; the bound is stated here");

@@ -37,9 +37,9 @@ Result<Outcome> work(const StudyOptions& options) {
     out.claim("ideal amplifier: V_Z - V_X against eq. 14, largest from 20 to 400 gf", 100 * apart(*usual, equation(0.1, 9.1e3)), "%")
         .at_most(1, eq14 + " (with the G_0 that its last line drops, errata F5); the bound is stated here");
     out.claim("V_Z - V_X at 400 gf with twice V_Y", twice_V->at(400) / usual->at(400), "times")
-        .printed_as(2, source + ": V_Y controls the gain");
+        .held_to(2, source + ": V_Y controls the gain");
     out.claim("V_Z - V_X at 400 gf with half R_F", half_R->at(400) / usual->at(400), "times")
-        .printed_as(0.5, source + ": R_F controls the gain");
+        .held_to(0.5, source + ": R_F controls the gain");
     const auto G = ForceSensor().conductance(400);
     out.claim("current that the amplifier must give at 400 gf", 0.1 * G, "A");
     const auto i_a = found->line("dc", "par('(v(za)-v(xa))/9.1k')"), x_a = found->line("dc", "v(xa)");
@@ -50,8 +50,8 @@ Result<Outcome> work(const StudyOptions& options) {
               "thesis 4.2, below eq. 15");
     const auto z_b = found->line("dc", "v(zb)"), x_b = found->line("dc", "v(xb)");
     out.claim("with a follower (chosen): V_Z at 400 gf", z_b.at(400), "V")
-        .printed_as(0.1 + equation(0.1, 3.6e3).at(400), eq14 + " with 3.6 kohm");
-    out.claim("with a follower: V_X at 400 gf", x_b.at(400), "V").printed_as(0.1, source + ": \"forces V_X to follow V_Y\"");
+        .held_to(0.1 + equation(0.1, 3.6e3).at(400), eq14 + " with 3.6 kohm");
+    out.claim("with a follower: V_X at 400 gf", x_b.at(400), "V").held_to(0.1, source + ": \"forces V_X to follow V_Y\"");
     const auto z = found->line("dc", "v(z)");
     out.finds("V_Z and the current are largest at the largest force", z.peak() == 500 && z_b.peak() == 500,
               "thesis 4.2: \"for the maximum applied force\"");
@@ -79,12 +79,11 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("ideal amplifier, 9.1 kohm", z)
         .add("fig. 23's amplifier, 9.1 kohm", found->line("dc", "v(za)"))
         .add("with a follower, 3.6 kohm", z_b)
-        .shape("a circuit diagram; V_Z proportional to the conductance");
+        .shape("V_Z proportional to the conductance");
     auto& eq = out.plots.back().series[0];
     for (double& v : eq.y) v += 0.1;
     out.plot("Lowest supply at 4 N over what V_Z rises by", "V_FSR G_FSR R_F at 400 gf (mV)", "lowest V_DD (mV)")
-        .add("a follower of 64 units behind fig. 23's amplifier", lowest.times(1e3, 1e3))
-        .shape("no figure");
+        .add("a follower of 64 units behind fig. 23's amplifier", lowest.times(1e3, 1e3));
     out.note("Lowest supply: V_X at least 95 % of V_Y. The three transducers stand side by side in fig22.");
     return out;
 }

@@ -18,9 +18,9 @@ Result<Outcome> work(const StudyOptions& options) {
     for (double gf = least_gf; gf <= most_gf; ++gf)
         apart = std::max(apart, std::abs(I.at(gf) / (V_X.at(gf) * ForceSensor().conductance(gf)) - 1));
     out.claim("I_F against V_X G_FSR, largest from 20 to 400 gf", 100 * apart, "%").at_most(0.1, "thesis eq. 15; the bound is stated here");
-    out.claim("V_X at 400 gf", V_X.at(400), "V").printed_as(0.1, source + ": \"to force V_X to follow V_Y\"");
-    out.claim("I_F at 400 gf", I.at(400), "A").printed_as(0.1 * ForceSensor().conductance(400), "thesis eq. 15 at V_Y = 0.1 V");
-    out.claim("dI_F/dF at 20 gf", I.slope_at(20), "A/gf").printed_as(0.1 * ForceSensor().slope(20), "thesis eq. 13 and 15");
+    out.claim("V_X at 400 gf", V_X.at(400), "V").held_to(0.1, source + ": \"to force V_X to follow V_Y\"");
+    out.claim("I_F at 400 gf", I.at(400), "A").held_to(0.1 * ForceSensor().conductance(400), "thesis eq. 15 at V_Y = 0.1 V");
+    out.claim("dI_F/dF at 20 gf", I.slope_at(20), "A/gf").held_to(0.1 * ForceSensor().slope(20), "thesis eq. 13 and 15");
     out.claim("V_BS of M_1 at 400 gf", -V_X.at(400), "V")
         .at_most(0, source + ": \"V_BS = -V_X\", reverse biased (errata F7: its bulk is at vss)");
 
@@ -49,10 +49,10 @@ Result<Outcome> work(const StudyOptions& options) {
     out.plot("21: I_F", "force (gf)", "uA")
         .add("16x1", I.times(1, 1e6))
         .add("64x1", I_4.times(1, 1e6))
-        .shape("a circuit diagram; all of the sensor's current");
+        .shape("all of the sensor's current");
     Plot& plot = out.plot("What a larger M_1 buys at 4 N", "units of M_1", "V");
     plot.log_x = true;
-    plot.add("V_Z at 0.7 V", V_Z).add("lowest V_DD", supply).shape("no figure");
+    plot.add("V_Z at 0.7 V", V_Z).add("lowest V_DD", supply);
     out.note("Lowest supply: V_X at least 95 % of V_Y, I_F's end held at the supply. The three transducers stand side by side in fig22.");
     return out;
 }

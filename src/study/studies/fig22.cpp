@@ -41,13 +41,13 @@ Result<void> tell_techniques(Outcome& out) {
     if (!found) return found.error();
     const auto at = [&](const std::string& name) { return found->at_rest(name); };
     out.claim("4 N, 0.9 V: I_D1 over I_D2", at("i(ximproved.mn1)") / at("i(ximproved.mn2)"))
-        .printed_as(1.0 / 16, source + ": S_1 / S_2")
+        .held_to(1.0 / 16, source + ": S_1 / S_2")
         .if_off(
             "the single transistors of M_2 have the lower Early voltage and carry more than their share; at 0.7 V it is less so, their "
             "drain being "
             "lower");
     out.claim("I_F over fig. 21's", at("i(ximproved.vif)") / at("i(xplain.vif)"))
-        .printed_as(1.0 / 17, source + ": I_F = I_F0 S_1 / (S_1 + S_2), errata F8")
+        .held_to(1.0 / 17, source + ": I_F = I_F0 S_1 / (S_1 + S_2), errata F8")
         .if_off("as above");
     out.claim("V_BS of M_1 and M_2 that M_3 makes", at("v(ximproved.tb)") - at("v(ximproved.vx)"), "V").at_least(0, source + ": forward");
     out.claim("current of M_3, through the bulks", at("i(ximproved.mn3)"), "A")
@@ -71,7 +71,7 @@ Result<void> tell_supplies(Outcome& out) {
         plot.add(way.words, V_X.times(1, 1e3));
         out.claim(fmt::format("lowest supply at 4 N: {}", way.words), lowest[way.name], "V");
     }
-    plot.add("holds: 95 % of V_Y", {{0.3, 1}, {95, 95}}).shape("no figure");
+    plot.add("holds: 95 % of V_Y", {{0.3, 1}, {95, 95}});
     out.claim("what M_3 saves of the supply, beside bulks at vss", lowest["atvss"] - lowest["improved"], "V").at_least(0, source);
     out.claim("beside bulks at the source", lowest["atsource"] - lowest["improved"], "V").at_least(0, source);
     out.claim("what the split and M_3 save, beside fig. 21 of as many units", lowest["plain40"] - lowest["improved"], "V")
@@ -98,7 +98,7 @@ Result<void> tell_forces_and_corners(Outcome& out, const StudyOptions& options) 
     if (auto ok = options.at(0.7); !ok) return ok;
     Plot& plot = out.plot("Lowest supply along the force", "force (N)", "lowest V_DD (V)");
     plot.log_x = true;
-    plot.add("fig. 22", lifted).add("without M3, bulks at vss", at_vss).shape("no figure");
+    plot.add("fig. 22", lifted).add("without M3, bulks at vss", at_vss);
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
         const auto lowest = lowest_supplies(two, 4, {fmt::format("corner={}", corner)});
         if (!lowest) return lowest.error();
@@ -129,7 +129,7 @@ Result<void> tell_split(Outcome& out) {
     out.finds("the smaller S_1 / S_2, the smaller I_F", made.y.front() < made.y.back(), "printed: \"maximum S_1/S_2\", errata F8: minimum");
     Plot& plot = out.plot("I_F at 4 N by S_1 / S_2, sixteen units in M_1 each time", "S_1 / S_2", "I_F (uA)");
     plot.log_x = plot.log_y = true;
-    plot.add("netlist", made, Plot::Style::points).add("I_F0 S_1 / (S_1 + S_2)", meant).shape("no figure; table 1 has 4x4 and 16x1: 1/16");
+    plot.add("netlist", made, Plot::Style::points).add("I_F0 S_1 / (S_1 + S_2)", meant).shape("table 1 has 4x4 and 16x1: 1/16");
     return {};
 }
 

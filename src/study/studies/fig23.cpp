@@ -54,7 +54,7 @@ Result<void> tell_alone(Outcome& out) {
         .at_least(45, "not printed; the bound is stated here");
     out.claim("input transconductance at V_Y", found->number("g_m"), "S");
     out.claim("offset", found->number("offset"), "V");
-    out.claim("supply current", I, "A").printed_as(500e-9, "five trapezoids of I_BIASA, fig. 23 and table 2");
+    out.claim("supply current", I, "A").held_to(500e-9, "five trapezoids of I_BIASA, fig. 23 and table 2");
     out.claim("power at 0.7 V", 0.7 * I, "W");
     const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')");
     Line gain = found->line("dc", "i(v3)").slope().absolute();
@@ -66,7 +66,7 @@ Result<void> tell_alone(Outcome& out) {
         .at_least(525e-3, "thesis 4.2, fig. 24c: the largest V_Z")
         .if_off("half of the gain is a bound stated here; beyond it gain is left, and the loop needs little of it (transducer-loop)");
     out.claim("gain that is left at 525 mV", 20 * std::log10(gain.at(525e-3)), "dB");
-    out.plot("Gain along the output", "V_Z (V)", "gain").add("by g_m over the output's conductance", gain).shape("no figure");
+    out.plot("Gain along the output", "V_Z (V)", "gain").add("by g_m over the output's conductance", gain);
     return {};
 }
 
@@ -81,8 +81,7 @@ Result<void> tell_input_pair(Outcome& out) {
     out.plot("Transconductance along the common mode", "V (both inputs)", "g_m (uS)")
         .add("fig. 23: bulks by M_3C, D", lifted->times(1, 1e6))
         .add("bulks at the source", at_source->times(1, 1e6))
-        .add("bulks at the supply", at_supply->times(1, 1e6))
-        .shape("no figure");
+        .add("bulks at the supply", at_supply->times(1, 1e6));
     const auto bulks = amplifier(unlimited, ".dc vs 0 0.7 2m"),
                held = amplifier({}, ".save v(x3.b3) v(x3.t) i(vplus) i(vs)\n.dc vs 0 0.7 2m");
     if (!bulks) return bulks.error();

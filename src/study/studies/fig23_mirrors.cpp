@@ -82,7 +82,6 @@ vq oq out 0
     out.claim("the array of 4x4 alone", resistance("i(vq)"), "ohm");
     Plot& plot = out.plot("Output resistance of N mirrors of 100 nA", "V_OUT (V)", "Mohm");
     plot.log_y = true;
-    plot.shape("no figure");
     for (const auto& [name, current] : {std::pair{"self-cascode, bulks lifted (fig. 23)", "i(va)"},
                                         {"self-cascode, bulks at vss", "i(vc)"},
                                         {"conventional cascode", "i(vd)"},

@@ -35,7 +35,7 @@ Result<void> tell_curves(Outcome& out) {
         uneven = std::max(uneven, std::abs(I.at(gf) / G.at(gf) / (I.at(most_gf) / G.at(most_gf)) - 1));
     out.claim("24a: I_F from proportional to G_FSR, largest", 100 * uneven, "%")
         .at_most(5, "thesis 4.2: \"the output current is proportional to G_FSR\"; the bound is stated here");
-    out.claim("24c: V_X at 400 gf", V_X.at(400), "V").printed_as(0.1, "thesis 4.2, fig. 24c: V_X follows V_Y (0.1 V, errata F12)");
+    out.claim("24c: V_X at 400 gf", V_X.at(400), "V").held_to(0.1, "thesis 4.2, fig. 24c: V_X follows V_Y (0.1 V, errata F12)");
     double off = 0;
     for (double gf = least_gf; gf <= most_gf; ++gf) off = std::max(off, std::abs(V_X.at(gf) - 0.1));
     out.claim("24c: V_X from V_Y, largest from 20 to 400 gf", off, "V");

@@ -58,9 +58,9 @@ void tell(const Loads& loads, const Loads& ideal, Outcome& out) {
         ideal.times());
     out.claim("largest resistance", loads.c.most, "ohm").printed_as(6.6e9, source).because(why);
     out.claim("times INVB's", loads.times(), "times").printed_as(16000, source).because(why);
-    out.claim("without length modulation: times INVB's", ideal.times(), "times").printed_as(18432, "eq. 38 and 39, errata S7b");
-    out.claim("nothing flows in at", loads.c.rest, "V").printed_as(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
-    out.claim("largest resistance at", loads.c.at, "V").printed_as(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
+    out.claim("without length modulation: times INVB's", ideal.times(), "times").held_to(18432, "eq. 38 and 39, errata S7b");
+    out.claim("nothing flows in at", loads.c.rest, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
+    out.claim("largest resistance at", loads.c.at, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
     out.claim("its resistance as a share of the largest, beside INVB's, 200 to 500 mV: farthest apart", apart(loads, 0.2, 0.5))
         .at_most(0.1, "thesis 4.3.1: \"a similar shape\"; a tenth is set here");
 }

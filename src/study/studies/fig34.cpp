@@ -27,7 +27,7 @@ void tell_static(const Found& found, Outcome& out) {
                         1e9 * (I_F.at(at_rest) / 2 - 700e-9), 1e9 * (I_F.at(at_hold) / 2 - 700e-9), 150e-3 / 413e3 * 1e9));
     out.claim("I_A at 4 N", I_A.at(at_hold), "A"), out.claim("I_A at 0.2 N", I_A.at(at_rest), "A");
     const double share = I_A.at(at_rest) / I_A.at(at_hold), wanted = I_F.at(at_rest) / I_F.at(at_hold);
-    out.claim("I_A is proportional to I_F: its part at 0.2 N of that at 4 N", 100 * share, "%").printed_as(100 * wanted, source);
+    out.claim("I_A is proportional to I_F: its part at 0.2 N of that at 4 N", 100 * share, "%").held_to(100 * wanted, source);
 }
 
 /// A component that is rectified: most, when, and what is left where max{I_X, 0} is 0.

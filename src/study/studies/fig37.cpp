@@ -18,14 +18,14 @@ Result<void> tell_gains(Outcome& out) {
     const auto I_N = found->line("dc", "i(vn)"), as_printed = found->line("dc", "i(v3)"), intended = found->line("dc", "i(v6)");
     const auto gain = [&](const Line& line, double v) { return std::abs(line.slope_at(v) / I_N.slope_at(v)); };
     const double up = gain(as_printed, 0.38), down = gain(as_printed, 0.32), mended = gain(intended, 0.32);
-    out.claim("table 8: gain while the force rises", up, "times").printed_as(8, "table 8, M1A over table 5's M5B");
-    out.claim("table 8: gain while it falls", down, "times").printed_as(3, "table 8, M1B over table 5's M5B");
+    out.claim("table 8: gain while the force rises", up, "times").held_to(8, "table 8, M1A over table 5's M5B");
+    out.claim("table 8: gain while it falls", down, "times").held_to(3, "table 8, M1B over table 5's M5B");
     out.finds("a full-wave rectifier with different gains: both signs of the filter's current sink, one more than the other",
               as_printed.at(0.38) > 0 && as_printed.at(0.32) > 0 && up > 1.1 * down, "thesis 4.3.2");
     out.claim("table 8: one gain over the other", up / down, "times")
-        .printed_as(K_A / K_B, "thesis 3.4, 3.5 over 2.75 uA/N of the model")
+        .held_to(K_A / K_B, "thesis 3.4, 3.5 over 2.75 uA/N of the model")
         .because("table 8's sizes are 8 to 3 (errata S15)");
-    out.claim("as intended here, pair B 6x4: one over the other", up / mended, "times").printed_as(K_A / K_B, "thesis 3.4, of the model");
+    out.claim("as intended here, pair B 6x4: one over the other", up / mended, "times").held_to(K_A / K_B, "thesis 3.4, of the model");
     return {};
 }
 
@@ -45,7 +45,7 @@ Result<Outcome> work(const StudyOptions& options) {
                model_down = wanted.between(0.63, 0.9);
     out.claim("I at its most, rising", up.most(), "A"), out.claim("I at its most, falling", down.most(), "A");
     out.claim("one over the other", up.most() / down.most(), "times")
-        .printed_as(model_up.most() / model_down.most(), "of the model, thesis 3.4 and fig. 18a");
+        .held_to(model_up.most() / model_down.most(), "of the model, thesis 3.4 and fig. 18a");
     const auto macro = told_of({.afferent = "fa1-macro", .traces = {"i(vi)"}});
     if (!macro) return macro.error();
     const double by_blocks = macro->traces.at("i(vi)").between(0.26, 0.5).peak() - model_up.peak();

@@ -17,7 +17,7 @@ constexpr double I_shown = 20e-12;  // A: the current of fig. 39a is not printed
 void tell_swing(const Found& found, const Hysteresis& t, Outcome& out) {
     const auto u = found.line("tran", "v(u)"), s = found.line("tran", "v(s)");
     const double first = found.number("first_spike"), low = u.least(), high = u.between(first + 5e-3, u.x.back()).most();
-    out.claim("it rests at", found.at_rest("v(u)"), "V").printed_as(0.7, "thesis 4.4: u_rest is the supply");
+    out.claim("it rests at", found.at_rest("v(u)"), "V").held_to(0.7, "thesis 4.4: u_rest is the supply");
     out.claim("the membrane falls to", low, "V"), out.claim("V_L of the trigger", t.V_L, "V");
     out.claim("... and is filled to", high, "V"), out.claim("V_H of the trigger", t.V_H, "V");
     out.finds("the swing is that of the hysteresis window, but not exactly: it goes beyond, at one end at least",
@@ -104,7 +104,7 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!less) return less.error();
     tell_swing(*shown, *t, out);
     const auto u = shown->line("tran", "v(u)");
-    out.claim("with half of I_LEAK it stays at", less->line("tran", "v(u)").least(), "V").printed_as(0.7, "thesis 4.4: I < I_LEAK");
+    out.claim("with half of I_LEAK it stays at", less->line("tran", "v(u)").least(), "V").held_to(0.7, "thesis 4.4: I < I_LEAK");
     out.claim("... spikes", less->number("spikes")).between(0, 0, source);
     out.claim("V_H - V_L", t->V_H - t->V_L, "V");
     out.plot("39a, membrane and spikes at 20 pA", "time (s)", "V")

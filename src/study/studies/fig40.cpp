@@ -18,14 +18,14 @@ void tell_pattern(const Beside& b, const std::vector<double>& tight, Outcome& ou
         fmt::format("what its switches leak: with those of the higher threshold, 100 ms before the plateau's end, it is {:.1f} Hz",
                     without.at(P::late.from));
     const std::string similar = "thesis 4.4: similar to the model's of fig. 17c; printed: the model's, made here";
-    out.claim("spikes", static_cast<double>(chip.size())).printed_as(static_cast<double>(b.model.size()), similar);
-    out.claim("spikes while the force rises", spikes_in(chip, P::up)).printed_as(spikes_in(b.model, P::up), similar);
+    out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model.size()), similar);
+    out.claim("spikes while the force rises", spikes_in(chip, P::up)).held_to(spikes_in(b.model, P::up), similar);
     for (const auto& [what, made, printed, unit] :
          {std::tuple{"spikes on the plateau", spikes_in(chip, P::hold), spikes_in(b.model, P::hold), ""},
           {"highest frequency", f.most(), wanted.most(), "Hz"},
           {"frequency as the plateau begins", f.at(P::hold.from + 0.02), wanted.at(P::hold.from + 0.02), "Hz"},
           {"... 100 ms before its end", f.at(P::late.from), wanted.at(P::late.from), "Hz"}})
-        if (auto& c = out.claim(what, made, unit).printed_as(printed, similar); c.needs_reason()) c.because(reason);
+        if (auto& c = out.claim(what, made, unit).held_to(printed, similar); c.needs_reason()) c.because(reason);
     const auto plateau = f.between(P::hold.from, P::hold.to - 0.05);
     out.claim("spikes at rest", spikes_in(chip, P::rest)).between(0, 0, "thesis 1.2, fig. 5a");
     out.finds("highest while the force rises, then a sustained but slowly decaying frequency",

@@ -12,13 +12,13 @@ using P = PressPhases;
 void tell_pattern(const Beside& b, Outcome& out) {
     const std::string similar = "thesis 4.4: similar to the model's of fig. 18; printed: the model's, made here";
     const auto& chip = b.chip.spikes;
-    out.claim("spikes", static_cast<double>(chip.size())).printed_as(static_cast<double>(b.model.size()), similar);
+    out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model.size()), similar);
     const auto f = frequency_of(chip), wanted = frequency_of(b.model);
     for (const auto& [name, phase] : {std::pair{"rising", P::up}, {"falling", P::down}}) {
-        out.claim(std::string("spikes while the force is ") + name, spikes_in(chip, phase)).printed_as(spikes_in(b.model, phase), similar);
+        out.claim(std::string("spikes while the force is ") + name, spikes_in(chip, phase)).held_to(spikes_in(b.model, phase), similar);
         const Stretch about{phase.from, phase.to + 0.1};
         auto& c = out.claim(std::string("highest frequency, ") + name, f.between(about.from, about.to).most(), "Hz")
-                      .printed_as(wanted.between(about.from, about.to).most(), similar);
+                      .held_to(wanted.between(about.from, about.to).most(), similar);
         if (c.needs_reason())
             c.because("two or three intervals are all there are in each ramp, and each moves with the first spike; the comparator is late");
     }

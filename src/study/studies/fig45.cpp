@@ -21,7 +21,7 @@ Result<Outcome> work(const StudyOptions&) {
             .printed_as(a.printed->A, "table 13");
         printed_sum += a.printed->A_T, sum += 1e12 * a.A_T;
     }
-    out.claim("All together", sum, "um^2").printed_as(printed_sum, "table 13");
+    out.claim("All together", sum, "um^2").held_to(printed_sum, "table 13");
     out.plots.push_back(layout_of(*ours, "Channels and total areas of E, F, G1, G2, G3, from the left")
                             .shape("polysilicon and diffusion of each array in its rectangle; the figure itself is lost"));
     out.note(

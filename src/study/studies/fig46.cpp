@@ -31,11 +31,10 @@ Result<void> put_lengths(Outcome& out) {
     const auto by_array = mirror(units_text("b", "out", "in", "0", 1, n, unit));
     if (!by_length || !by_array) return by_length ? by_array.error() : by_length.error();
     const double long_one = I_in / -by_length->at_rest("i(vo)"), array = I_in / -by_array->at_rest("i(vo)");
-    out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the aspect ratios'", 1e6 * L), long_one / ratio)
-        .printed_as(1, "thesis eq. 33");
+    out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the aspect ratios'", 1e6 * L), long_one / ratio).held_to(1, "thesis eq. 33");
     if (auto& c = out.claims.back(); c.needs_reason()) c.because("their thresholds differ (table 11, A and B1)");
     out.claim(fmt::format("0.18 um to {} units of 0.18 um in series: the same", n), array / ratio)
-        .printed_as(1, "thesis C.1: a better mirror");
+        .held_to(1, "thesis C.1: a better mirror");
     out.finds("The array's ratio is nearer to what the sizes say than the long transistor's",
               std::abs(array / ratio - 1) < std::abs(long_one / ratio - 1), "thesis C.1");
     return {};
@@ -71,11 +70,11 @@ Result<Outcome> work(const StudyOptions&) {
         const auto I = found->line("dc", fmt::format("i(v{})", n)).times(1, -1), slope = I.slope();
         const auto name = n == 1 ? std::string("conventional (46a), 1 to 1") : fmt::format("parallel-series (46b), N = {}", n);
         out.claim(fmt::format("{}: I_in/I_out at 0.35 V", name), I_in / I.at(V_out))
-            .printed_as(N2, n == 1 ? "thesis eq. 33, 1 to 1" : "thesis eq. 34");
+            .held_to(N2, n == 1 ? "thesis eq. 33, 1 to 1" : "thesis eq. 34");
         auto& c = out.claim(
             fmt::format("{}: I_out/G_o over that of 1 to 1", name),
             I.at(V_out) / slope.at(V_out) / (found->line("dc", "i(v1)").at(V_out) / found->line("dc", "i(v1)").slope().at(V_out)));
-        c.printed_as(n, "thesis eq. 36: V_A = V_E L");
+        c.held_to(n, "thesis eq. 36: V_A = V_E L");
         if (c.needs_reason())
             c.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
         currents.add(name, I.times(1, 1e9 * N2)), slopes.add(name, slope.between(0.02, 0.7).times(1, 1e9 * N2));
@@ -88,8 +87,7 @@ Result<Outcome> work(const StudyOptions&) {
     }
     for (const auto put : {put_lengths, put_spread})
         if (auto ok = put(out); !ok) return ok.error();
-    out.plots = {currents.shape("circuit diagrams only; C.1: I_out is I_in over N^2"),
-                 slopes.shape("C.1: G_o falls as the channel lengthens (eq. 36)")};
+    out.plots = {currents.shape("C.1: I_out is I_in over N^2"), slopes.shape("C.1: G_o falls as the channel lengthens (eq. 36)")};
     return out;
 }
 

@@ -21,11 +21,11 @@ Result<Outcome> work(const StudyOptions&) {
                       of_card = "the parallel diodes bear more voltage than the arrays in series, and are modulated by it";
     const double I = -at->at_rest("i(vout)"), exact = S_A * (S_B + S_C + S_D) / (S_B * S_D);
     out.claim("I_in/I_out, the equations alone", I_in / -at->at_rest("i(vout2)"))
-        .printed_as(exact, "thesis eq. 38 and 39, exact (errata C5, C6)");
+        .held_to(exact, "thesis eq. 38 and 39, exact (errata C5, C6)");
     auto& approximate = out.claim("I_in/I_out, the equations alone, beside eq. 40", I_in / -at->at_rest("i(vout2)"))
-                            .printed_as(256, "thesis eq. 40; INVC, E.4");
+                            .held_to(256, "thesis eq. 40; INVC, E.4");
     if (approximate.needs_reason()) approximate.because("eq. 40 takes S_C >> S_B + S_D; here it is 8 against 1");
-    auto& card = out.claim("I_in/I_out, with the card", I_in / I).printed_as(exact, "thesis eq. 38 and 39");
+    auto& card = out.claim("I_in/I_out, with the card", I_in / I).held_to(exact, "thesis eq. 38 and 39");
     if (card.needs_reason()) card.because(of_card);
 
     const double G_o = -at->by("i(vout)", "vout"), G_dd = -at->by("i(vout)", "vdd");
@@ -49,7 +49,7 @@ Result<Outcome> work(const StudyOptions&) {
     transfer.add("with the card", along->line("dc", "i(vout)").times(1e9, -1e12));
     transfer.add(fmt::format("I_in/{:g}, eq. 38 and 39", exact), {{1, 1000}, {1e3 / exact, 1e6 / exact}})
         .add("I_in/256, eq. 40", {{1, 1000}, {1e3 / 256, 1e6 / 256}});
-    out.plots = {by_supply.shape("circuit diagram only; C.2: I_out depends on V_DD by M_C's drain"), transfer.shape("C.2: N^4, here 256")};
+    out.plots = {by_supply.shape("C.2: I_out depends on V_DD by M_C's drain"), transfer.shape("C.2: N^4, here 256")};
     return out;
 }
 

@@ -37,12 +37,12 @@ void put_currents(Outcome& out, const Diodes& d) {
     const double at = d.Y.where(weak);
     out.claim("I_BY over I_DY in weak inversion, at 10 nA", d.B_Y.at(at) / d.Y.at(at))
         .at_most(0.01, source + ": I_DY is much larger (a hundredth here)");
-    out.claim("I_SY over I_DY there", sum(d.Y, d.B_Y).at(at) / d.Y.at(at)).printed_as(1, source + ": approximately");
+    out.claim("I_SY over I_DY there", sum(d.Y, d.B_Y).at(at) / d.Y.at(at)).held_to(1, source + ": approximately");
     const auto decade = [](const Line& I, double from) { return 0.06 / std::log10(I.at(from + 0.06) / I.at(from)); };
     out.claim("I_BY: voltage for ten times the current, at 0.4 V", decade(d.B_Y, 0.4), "V")
         .between(0.055, 0.07, source + ": increases exponentially (60 mV and an ideality)");
     out.claim("I_BY: the same at 0.7 V, over that at 0.4 V", decade(d.B_Y, 0.7) / decade(d.B_Y, 0.4))
-        .printed_as(1, source + ": does not stop increasing exponentially");
+        .held_to(1, source + ": does not stop increasing exponentially");
     out.claim("I_DY: the same at 0.7 V, over that at 0.15 V", decade(d.Y, 0.7) / decade(d.Y, 0.15))
         .at_least(2, source + ": stops increasing exponentially (half as steep here)");
     Line difference = d.B_Y;
@@ -55,8 +55,8 @@ void put_voltages(Outcome& out, const Diodes& d, double n) {
     const std::string source = "thesis eq. 44";
     for (const auto& [I, where] : {std::pair{weak, "10 nA"}, {moderate, "1 uA"}}) {
         const double V_X = d.X.where(I), V_Y = d.Y.where(I);
-        out.claim(fmt::format("V_X/V_Y at {}", where), V_X / V_Y).printed_as(n, source + ": n");
-        out.claim(fmt::format("Delta V_T = V_X - V_Y at {}", where), V_X - V_Y, "V").printed_as((n - 1) * V_Y, source + ": (n - 1) V_Y");
+        out.claim(fmt::format("V_X/V_Y at {}", where), V_X / V_Y).held_to(n, source + ": n");
+        out.claim(fmt::format("Delta V_T = V_X - V_Y at {}", where), V_X - V_Y, "V").held_to((n - 1) * V_Y, source + ": (n - 1) V_Y");
         out.finds(fmt::format("V_X > V_Y at {}", where), V_X > V_Y, "thesis app. D");
     }
 }
@@ -66,7 +66,7 @@ void put_augmented(Outcome& out, const Diodes& d) {
     out.claim("Z: I_BZ up to the supply of 0.7 V at most", d.B_Z.between(0, 0.7).most(), "A")
         .at_most(d.B_Y.at(0.7) / 10, source + " (a tenth of I_BY here)");
     out.claim("Z: its bulk up to 0.7 V at most", d.bulk.between(0, 0.7).most(), "V").at_most(0.7, "the same");
-    out.claim("Z: I_DZ over I_DY at 0.2 V", d.Z.at(0.2) / d.Y.at(0.2)).printed_as(1, "the same as 48b while the bulk current is small");
+    out.claim("Z: I_DZ over I_DY at 0.2 V", d.Z.at(0.2) / d.Y.at(0.2)).held_to(1, "the same as 48b while the bulk current is small");
     out.claim("Z: I_DZ over I_DY at 0.6 V, where the limit costs", d.Z.at(0.6) / d.Y.at(0.6))
         .between(0.5, 1, "the same, less of body bias");
 }

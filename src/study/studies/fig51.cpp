@@ -50,7 +50,7 @@ Result<Outcome> work(const StudyOptions& options) {
     out.claim("I_Q, bulks at the rails", I_Q.at(0), "A").printed_as(17.59e-9, "table 18, mean without biasing, mismatch only");
     out.claim("V_Q0, bulks at the output", V_Q0.at(0), "V");
     const auto line = alone.straight();
-    out.claim("V_Q over V_BN alone: slope", line.slope, "V/V").printed_as(-(n - 1) / 2, "eq. 47a: -(n-1)/2");
+    out.claim("V_Q over V_BN alone: slope", line.slope, "V/V").held_to(-(n - 1) / 2, "eq. 47a: -(n-1)/2");
     out.claim("farthest that is from a straight line, of what V_Q moves", 100 * line.farthest / (alone.most() - alone.least()), "%")
         .at_most(5, "E.1: V_Q varies almost proportionally with the bulks' voltages; a twentieth is our word for it");
     out.claim("V_Q moves while both bulks are lifted alike, 0 to 0.35 V, by", std::abs(both.at(0.35) - both.at(0)), "V")
@@ -70,7 +70,7 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("V_Q (51a), both lifted alike", both)
         .add("V_Q0 (51b)", V_Q0)
         .shape("circuits only: 51a and 51b extract V_Q and V_Q0");
-    out.plot("I_Q with both bulks lifted alike", "V_BN, V_DD - V_BP (V)", "I_Q (A)").add("I_Q", I_Q).log_y = true;
+    out.plot("I_Q with both bulks lifted alike", "V_BN, V_DD - V_BP (V)", "I_Q (nA)").add("I_Q", I_Q.times(1, 1e9)).log_y = true;
     return options.at(0.9) ? Result<Outcome>(out) : options.at(0.9).error();
 }
 

@@ -86,7 +86,7 @@ Result<Outcome> work(const StudyOptions& options) {
             "the thesis has no numbers");
     claim_gains(out, c);
     auto& same = out.claim("INVC's swing over INVA's", c.swing('c') / c.swing('a'), "times")
-                     .printed_as(1, "E.4: its output excursion is similar to INVA's");
+                     .held_to(1, "E.4: its output excursion is similar to INVA's");
     if (same.needs_reason()) same.because("why is not known");
     out.plots[0].shape("INVB's excursion slightly smaller; INVC's curve slightly displaced, V_Q about 347 mV");
     out.plots[1].shape("INVC's gain bigger, its excursion like INVA's");

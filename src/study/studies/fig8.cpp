@@ -29,13 +29,12 @@ Result<void> tell_parts(Outcome& out) {
     const auto once = parts_under(1, 0.1), twice = parts_under(2, 0.1), slower = parts_under(1, 0.2);
     for (const auto* p : {&once, &twice, &slower})
         if (!*p) return p->error();
-    out.claim("static part at twice the force", twice->hold_static / once->hold_static)
-        .printed_as(2, "thesis 2.2: proportional to the force");
+    out.claim("static part at twice the force", twice->hold_static / once->hold_static).held_to(2, "thesis 2.2: proportional to the force");
     out.claim("dynamic part at half the slope", slower->ramp_dynamic / once->ramp_dynamic)
-        .printed_as(0.5, "thesis 2.2: proportional to its rate of change");
+        .held_to(0.5, "thesis 2.2: proportional to its rate of change");
     out.claim("dynamic part in the hold", once->hold_dynamic, "A").between(0, 0, "thesis 2.2: due to the ramp");
     out.claim("dynamic part of falling force over that of rising", once->down_dynamic / once->ramp_dynamic)
-        .printed_as(1, "thesis 3.1: for both positive and negative changes");
+        .held_to(1, "thesis 3.1: for both positive and negative changes");
     return {};
 }
 

@@ -35,9 +35,9 @@ void tell_parts(Outcome& out, const Told& told) {
     const auto &plus = told.traces.at("I_+"), &minus = told.traces.at("I_-");
     const Stretch rising{0, 0.5}, falling{0.5, 1.0};  // the plateau's middle between them
     out.claim("share of I+ that comes while the force rises", 100 * charge(plus, rising) / charge(plus, {}), "%")
-        .printed_as(100, "thesis 3.1, eq. 2");
+        .held_to(100, "thesis 3.1, eq. 2");
     out.claim("share of I- that comes while it falls", 100 * charge(minus, falling) / charge(minus, {}), "%")
-        .printed_as(100, "thesis 3.1, eq. 3");
+        .held_to(100, "thesis 3.1, eq. 3");
     out.claim("both in the plateau's last 100 ms", charge(plus, press::late) + charge(minus, press::late), "C")
         .between(0, 0, "thesis 2.2: no static component");
     const double up = resets(told.traces.at("u_+")), down = resets(told.traces.at("u_-"));

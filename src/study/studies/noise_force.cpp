@@ -114,7 +114,6 @@ Result<Outcome> work(const StudyOptions& options) {
     }
     Plot& spectrum = out.plot("Noise of transducer and signal processing as a force", "frequency (Hz)", "mN / sqrt(Hz)");
     spectrum.log_x = spectrum.log_y = true;
-    spectrum.shape("no figure");
     for (const double newtons : {0.2, 4.0})
         for (const auto& [name, node] : {std::pair{"transducer", "i_f"}, {"at the membrane", "i_m"}}) {
             const auto found =
@@ -132,7 +131,7 @@ Result<Outcome> work(const StudyOptions& options) {
     }
     Plot& along = out.plot("Noise from 1 to 100 Hz along the force", "force (N)", "mN rms");
     along.log_x = along.log_y = true;
-    along.add("transducer", transducer).add("at the membrane", membrane).add("2 %, the sensor's repeatability", sensor).shape("no figure");
+    along.add("transducer", transducer).add("at the membrane", membrane).add("2 %, the sensor's repeatability", sensor);
     out.note(
         "By .noise about rest: force stands still, the rectifiers of I_B and I_C are open, so that the membrane has I_A's noise alone; "
         "what I_B and I_C "

@@ -12,8 +12,8 @@ namespace corpuscle::studies::table10 {
 void put_erratum(Outcome& out, const OurArrays& ours) {
     const auto& c1 = printed(rectangles, "C1");
     const std::string source = "errata U11, of C1's A = 1.0800";
-    out.claim("C1: A by A_T and A/A_T as printed", c1.A_T * c1.share, "um^2").printed_as(1.0080, source);
-    out.claim("C1: A by g_mg (table 11) and g_mg/A (table 12) as printed", c1.g_mg / c1.g_by_A, "um^2").printed_as(1.0080, source);
+    out.claim("C1: A by A_T and A/A_T as printed", c1.A_T * c1.share, "um^2").held_to(1.0080, source);
+    out.claim("C1: A by g_mg (table 11) and g_mg/A (table 12) as printed", c1.g_mg / c1.g_by_A, "um^2").held_to(1.0080, source);
     out.finds("C1: W L is 1.0080 um^2, not 1.0800", std::abs(ours("C1").A * 1e12 - 1.0080) < 5e-5, source);
 }
 
@@ -42,7 +42,7 @@ Result<Outcome> work(const StudyOptions&) {
               std::abs(arrays("B2").A / arrays("C2").A - 1) < 1e-9 && std::abs(arrays("D2").A / arrays("C2").A - 1) < 1e-9 &&
                   arrays("B2").A < std::min({arrays("B1").A, arrays("C1").A, arrays("D1").A}),
               source);
-    out.claim("A and C2: the one S_eq over the other", arrays("A").S / arrays("C2").S).printed_as(1, source + ": the same");
+    out.claim("A and C2: the one S_eq over the other", arrays("A").S / arrays("C2").S).held_to(1, source + ": the same");
     out.note(
         "A_T is the area of a rectangle about polysilicon and diffusion (errata U16: not its perimeter), whose margins are inferred from "
         "this "

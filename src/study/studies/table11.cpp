@@ -20,8 +20,7 @@ Result<Outcome> work(const StudyOptions&) {
     const auto I = [&](const char* name) { return ours(name).I_D; };
     out.claim("B2's current over C2's", I("B2") / I("C2")).printed_as(0.25, source);
     out.claim("D2's current over C2's", I("D2") / I("C2")).printed_as(4, source);
-    out.claim("A's current over C2's", I("A") / I("C2"))
-        .printed_as(printed(rectangles, "A").I_D / printed(rectangles, "C2").I_D, "table 11");
+    out.claim("A's current over C2's", I("A") / I("C2")).held_to(printed(rectangles, "A").I_D / printed(rectangles, "C2").I_D, "table 11");
     out.finds("A carries more than C2, of the same S_eq", I("A") > I("C2"), source);
     const double V_T = ours("A").V_T;
     out.finds("A, B2, C2 and D2 have one threshold", ours("B2").V_T == V_T && ours("C2").V_T == V_T && ours("D2").V_T == V_T, source);
@@ -29,7 +28,7 @@ Result<Outcome> work(const StudyOptions&) {
     const auto printed_shift = [&](const char* name) { return 1e-3 * (printed(rectangles, name).V_T - printed(rectangles, "A").V_T); };
     for (const char* name : {"B1", "C1", "D1"})
         out.claim(fmt::format("{}: threshold above A's", name), shift(name), "V")
-            .printed_as(printed_shift(name), "table 11")
+            .held_to(printed_shift(name), "table 11")
             .because(
                 "set so that it carries the printed current at the specific current of the short unit, which is another in each geometry");
     out.finds(

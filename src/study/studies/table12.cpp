@@ -16,7 +16,7 @@ void put_errata(Outcome& out) {
         out.claim(fmt::format("{}: g_mb/g_mg by table 11 as printed", a.name), a.g_mb / a.g_mg)
             .printed_as(a.slope, "table 12, errata U5: not g_mg/g_mb");
     const auto& d1 = printed(rectangles, "D1");
-    out.claim("D1: g_mg/I_D by table 11 as printed", d1.g_mg / d1.I_D, "1/V").printed_as(18.07, "errata U12, for 18.02");
+    out.claim("D1: g_mg/I_D by table 11 as printed", d1.g_mg / d1.I_D, "1/V").held_to(18.07, "errata U12, for 18.02");
 }
 
 void put_text(Outcome& out, const OurArrays& ours) {
@@ -42,9 +42,9 @@ void put_text(Outcome& out, const OurArrays& ours) {
     const auto slope = std::minmax_element(ours.begin(), ours.end(), [](const auto& x, const auto& y) { return x.slope() < y.slope(); });
     out.claim("Slope factor n = 1 + g_mb/g_mg: the largest of the seven over the least",
               (1 + slope.second->slope()) / (1 + slope.first->slope()))
-        .printed_as(1.276 / 1.265, source + ": similar; table 12");
+        .held_to(1.276 / 1.265, source + ": similar; table 12");
     out.claim("g_mg/A: D2's over B2's, of equal active area", ours("D2").g_by_A() / ours("B2").g_by_A())
-        .printed_as(printed(rectangles, "D2").g_by_A / printed(rectangles, "B2").g_by_A, source + ": widely different; table 12");
+        .held_to(printed(rectangles, "D2").g_by_A / printed(rectangles, "B2").g_by_A, source + ": widely different; table 12");
 }
 
 void put_mismatch_text(Outcome& out, const OurArrays& ours, const std::vector<double>& sigma) {
@@ -52,7 +52,7 @@ void put_mismatch_text(Outcome& out, const OurArrays& ours, const std::vector<do
     const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&printed(rectangles, name) - printed_rectangles)]; };
     for (const char* name : {"B2", "C2", "D2"})
         out.claim(fmt::format("{}: deviation over A's, of a quarter of its area", name), of(name) / of("A"))
-            .printed_as(0.5, source + ": half; errata U14: inversely to the root of the area, not proportional");
+            .held_to(0.5, source + ": half; errata U14: inversely to the root of the area, not proportional");
     const double least = *std::min_element(sigma.begin(), sigma.end());
     auto& c = out.finds("C1 has the least deviation", of("C1") == least, source);
     if (c.needs_reason())

@@ -25,7 +25,7 @@ Result<Outcome> work(const StudyOptions&) {
     out.finds("E, G1, G2 and G3 have one total area by the rule of table 10",
               std::abs(A_T("G1") / A_T("E") - 1) < 1e-9 && A_T("G1") == A_T("G2") && A_T("G1") == A_T("G3"), source);
     out.claim("G1's S_eq over that of one unit of eight in series", ours("G1").S / (*short_ones)("A").S)
-        .printed_as(0.125, source + ": a rectangular series array");
+        .held_to(0.125, source + ": a rectangular series array");
     out.claim("G3's S_eq over A's", ours("G3").S / (*short_ones)("A").S).between(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");
     out.note(
         "F's two transistors have two lengths; its rectangle is that of two of their mean length with the gap of the others between them, "

@@ -33,7 +33,7 @@ Result<Outcome> work(const StudyOptions&) {
     put_small_signals(out, trapezoids, *found);
     if (auto ok = put_f(out); !ok) return ok.error();
     out.claim("G3's drain current over A's", (*found)("G3").I_D / (*short_ones)("A").I_D)
-        .printed_as(printed(trapezoids, "G3").I_D / printed(rectangles, "A").I_D, "thesis B.2: similar; tables 14 and 11");
+        .held_to(printed(trapezoids, "G3").I_D / printed(rectangles, "A").I_D, "thesis B.2: similar; tables 14 and 11");
     put_sum_rule(out, trapezoids, 1e-9, "errata U8: a tenth of what is printed, in nS");
     double worst = 0;
     for (const auto& a : *found) worst = std::max(worst, std::abs((a.g_mg + a.g_md + a.g_mb) / a.g_ms - 1));

@@ -25,7 +25,7 @@ void put_text(Outcome& out, const OurArrays& ours, const OurArrays& short_ones) 
     const auto V_A = [&](const char* name) { return ours(name).V_A(); };
     out.claim("G3's V_A over A's", V_A("G3") / short_ones("A").V_A()).printed_as(10, source);
     out.claim("F's V_A over E's", V_A("F") / V_A("E"))
-        .printed_as(33.38 / 37.82, source + ": similar; table 15")
+        .held_to(33.38 / 37.82, source + ": similar; table 15")
         .because("with the short transistor at the source it would be nearer, see below");
     out.finds("F's gain is slightly lower than E's", gain("F") < gain("E"), source);
     out.finds("G1's gain is considerably smaller than E's", gain("G1") < gain("E") - 3, source + "; 3 dB here, 7 printed");
@@ -36,15 +36,15 @@ void put_text(Outcome& out, const OurArrays& ours, const OurArrays& short_ones) 
 void put_mismatch_text(Outcome& out, const std::vector<double>& sigma, double of_a) {
     const std::string source = "thesis B.2";
     const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&printed(trapezoids, name) - printed_trapezoids)]; };
-    out.claim("E's deviation over G1's", of("E") / of("G1")).printed_as(2.36 / 5.77, source + ": half; table 15").because("");
+    out.claim("E's deviation over G1's", of("E") / of("G1")).held_to(2.36 / 5.77, source + ": half; table 15").because("");
     out.claim("E's deviation over G1's, by the areas of table 13", std::sqrt(0.6048 / 2.1924))
-        .printed_as(2.36 / 5.77, "errata U18: 3.63 times the area")
+        .held_to(2.36 / 5.77, "errata U18: 3.63 times the area")
         .because("and E is the further inverted: its g_mg/I_D is the smaller");
     out.finds("G3's is much greater than G1's and G2's", of("G3") > 1.5 * std::max(of("G1"), of("G2")),
               source + "; half as much again here, twice printed");
-    auto& g3 = out.claim("G3's over A's", of("G3") / of_a).printed_as(14.9 / 15.6, source + ": similar; tables 15 and 12");
+    auto& g3 = out.claim("G3's over A's", of("G3") / of_a).held_to(14.9 / 15.6, source + ": similar; tables 15 and 12");
     if (g3.needs_reason()) g3.because("as G3's own: its unit at the source is not quite saturated");
-    out.claim("G2's over G1's", of("G2") / of("G1")).printed_as(7.46 / 5.77, source + ": slightly more; table 15");
+    out.claim("G2's over G1's", of("G2") / of("G1")).held_to(7.46 / 5.77, source + ": slightly more; table 15");
 }
 
 /// F with the short transistor at the source, as table 13 labels it, in the last place (errata U17).
@@ -54,7 +54,7 @@ void put_f(Outcome& out, const OurArrays& ways, const std::vector<double>& sigma
     const double of_text = sigma[1], of_table = sigma.back();
     const auto below = [&](const char* what, const OurArray& way) -> Claim& {
         return out.claim(fmt::format("F, its short transistor at the {}: gain below E's", what), e.gain() - way.gain(), "dB")
-            .printed_as(printed(trapezoids, "E").gain - f.gain, "thesis B.2: slightly lower; table 15");
+            .held_to(printed(trapezoids, "E").gain - f.gain, "thesis B.2: slightly lower; table 15");
     };
     out.claim("F, its short transistor at the source as in table 13: deviation of I_D", of_table, "%").printed_as(f.sigma, "table 15");
     if (auto& c = below("source as in table 13", table); c.needs_reason())

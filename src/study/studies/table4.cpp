@@ -22,7 +22,7 @@ Result<void> tell_sizes(Outcome& out) {
          {std::tuple{"table 4 as printed", "v(bn6)", "i(vis6)"}, {"table 4, N arrays of 1.5 um", "v(bn1)", "i(vis1)"}}) {
         const auto V_BN = by_4->line("dc", bn), I_Q = by_4->line("dc", replica);
         out.claim(fmt::format("{}: the replica carries, at 200 nA", name), I_Q.at(0.2), "A")
-            .printed_as(I_BIASB, "thesis E.2: I_Q is I_BIAS")
+            .held_to(I_BIASB, "thesis E.2: I_Q is I_BIAS")
             .because(why);
         out.claim(fmt::format("{}: V_BN at 200 nA", name), V_BN.at(0.2), "V")
             .between(100e-3, 600e-3, "thesis E.2: 100 to 600 mV over its range")
@@ -32,9 +32,9 @@ Result<void> tell_sizes(Outcome& out) {
             .because(why);
     }
     const auto q = by_16->at_rest("i(vis)");
-    out.claim("table 16: the replica carries, at 200 nA", q, "A").printed_as(I_BIASB, "thesis E.2: I_Q is I_BIAS");
+    out.claim("table 16: the replica carries, at 200 nA", q, "A").held_to(I_BIASB, "thesis E.2: I_Q is I_BIAS");
     out.claim("table 16: V_BN at 200 nA", by_16->at_rest("v(bn)"), "V").between(100e-3, 600e-3, "thesis E.2: 100 to 600 mV over its range");
-    out.claim("V_REF", by_16->at_rest("v(ref)"), "V").printed_as(V_DD / 2, "thesis 4.3.1, errata S12: half of V_DD, V_SS being 0");
+    out.claim("V_REF", by_16->at_rest("v(ref)"), "V").held_to(V_DD / 2, "thesis 4.3.1, errata S12: half of V_DD, V_SS being 0");
     Plot& p = out.plot("The replica's current along I_BIASB", "I_BIASB (nA)", "I_Q (nA)");
     p.add("table 4 as printed", by_4->line("dc", "i(vis6)").between(0, 3).times(1e3, 1e9));
     p.add("table 4, N arrays of 1.5 um", by_4->line("dc", "i(vis1)").between(0, 3).times(1e3, 1e9)).add("equal", {{20, 3000}, {20, 3000}});

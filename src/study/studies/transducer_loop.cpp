@@ -42,7 +42,6 @@ Result<Outcome> work(const StudyOptions& options) {
     if (auto ok = options.at(0.9); !ok) return ok.error();
     Plot& margins = out.plot("Phase margin of the transducer's loop", "force (N)", "degrees");
     margins.log_x = true;
-    margins.shape("no figure");
     for (std::size_t k = 0; k < 3; ++k) {
         margins.add(Loops::words(k), loops.margins[k]);
         out.claim(fmt::format("least phase margin from 0.02 to 40 N, {}", Loops::words(k)), loops.margins[k].least(), "degrees")
@@ -58,7 +57,7 @@ Result<Outcome> work(const StudyOptions& options) {
     out.claim("gain of the loop at 40 N", loops.gain.at(40), "dB");
     Plot& gain = out.plot("Gain of the loop at 10 Hz", "force (N)", "dB");
     gain.log_x = true;
-    gain.add("loop", loops.gain).shape("no figure");
+    gain.add("loop", loops.gain);
     return out;
 }
 
