@@ -40,7 +40,7 @@ format: setup-test
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-19 -i
 
 lint: setup-test
-	cmake -B build/lint -G Ninja -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PCH=OFF
+	cmake -B build/lint -G Ninja -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PCH=OFF -D CORPUSCLE_GROUPS=OFF
 	git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P 2 -n 4 clang-tidy-19 -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option
 
 # Every figure and table of the thesis beside what was printed: the page to look at, and the numbers as text.

@@ -15,6 +15,7 @@
 #include "curve_files.hpp"
 #include "netlist_words.hpp"
 #include "study/cost_document.hpp"
+#include "study/json_number.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -24,12 +25,11 @@ namespace {
 using namespace circuit;
 using Json = nlohmann::ordered_json;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json column(const Plot& plot, const Curve& curve) {
     Json out = Json::array();
     for (const auto& x : curve.values)
-        out.push_back(plot.is_complex && curve.type != "frequency" ? Json({number(x.real()), number(x.imag())}) : number(x.real()));
+        out.push_back(plot.is_complex && curve.type != "frequency" ? Json({json_number(x.real()), json_number(x.imag())})
+                                                                   : json_number(x.real()));
     return out;
 }
 
@@ -66,10 +66,10 @@ Json document_of(const Done& done) {
         for (const auto& [what, count] : a.findings.work) one[what] = static_cast<std::int64_t>(count);
         analyses.push_back(one);
     }
-    for (const auto& [name, value] : outcome.numbers) numbers[name] = number(value);
+    for (const auto& [name, value] : outcome.numbers) numbers[name] = json_number(value);
     for (const auto& e : outcome.expectations)
         expectations.push_back(
-            {{"what", e.what}, {"found", number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
+            {{"what", e.what}, {"found", json_number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
     for (const auto& r : outcome.remarks) remarks.push_back(r.text());
     Json out = {{"title", done.variant.circuit->title}, {"plots", plots},     {"analyses", analyses}, {"numbers", numbers},
                 {"expectations", expectations},         {"warnings", remarks}};

@@ -15,7 +15,7 @@ namespace {
 using circuit::CircuitDesign;
 
 /// Parameters, and the names that their rows speak of.
-struct Told {
+struct ToldPlan {
     std::deque<std::string> words;
     std::vector<Parameter> parameters;
     std::vector<double> values;
@@ -43,7 +43,7 @@ double number_of(const circuit::Circuit& c, std::string_view element, std::strin
 
 /// A netlist's parameters, then what else is set of it; the defaults are those of the netlist as it is written.
 Result<void> tell(AfferentPlan& plan, const CircuitDesign& design) {
-    auto told = std::make_shared<Told>();
+    auto told = std::make_shared<ToldPlan>();
     const auto& changes = design.netlist->changes();
     const auto plain = design.netlist->with({}).elaborate();
     if (!plain) return plain.error();

@@ -5,14 +5,6 @@
 
 namespace corpuscle {
 
-double spikes_in(const std::vector<double>& train, Stretch stretch) { return measure<SpikeCount>(train, stretch); }
-
-Line frequency_of(const std::vector<double>& train) {
-    Line out{train, instantaneous_rates(train)};
-    out.x.resize(out.y.size());
-    return out;
-}
-
 Result<Beside> beside(const Asked& asked, const std::string& model) {
     auto chip = told_of(asked);
     if (!chip) return chip.error();

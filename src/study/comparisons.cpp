@@ -4,16 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "measure/distance.hpp"
+#include "study/json_number.hpp"
 
 namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json count_document(const Comparison::Count& c) {
-    return {{"spikes", c.spikes}, {"reference_spikes", c.in_reference}, {"excess", number(c.excess())}};
+    return {{"spikes", c.spikes}, {"reference_spikes", c.in_reference}, {"excess", json_number(c.excess())}};
 }
 
 Json row_document(const Comparison& c) {
@@ -26,9 +25,9 @@ Json row_document(const Comparison& c) {
         out["phases"].push_back(std::move(one));
     }
     out["matched"] = c.matched;
-    out["mean_shift_s"] = number(c.mean_shift);
-    out["median_shift_s"] = number(c.median_shift);
-    out["victor_purpura"] = number(c.victor_purpura);
+    out["mean_shift_s"] = json_number(c.mean_shift);
+    out["median_shift_s"] = json_number(c.median_shift);
+    out["victor_purpura"] = json_number(c.victor_purpura);
     out["van_rossum"] = c.van_rossum;
     return out;
 }

@@ -13,7 +13,18 @@
 namespace corpuscle {
 namespace {
 
-using namespace circuit;
+using circuit::analysis_of;
+using circuit::carried_text;
+using circuit::Circuit;
+using circuit::Knob;
+using circuit::Netlist;
+using circuit::parse_carried;
+using circuit::RunOrders;
+using circuit::TestBench;
+using circuit::tuned;
+using circuit::Values;
+using circuit::values_of;
+using circuit::Variants;
 
 bool is_order(std::string_view line) {
     if (!line.starts_with('.')) return false;
@@ -137,8 +148,11 @@ Result<std::vector<Found>> all_found_in(const Deck& deck) {
         bench->brief = true;
         if (variant->draw) bench->draw(*variant->draw);
         auto outcome = circuit::run(*bench, orders);
-        if (!outcome && outcome.error().code == Code::not_converged && variants->count() > 1) continue;
-        if (!outcome) return outcome.error();
+        if (!outcome) {
+            auto error = outcome.error();
+            if (!variant->label.empty()) error.sentence = fmt::format("{}: {}", variant->label, error.sentence);
+            return error;
+        }
         out.push_back({variant->label, variant->circuit, std::move(*outcome)});
     }
     return out;

@@ -42,7 +42,7 @@ struct Found {
 };
 
 Result<Found> found_in(const Deck&);
-/// All variants of .step and .mc. Those that do not converge are left out.
+/// All variants of .step and .mc. None is left out: one that does not converge is the error.
 Result<std::vector<Found>> all_found_in(const Deck&);
 
 /// The text of a file that the program carries ("circuits/parts/transducer.inc"), with each of these pieces replaced wherever it stands;

@@ -1,5 +1,8 @@
 #include "study/layout.hpp"
 
+#include <fmt/format.h>
+#include <numeric>
+
 #include "circuit/cost/area.hpp"
 
 namespace corpuscle {
@@ -39,6 +42,31 @@ Plot layout_of(const OurArrays& arrays, std::string title) {
     double left = 0;
     for (const auto& a : arrays) left += put_array(a, left, channels, total) + apart;
     return out.add("channels", channels, Plot::Style::path).add("total area", total, Plot::Style::path);
+}
+
+Result<Outcome> tell_layout(const PrintedArrays& tables, const std::string& figure, const std::string& remark) {
+    const auto ours = arrays_of(tables);
+    if (!ours) return ours.error();
+    Outcome out;
+    double printed_sum = 0, sum = 0;
+    std::string names;
+    for (const auto& a : *ours) {
+        out.claim(fmt::format("{}: total area", a.printed->name), 1e12 * a.A_T, "um^2")
+            .printed_as(a.printed->A_T, fmt::format("{}, of what {} shows", tables.sizes, figure));
+        out.claim(fmt::format("{}: active area by its channels", a.printed->name),
+                  1e12 * a.W * std::accumulate(a.lengths.begin(), a.lengths.end(), 0.0), "um^2")
+            .printed_as(a.printed->A, tables.sizes);
+        printed_sum += a.printed->A_T, sum += 1e12 * a.A_T;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", a.printed->name);
+    }
+    out.claim("All together", sum, "um^2").held_to(printed_sum, tables.sizes);
+    out.plots.push_back(layout_of(*ours, fmt::format("Channels and total areas of {}, from the left", names))
+                            .shape("polysilicon and diffusion of each array in its rectangle; the figure itself is lost"));
+    out.note(
+        "Rows and columns are those by which the printed total areas come out; what lies about the channels and between them is one rule "
+        "for all. " +
+        remark);
+    return out;
 }
 
 }  // namespace corpuscle

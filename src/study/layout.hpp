@@ -8,4 +8,7 @@ namespace corpuscle {
 /// One beside the other, in um.
 Plot layout_of(const OurArrays&, std::string title);
 
+/// All of a figure: each array's areas beside the printed ones, and the drawing; `remark` is what is off and why.
+Result<Outcome> tell_layout(const PrintedArrays&, const std::string& figure, const std::string& remark);
+
 }  // namespace corpuscle

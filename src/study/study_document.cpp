@@ -4,28 +4,28 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "study/json_number.hpp"
+
 namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json numbers(const std::vector<double>& values) {
     Json out = Json::array();
-    for (const double x : values) out.push_back(number(x));
+    for (const double x : values) out.push_back(json_number(x));
     return out;
 }
 
 Json document_of(const Claim& c) {
     return {{"what", c.what},
-            {"made", c.is_truth ? Json(c.made > 0) : number(c.made)},
+            {"made", c.is_truth ? Json(c.made > 0) : json_number(c.made)},
             {"unit", c.unit},
-            {"printed", number(c.printed)},
+            {"printed", json_number(c.printed)},
             {"follows", c.follows},
-            {"deviation", number(c.deviation())},
-            {"low", c.is_truth ? Json(nullptr) : number(c.low)},
-            {"high", number(c.high)},
+            {"deviation", json_number(c.deviation())},
+            {"low", c.is_truth ? Json(nullptr) : json_number(c.low)},
+            {"high", json_number(c.high)},
             {"verdict", c.verdict()},
             {"source", c.source},
             {"note", c.note}};

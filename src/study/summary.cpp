@@ -7,6 +7,7 @@
 
 #include "signal/version.hpp"
 #include "study/cost_document.hpp"
+#include "study/json_number.hpp"
 
 namespace corpuscle {
 namespace {
@@ -15,8 +16,6 @@ using Json = nlohmann::ordered_json;
 
 /// A key that the object does not have yet: with 100,000 channels it is not looked for.
 void add(Json& object, std::string key, Json value) { object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)}); }
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json afferent_document(const AfferentPlan& plan) {
     Json parameters = Json::object();
@@ -53,7 +52,7 @@ Json quality_document(const Summary::InputFacts& input) {
         const auto channel = findings[k].channel;
         for (; k < findings.size() && findings[k].channel == channel; ++k)
             add(one, findings[k].unit.empty() ? std::string(findings[k].name) : fmt::format("{}_{}", findings[k].name, findings[k].unit),
-                number(findings[k].value));
+                json_number(findings[k].value));
         add(channels, input.channels[channel], std::move(one));
     }
     return {{"warnings", input.quality.warnings}, {"sentences", input.quality.sentences}, {"channels", channels}};
@@ -79,10 +78,10 @@ Json input_document(const Summary::InputFacts& input) {
 }
 
 Json over_document(const OverCopies& over) {
-    return {{"mean", number(over.mean())},
-            {"standard_deviation", number(over.deviation())},
-            {"least", number(over.least)},
-            {"greatest", number(over.greatest)},
+    return {{"mean", json_number(over.mean())},
+            {"standard_deviation", json_number(over.deviation())},
+            {"least", json_number(over.least)},
+            {"greatest", json_number(over.greatest)},
             {"copies", over.copies}};
 }
 
@@ -91,7 +90,7 @@ Json row_document(const RateRow& row) {
     for (std::size_t m = 0; m < std::size(measures); ++m)
         out[key_of(measures[m])] = !row.over.empty()           ? over_document(row.over[m])
                                    : measures[m].decimals == 0 ? Json(static_cast<std::int64_t>(row.values[m]))
-                                                               : number(row.values[m]);
+                                                               : json_number(row.values[m]);
     return out;
 }
 

@@ -330,7 +330,7 @@ TEST(Program, StudiesAreToldWrittenAndAskedForByAnyOfTheirNumbers) {
     EXPECT_EQ(document[0]["claims"][0]["printed"], 0.2);
     EXPECT_FALSE(document[0]["plots"][0]["series"][0]["x"].empty());
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"numbers.md", "page.html"}));
-    EXPECT_NE(folder.read("numbers.md").find("## table17-18"), std::string::npos);
+    EXPECT_NE(test::read_file(folder / "numbers.md").find("## table17-18"), std::string::npos);
     const auto unknown = run(folder, "study fig7 --report other.html");
     EXPECT_EQ(unknown.status, 2);
     EXPECT_NE(unknown.err.find("study: none is called 'fig7'"), std::string::npos) << unknown.err;

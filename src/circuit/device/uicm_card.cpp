@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "circuit/device/constants.hpp"
 #include "signal/elementary.hpp"
 #include "signal/random.hpp"
 
 namespace corpuscle::circuit {
 namespace {
-
-constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, zero_celsius = 273.15;
 
 /// x^p, by our own exp and log: the same on every machine.
 double power(double x, double p) { return num::exp(p * num::log(x)); }
@@ -34,7 +33,7 @@ enum Purpose : std::uint32_t { of_mismatch = 0x75690001, of_process };  // of Ph
 }  // namespace
 
 UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, double temperature, bool pmos) {
-    const double T = temperature + zero_celsius, T_nom = card.T_nom + zero_celsius, phi_t = boltzmann * T / elementary_charge;
+    const double T = temperature + zero_celsius, T_nom = card.T_nom + zero_celsius, phi_t = boltzmann * T / electron_charge;
     const double length = at.L * at.stack, width = at.W * at.m, gate = card.C_ox * at.area();
     const double I_S = card.I_SQ * at.mulu0 * power(T / T_nom, card.I_S_exponent) * width / length;
     const double growth = junction_growth(card, T, T_nom, phi_t);
@@ -55,7 +54,7 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, doubl
     c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.per_P_B = 1 / card.P_B, c.v_top = card.F_C * card.P_B;
     c.rest = 1 - card.M_J, c.P_B_per_rest = card.P_B / c.rest, c.per_P_B_M_J = card.M_J / card.P_B;
     c.thermal = 8 * boltzmann * T * I_S / phi_t;
-    const double e_n = elementary_charge / (card.n * card.C_ox * phi_t);
+    const double e_n = electron_charge / (card.n * card.C_ox * phi_t);
     c.flicker = card.C_ox > 0 ? 2 * e_n * e_n * card.N_ot * I_S / at.area() : 0;
     return c;
 }

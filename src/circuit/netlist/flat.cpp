@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t most_letters = std::size_t{512} << 20;  // of all names
+constexpr std::size_t most_name_letters = std::size_t{512} << 20;  // of all names
 
 /// "res" is another word for "r".
 std::string_view short_type(std::string_view type) {
@@ -100,8 +100,8 @@ Result<void> Flat::add(Element e) {
 Result<void> Flat::visit(const Frame& frame, const Statement& s) {
     if (++visited_ > most_elements) return bad_input(fmt::format("the circuit has more than {} elements", most_elements), s.line.place());
     letters_ += 2 * (frame.path.size() + s.text(std::size_t{0}).size()) + s.line.file->size();
-    if (letters_ > most_letters)
-        return bad_input(fmt::format("the names of all elements and nodes take more than {} MB", most_letters >> 20), s.line.place());
+    if (letters_ > most_name_letters)
+        return bad_input(fmt::format("the names of all elements and nodes take more than {} MB", most_name_letters >> 20), s.line.place());
     return {};
 }
 

@@ -12,7 +12,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int deepest = 200;  // of parentheses, functions and ? : within each other
+constexpr int deepest_formula = 200;  // of parentheses, functions and ? : within each other
 constexpr std::ptrdiff_t most_inputs = 4096;
 constexpr std::size_t most_steps = 1000000;  // of one formula, all functions put in place
 
@@ -194,7 +194,7 @@ private:
     // ---- grammar, from the loosest to the tightest ----
 
     Index deeper(Index (FormulaReader::*read)()) {
-        if (depth_ >= deepest) return wrong(fmt::format("the formula is nested more than {} deep", deepest));
+        if (depth_ >= deepest_formula) return wrong(fmt::format("the formula is nested more than {} deep", deepest_formula));
         ++depth_;
         const Index k = (this->*read)();
         --depth_;
@@ -368,7 +368,7 @@ private:
                                      values.size()),
                          from);
         if (std::find(calls_.begin(), calls_.end(), name) != calls_.end()) return wrong(fmt::format("{}() calls itself", name), from);
-        if (depth_ >= deepest) return wrong(fmt::format("the formula is nested more than {} deep", deepest), from);
+        if (depth_ >= deepest_formula) return wrong(fmt::format("the formula is nested more than {} deep", deepest_formula), from);
         Arguments bound;
         for (std::size_t k = 0; k < values.size(); ++k) bound.emplace_back(own.arguments[k], values[k]);
         const auto text = std::exchange(text_, own.text);

@@ -5,8 +5,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t own_values = 7;  // before the words: see Digital::keep
-constexpr double last = 0x1p53;        // beyond it a double no longer counts
+constexpr std::size_t values_before_words = 7;  // see Digital::keep
+constexpr double last = 0x1p53;                 // beyond it a double no longer counts
 
 }  // namespace
 
@@ -41,7 +41,7 @@ State Digital::start(Turn turn) const {
     chain_->start(0, h.state);
     auto rehearsal = h.state;  // only to show the membrane's rest until the first conversion
     chain_->step(rehearsal, 0, h.shown, a);
-    State state{format_, 0, std::vector<double>(own_values + chain_->words() + chain_->shown().size())};
+    State state{format_, 0, std::vector<double>(values_before_words + chain_->words() + chain_->shown().size())};
     keep(h, state);
     return state;
 }
@@ -66,8 +66,8 @@ std::optional<Digital::Held> Digital::held_of(const State& state) const {
            v[5], static_cast<std::int64_t>(v[6])};
     if (h.next.rest >= h.instants.parts()) return {};
     const auto most = static_cast<double>(chain_->constants().format().most());
-    for (std::size_t w = 0; w < v.size() - own_values; ++w) {
-        const double word = v[own_values + w];
+    for (std::size_t w = 0; w < v.size() - values_before_words; ++w) {
+        const double word = v[values_before_words + w];
         if (!counts(word, -most - 1, std::max(most, 1e7))) return {};  // a word, or steps left of t_ref
         (w < chain_->words() ? h.state[w] : h.shown[w - chain_->words()]) = static_cast<Word>(word);
     }
@@ -79,7 +79,7 @@ Result<void> Digital::respond(std::span<const double> force, State& state, Answe
 }
 
 Result<void> Digital::convert(std::span<const double> force, State& state, Answer& answer, const Seen& seen) const {
-    const auto size = own_values + chain_->words() + chain_->shown().size();
+    const auto size = values_before_words + chain_->words() + chain_->shown().size();
     if (auto ok = check_block(name_, format_, size, state, force); !ok) return ok;
     auto held = held_of(state);
     if (!held) return bad_input(name_ + ": a saved state is damaged: it holds what no word and no count can be");

@@ -12,7 +12,7 @@
 
 namespace corpuscle::studies::errata_signal {
 
-using P = PressPhases;
+namespace P = press;
 constexpr auto M6 = "M6 8x2 to 2x4 is 1/8 where M5 is 1/64: the N side of the push-pull output is eight times too strong (errata S7)";
 
 /// S7, S8: INVC with the printed M6 and as mended.
@@ -90,9 +90,9 @@ Result<void> tell_charging(Outcome& out) {
 void tell_chip(const std::string& name, const std::vector<double>& chip, const std::vector<double>& model, const std::string& why,
                Outcome& out) {
     const std::string source = "the model's, made here; thesis 4.4: similar";
-    for (const auto& [phase, stretch] : {std::pair{"rising", P::up}, {"holding", P::hold}, {"falling", P::down}, {"after", P::after}}) {
-        auto& c =
-            out.claim(fmt::format("{}: spikes, {}", name, phase), spikes_in(chip, stretch)).held_to(spikes_in(model, stretch), source);
+    for (const auto& [phase, stretch] : {std::pair{"rising", P::up}, {"holding", P::plateau}, {"falling", P::down}, {"after", P::after}}) {
+        auto& c = out.claim(fmt::format("{}: spikes, {}", name, phase), press::count(chip, stretch))
+                      .held_to(press::count(model, stretch), source);
         if (c.needs_reason()) c.because(why);
     }
 }

@@ -9,35 +9,35 @@
 
 namespace corpuscle::studies::fig40 {
 
-using P = PressPhases;
+namespace P = press;
 
 void tell_pattern(const Beside& b, const std::vector<double>& tight, Outcome& out) {
     const auto& chip = b.chip.spikes;
-    const auto f = frequency_of(chip), wanted = frequency_of(b.model), without = frequency_of(tight);
+    const auto f = press::frequency(chip), wanted = press::frequency(b.model), without = press::frequency(tight);
     const auto reason =
         fmt::format("what its switches leak: with those of the higher threshold, 100 ms before the plateau's end, it is {:.1f} Hz",
                     without.at(P::late.from));
     const std::string similar = "thesis 4.4: similar to the model's of fig. 17c; printed: the model's, made here";
     out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model.size()), similar);
-    out.claim("spikes while the force rises", spikes_in(chip, P::up)).held_to(spikes_in(b.model, P::up), similar);
+    out.claim("spikes while the force rises", press::count(chip, P::up)).held_to(press::count(b.model, P::up), similar);
     for (const auto& [what, made, printed, unit] :
-         {std::tuple{"spikes on the plateau", spikes_in(chip, P::hold), spikes_in(b.model, P::hold), ""},
+         {std::tuple{"spikes on the plateau", press::count(chip, P::plateau), press::count(b.model, P::plateau), ""},
           {"highest frequency", f.most(), wanted.most(), "Hz"},
-          {"frequency as the plateau begins", f.at(P::hold.from + 0.02), wanted.at(P::hold.from + 0.02), "Hz"},
+          {"frequency as the plateau begins", f.at(P::plateau.from + 0.02), wanted.at(P::plateau.from + 0.02), "Hz"},
           {"... 100 ms before its end", f.at(P::late.from), wanted.at(P::late.from), "Hz"}})
         if (auto& c = out.claim(what, made, unit).held_to(printed, similar); c.needs_reason()) c.because(reason);
-    const auto plateau = f.between(P::hold.from, P::hold.to - 0.05);
-    out.claim("spikes at rest", spikes_in(chip, P::rest)).between(0, 0, "thesis 1.2, fig. 5a");
+    const auto plateau = f.between(P::plateau.from, P::plateau.to - 0.05);
+    out.claim("spikes at rest", press::count(chip, P::rest)).between(0, 0, "thesis 1.2, fig. 5a");
     out.finds("highest while the force rises, then a sustained but slowly decaying frequency",
-              f.peak() < P::hold.from && std::is_sorted(plateau.y.rbegin(), plateau.y.rend()) && spikes_in(chip, P::late) > 0,
+              f.peak() < P::plateau.from && std::is_sorted(plateau.y.rbegin(), plateau.y.rend()) && press::count(chip, P::late) > 0,
               "thesis 1.2, fig. 5a");
-    out.claim("spikes from the retraction on", spikes_in(chip, {P::down.from, 1})).at_most(1, "thesis 1.2: almost no response");
+    out.claim("spikes from the retraction on", press::count(chip, {P::down.from, 1})).at_most(1, "thesis 1.2: almost no response");
 }
 
 void tell_glitches(const Told& chip, Outcome& out) {
     const auto& I = chip.traces.at("i(vi)");
     const std::vector<double> pressed(chip.spikes.begin(),
-                                      chip.spikes.begin() + static_cast<std::ptrdiff_t>(spikes_in(chip.spikes, {0, P::hold.to})));
+                                      chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::count(chip.spikes, {0, P::plateau.to})));
     out.claim("glitch in I at each firing: least, over I before it", least_jump(I, pressed, 1.5e-3), "times")
         .at_least(1.2, "thesis 4.4: glitches in the input signal I at each firing event; a fifth is set here");
     const double fills = longest_above(chip.traces.at("v(s)"), 0.35);
@@ -79,8 +79,8 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("s", traces.at("v(s)"));
     out.plot("Frequency beside the model's of fig. 17c", "time (s)", "frequency (Hz)")
         .shape("similar to the model's")
-        .points("chip", frequency_of(b->chip.spikes))
-        .points("model", frequency_of(b->model));
+        .points("chip", press::frequency(b->chip.spikes))
+        .points("model", press::frequency(b->model));
     out.plot("Spikes", "time (s)", "").row("chip", b->chip.spikes).row("model", b->model);
     out.note(
         "Gains as intended (errata S9a, S10a), and with them a leak of 7 pA and a membrane of 4.5 pF; with the tables' sizes and the "

@@ -7,15 +7,16 @@
 
 namespace corpuscle::studies::fig41 {
 
-using P = PressPhases;
+namespace P = press;
 
 void tell_pattern(const Beside& b, Outcome& out) {
     const std::string similar = "thesis 4.4: similar to the model's of fig. 18; printed: the model's, made here";
     const auto& chip = b.chip.spikes;
     out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model.size()), similar);
-    const auto f = frequency_of(chip), wanted = frequency_of(b.model);
+    const auto f = press::frequency(chip), wanted = press::frequency(b.model);
     for (const auto& [name, phase] : {std::pair{"rising", P::up}, {"falling", P::down}}) {
-        out.claim(std::string("spikes while the force is ") + name, spikes_in(chip, phase)).held_to(spikes_in(b.model, phase), similar);
+        out.claim(std::string("spikes while the force is ") + name, press::count(chip, phase))
+            .held_to(press::count(b.model, phase), similar);
         const Stretch about{phase.from, phase.to + 0.1};
         auto& c = out.claim(std::string("highest frequency, ") + name, f.between(about.from, about.to).most(), "Hz")
                       .held_to(wanted.between(about.from, about.to).most(), similar);
@@ -23,10 +24,11 @@ void tell_pattern(const Beside& b, Outcome& out) {
             c.because("two or three intervals are all there are in each ramp, and each moves with the first spike; the comparator is late");
     }
     out.finds("it answers the ramps alone: nothing at rest and in the plateau's last 100 ms",
-              spikes_in(chip, P::rest) == 0 && spikes_in(chip, P::late) == 0 && spikes_in(chip, P::up) > 0 && spikes_in(chip, P::down) > 0,
+              press::count(chip, P::rest) == 0 && press::count(chip, P::late) == 0 && press::count(chip, P::up) > 0 &&
+                  press::count(chip, P::down) > 0,
               "thesis 1.2, fig. 5b");
     out.finds("asymmetrical: faster while the force rises",
-              f.between(P::up.from, P::hold.from + 0.1).most() > f.between(P::down.from, 1).most(), "thesis 1.2, fig. 5b");
+              f.between(P::up.from, P::plateau.from + 0.1).most() > f.between(P::down.from, 1).most(), "thesis 1.2, fig. 5b");
     out.claim("first spike, later than the model's by", chip.empty() ? NAN : chip[0] - b.model[0], "s");
 }
 
@@ -37,8 +39,8 @@ Result<Outcome> work(const StudyOptions& options) {
     if (auto ok = options.at(0.9); !ok) return ok.error();
     tell_pattern(*b, out);
     const auto& I = b->chip.traces.at("i(vi)");
-    const std::vector<double> rising(b->chip.spikes.begin(),
-                                     b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(spikes_in(b->chip.spikes, {0, P::hold.to})));
+    const std::vector<double> rising(
+        b->chip.spikes.begin(), b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::count(b->chip.spikes, {0, P::plateau.to})));
     out.claim("glitch in I at each firing up to the plateau's end: least, over I just before it", least_jump(I, rising, 0.3e-3), "times")
         .because(
             "its membrane is three times SA-I's and so filled at a third of the speed, which draws a third of the current through the "
@@ -50,8 +52,8 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("s", b->chip.traces.at("v(s)"));
     out.plot("Frequency beside the model's of fig. 18c", "time (s)", "frequency (Hz)")
         .shape("similar to the model's")
-        .points("chip", frequency_of(b->chip.spikes))
-        .points("model", frequency_of(b->model));
+        .points("chip", press::frequency(b->chip.spikes))
+        .points("model", press::frequency(b->model));
     out.plot("Spikes", "time (s)", "").row("chip", b->chip.spikes).row("model", b->model);
     out.note(
         "Gains as intended (errata S15), a leak of 10 pA and a membrane of 14.4 pF; with table 8's sizes, 5 pA and 5.4 pF: errata-signal.");

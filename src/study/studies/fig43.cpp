@@ -1,33 +1,12 @@
 // Fig. 43: the layout of the rectangular arrays, drawn by one rule.
 
-#include <fmt/format.h>
-#include <numeric>
-
 #include "study/layout.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::fig43 {
 
 Result<Outcome> work(const StudyOptions&) {
-    const auto ours = arrays_of(rectangles);
-    if (!ours) return ours.error();
-    Outcome out;
-    double printed_sum = 0, sum = 0;
-    for (const auto& a : *ours) {
-        out.claim(fmt::format("{}: total area", a.printed->name), 1e12 * a.A_T, "um^2")
-            .printed_as(a.printed->A_T, "table 10, of what fig. 43 shows");
-        out.claim(fmt::format("{}: active area by its channels", a.printed->name),
-                  1e12 * a.W * std::accumulate(a.lengths.begin(), a.lengths.end(), 0.0), "um^2")
-            .printed_as(a.printed->A, "table 10");
-        printed_sum += a.printed->A_T, sum += 1e12 * a.A_T;
-    }
-    out.claim("All together", sum, "um^2").held_to(printed_sum, "table 10");
-    out.plots.push_back(layout_of(*ours, "Channels and total areas of A, B1, B2, C1, C2, D1, D2, from the left")
-                            .shape("polysilicon and diffusion of each array in its rectangle; the figure itself is lost"));
-    out.note(
-        "Rows and columns are those by which the printed total areas come out; what lies about the channels and between them is one rule "
-        "for all. A is alone: by the same rule its rectangle is larger than printed.");
-    return out;
+    return tell_layout(rectangles, "fig. 43", "A is alone: by the same rule its rectangle is larger than printed.");
 }
 
 const Study study{"fig43", "Layout of the rectangular arrays",

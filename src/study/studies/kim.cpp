@@ -35,7 +35,7 @@ std::pair<double, double> line() {
     return {current - product / square * depth, product / square};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
+Result<Outcome> work(const StudyOptions&) {
     Outcome out;
     const auto [beta, slope] = line();
     const double contact = -beta / slope;  // mm: below it the line's current is negative
@@ -51,19 +51,18 @@ Result<Outcome> work(const StudyOptions& options) {
                                       fmt::format("ramp-hold.F_max={}", F), "ramp-hold.t_hold=5"}});
         if (!train) return train.error();
         const double made = 1 / measure<LastRate>(*train, {1, 5.35});
-        out.claims.push_back({fmt::format("interval in the hold at {} mm", h.depth), made, "s", h.interval, h.interval - h.spread,
-                              h.interval + h.spread, source});
+        out.claim(fmt::format("interval in the hold at {} mm", h.depth), made, "s")
+            .printed_as(h.interval, source)
+            .between(h.interval - h.spread, h.interval + h.spread, source);
         plot.series[0].x.push_back(h.depth), plot.series[0].y.push_back(1e3 * h.interval);
         plot.series[1].x.push_back(h.depth), plot.series[1].y.push_back(1e3 * made);
     }
-    if (!options.keep_on(1)) return Error{Code::interrupted, "interrupted"};
     const double held = beta + slope * holds[2].depth;  // the ramp ends in the deepest hold: half of its current on the way
     const double first = current_for(ramps[0]) - held / 2;
     for (const double ramp : ramps)
-        out.claims.push_back({fmt::format("slope of the ramp that gives {:.1f} ms, over that of the first", 1e3 * ramp),
-                              (current_for(ramp) - held / 2) / first, "", std::numeric_limits<double>::quiet_NaN(),
-                              std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(), source,
-                              "which ramps they were is not in the abstract"});
+        out.claim(fmt::format("slope of the ramp that gives {:.1f} ms, over that of the first", 1e3 * ramp),
+                  (current_for(ramp) - held / 2) / first)
+            .because("which ramps they were is not in the abstract");
     out.plots.push_back(std::move(plot));
     out.notes = {
         fmt::format("A current that is a straight line in depth (contact at {:.3f} mm, {:.3g} A/mm) gives all three intervals within "

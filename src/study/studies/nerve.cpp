@@ -11,21 +11,6 @@
 namespace corpuscle::studies::nerve {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr Stretch up{0.25, 0.375}, plateau{0.375, 0.625}, down{0.625, 0.75};
-
-Result<void> press(Outcome& out) {
-    const auto sa1 = train_of({"sa1"}), fa1 = train_of({"fa1"});
-    if (!sa1) return sa1.error();
-    if (!fa1) return fa1.error();
-    const std::string shape = "Birznieks et al. 2001 as told in thesis 1.2; the gate is ours";
-    out.claims.push_back({"SA-I: peak in protraction over the plateau's end",
-                          measure<PeakRate>(*sa1, up) / measure<LastRate>(*sa1, plateau), "", none, 2, 3, shape});
-    out.claims.push_back({"SA-I: spikes after 40 % of retraction", measure<SpikeCount>(*sa1, {0.675, 0.75}), "", none, 0, 1, shape});
-    out.claims.push_back({"FA-I: peak going up over peak going down", measure<PeakRate>(*fa1, up) / measure<PeakRate>(*fa1, down), "", none,
-                          1.2, 1.5, shape});
-    out.claims.push_back({"FA-I: spikes in the plateau's last 100 ms", measure<SpikeCount>(*fa1, {0.525, 0.625}), "", none, 0, 0, shape});
-    return {};
-}
 
 /// The least amplitude (N) that makes it fire at all, once the first half second is over; by halving, in ratio.
 Result<double> least_amplitude(const std::string& afferent, double f, double rate) {
@@ -66,7 +51,6 @@ std::pair<double, double> best(const Plot::Series& curve) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    if (auto ok = press(out); !ok) return ok.error();
     Plot plot{"Least vibration that is answered", "frequency (Hz)", "amplitude (mN)", {}, true, true};
     double done = 0;
     for (const auto& [name, low, high, source] :
@@ -76,12 +60,10 @@ Result<Outcome> work(const StudyOptions& options) {
         auto curve = tuning(name, options, done);
         if (!curve) return curve.error();
         const auto [from, to] = best(*curve);
-        out.claims.push_back({fmt::format("{}: most sensitive from", name), from, "Hz", none, low, high, source});
-        out.claims.push_back({fmt::format("{}: most sensitive to", name), to, "Hz", none, low, high, source});
-        if (name != std::string_view("fa2"))
-            for (auto* c = &out.claims.back() - 1; c <= &out.claims.back(); ++c)
-                if (c->needs_reason())
-                    c->because("above their high-passes sa1 and fa1 are equally sensitive to all frequencies: no low-pass of the skin");
+        for (const auto& [end, f] : {std::pair{"from", from}, {"to", to}})
+            out.claim(fmt::format("{}: most sensitive {}", name, end), f, "Hz")
+                .between(low, high, source)
+                .if_off("above their high-passes sa1 and fa1 are equally sensitive to all frequencies: no low-pass of the skin");
         plot.series.push_back(std::move(*curve));
     }
     out.plots.push_back(std::move(plot));
@@ -95,6 +77,7 @@ Result<Outcome> work(const StudyOptions& options) {
     return out;
 }
 
-const Study study{"nerve", "What is known of the nerve", "Rates, adaptation and entrainment against the literature", work};
+const Study study{"nerve", "What is known of the nerve",
+                  "Which vibration does each class answer best? Johansson et al. 1982; the press itself is fig5", work};
 
 }  // namespace corpuscle::studies::nerve

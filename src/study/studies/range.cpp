@@ -13,7 +13,7 @@
 
 namespace corpuscle::studies::range {
 
-using P = PressPhases;
+namespace P = press;
 constexpr const char *chips[] = {"sa1-circuit", "fa1-circuit"}, *corners[] = {"tt", "ss", "ff", "sf", "fs"};
 constexpr double usual_supply = 0.7, usual_temperature = 27;  // V, C
 // outwards from there
@@ -32,14 +32,14 @@ struct Spot {
 /// Silent at rest; SA-I fires while the press rises and to the plateau's end and not after, FA-I in both ramps and not at the plateau's
 /// end.
 bool as_it_should(std::string_view chip, const std::vector<double>& t) {
-    if (spikes_in(t, P::rest) > 0 || spikes_in(t, P::up) == 0) return false;
-    if (chip.starts_with("sa1")) return spikes_in(t, P::late) > 0 && spikes_in(t, P::after) == 0;
-    return spikes_in(t, P::late) == 0 && spikes_in(t, P::down) > 0;
+    if (press::count(t, P::rest) > 0 || press::count(t, P::up) == 0) return false;
+    if (chip.starts_with("sa1")) return press::count(t, P::late) > 0 && press::count(t, P::after) == 0;
+    return press::count(t, P::late) == 0 && press::count(t, P::down) > 0;
 }
 
 std::string pattern(const std::vector<double>& t) {
-    return fmt::format("{:g} / {:g} / {:g} / {:g}", spikes_in(t, P::up), spikes_in(t, P::hold), spikes_in(t, P::down),
-                       spikes_in(t, P::after));
+    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::count(t, P::up), press::count(t, P::plateau), press::count(t, P::down),
+                       press::count(t, P::after));
 }
 
 /// The last place along a way at which it works, and why not beyond; NaN: at none.
