@@ -1,5 +1,5 @@
 # Files of one folder are compiled several at once, which halves the time to build all of them: what they include is read once. So names
-# in anonymous namespaces differ within a folder. A file with options of its own stands alone.
+# in anonymous namespaces differ within a folder, and no file there has a using-directive outside of a function. A file with options of its own stands alone.
 #   compile_in_groups(TARGET file...)
 option(CORPUSCLE_GROUPS "compile several files as one: quicker, but a file may lack an include (make lint sees it)" ON)
 function(compile_in_groups target)

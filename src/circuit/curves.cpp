@@ -6,7 +6,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::string_view views[] = {"", "m", "db", "p", "r", "i"};
+constexpr std::string_view view_names[] = {"", "m", "db", "p", "r", "i"};
 
 /// What the letters between v or i and the parenthesis make of a value.
 std::complex<double> seen_as(std::string_view view, std::complex<double> x) {
@@ -72,8 +72,8 @@ std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name) 
     out.plus_ = index_of(plot, name);
     if (out.plus_ >= 0) return out;
     if (open == std::string_view::npos || !name.ends_with(')') || (name[0] != 'v' && name[0] != 'i')) return {};
-    const auto* view = std::find(std::begin(views), std::end(views), name.substr(1, open - 1));
-    if (view == std::end(views)) return {};
+    const auto* view = std::find(std::begin(view_names), std::end(view_names), name.substr(1, open - 1));
+    if (view == std::end(view_names)) return {};
     out.view_ = *view;
     const auto inside = name.substr(open + 1, name.size() - open - 2);
     const auto comma = inside.find(',');

@@ -74,7 +74,7 @@ Result<Whole> whole(const NpzReader& npz, const std::string& name, std::string_v
 }
 
 /// A whole number; beyond the 53 bits of a double, too.
-std::int64_t integer(const NpyField& field, const std::byte* at) {
+std::int64_t integer_at(const NpyField& field, const std::byte* at) {
     if (field.size < 8) return static_cast<std::int64_t>(field.decoder()(at));
     std::int64_t value;
     std::memcpy(&value, at, sizeof value);
@@ -149,7 +149,7 @@ Result<std::vector<std::int64_t>> NpzReader::integers(const std::string& name) c
     const auto array = whole(*this, name, "biu", "whole numbers");
     if (!array) return array.error();
     std::vector<std::int64_t> out(array->header.count());
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = integer(array->header.fields[0], array->at(k));
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = integer_at(array->header.fields[0], array->at(k));
     return out;
 }
 

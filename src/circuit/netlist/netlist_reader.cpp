@@ -14,7 +14,7 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr std::size_t deepest_include = 50, deepest_subcircuit = 200;
-constexpr std::string_view letters = "rclveifghbdmx";
+constexpr std::string_view element_letters = "rclveifghbdmx";
 
 constexpr std::string_view own_words[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
                                           ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
@@ -99,7 +99,7 @@ private:
         }
         if (words.empty()) return false;
         if (words[0][0] == '.') return true;
-        if (words.size() < 4 || words[0].size() < 2 || letters.find(words[0][0]) == std::string_view::npos) return false;
+        if (words.size() < 4 || words[0].size() < 2 || element_letters.find(words[0][0]) == std::string_view::npos) return false;
         if (!std::any_of(words[0].begin(), words[0].end(), [](char c) { return c >= '0' && c <= '9'; })) return false;
         return words.size() == 5 || whole_number(words[3]) || words[3].find_first_of("{'=") != std::string::npos;
     }
@@ -169,7 +169,7 @@ private:
     }
 
     Result<void> element(Line line) {
-        if (letters.find(line.text[0]) == std::string_view::npos)
+        if (element_letters.find(line.text[0]) == std::string_view::npos)
             return bad_input(
                 fmt::format("'{}': no element is known by the letter {}; known are R C L V I E F G H B D M X",
                             std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0]),

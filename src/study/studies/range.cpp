@@ -143,9 +143,9 @@ void draw(const Tried& t, const char* along, const char* unit, double Spot::* ax
             auto& line = spot.better_switches ? better : as_is;
             line.x.push_back(at), line.y.push_back(spot.*axis);
         }
-    out.plot(fmt::format("{}: the press at several {}", t.name(), along), "time (s)", fmt::format("{} ({})", along, unit))
-        .points("as it is", as_is)
-        .points("hv_switches=1", better);
+    auto& plot = out.plot(fmt::format("{}: the press at several {}", t.name(), along), "time (s)", fmt::format("{} ({})", along, unit));
+    plot.points("as it is", as_is);
+    if (!better.empty()) plot.points("hv_switches=1", better);
 }
 
 Result<Outcome> work(const StudyOptions& options) {
