@@ -115,7 +115,7 @@ Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Mea
 
 Result<std::vector<double>> mismatch_of(const PrintedArrays& all) { return mismatch_of(all.circuit, all_meant(all)); }
 
-void put_column(Outcome& out, const Column& column, const OurArrays& ours, const std::string& source) {
+void put_column(Outcome& out, const TableColumn& column, const OurArrays& ours, const std::string& source) {
     for (const auto& a : ours) {
         auto& c = out.claim(fmt::format("{}: {}", a.printed->name, column.what), column.made(a), column.unit);
         c.printed_as(column.factor * a.printed->*column.printed, *column.reading == 0 ? source : source + ", " + column.reading);
@@ -125,7 +125,7 @@ void put_column(Outcome& out, const Column& column, const OurArrays& ours, const
 
 void put_sizes(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
     using P = PrintedArray;
-    const Column columns[] = {
+    const TableColumn columns[] = {
         {"S_eq", "", [](const OurArray& a) { return a.S; }, &P::S},
         {"A", "um^2", [](const OurArray& a) { return a.A / um2; }, &P::A},
         {"A_T", "um^2", [](const OurArray& a) { return a.A_T / um2; }, &P::A_T},
@@ -136,7 +136,7 @@ void put_sizes(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
 
 void put_small_signals(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
     using P = PrintedArray;
-    const Column columns[] = {
+    const TableColumn columns[] = {
         {"g_md", "S", [](const OurArray& a) { return a.g_md; }, &P::g_md, all.g_md, of_early_voltage, all.g_md_is},
         {"g_mg", "S", [](const OurArray& a) { return a.g_mg; }, &P::g_mg, 1e-6},
         {"g_ms", "S", [](const OurArray& a) { return a.g_ms; }, &P::g_ms, 1e-6},
@@ -149,7 +149,7 @@ void put_small_signals(Outcome& out, const PrintedArrays& all, const OurArrays& 
 
 void put_ratios(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
     using P = PrintedArray;
-    const Column columns[] = {
+    const TableColumn columns[] = {
         {"g_mg/I_D", "1/V", [](const OurArray& a) { return a.g_by_I(); }, &P::g_by_I},
         {"I_D/g_md", "V", [](const OurArray& a) { return a.V_A(); }, &P::V_A, 1, of_early_voltage},
         {"g_mg/g_md", "dB", [](const OurArray& a) { return a.gain(); }, &P::gain},

@@ -94,7 +94,7 @@ Result<std::vector<double>> mismatch_of(const PrintedArrays&);
 double known_to();
 
 /// A column of a table: what is printed, in its unit, and ours.
-struct Column {
+struct TableColumn {
     const char *what, *unit;
     double (*made)(const OurArray&);
     double PrintedArray::* printed;
@@ -103,7 +103,7 @@ struct Column {
     const char* reading = "";                  ///< of what is printed, where that is not its head's
 };
 /// A claim a cell.
-void put_column(Outcome&, const Column&, const OurArrays&, const std::string& source);
+void put_column(Outcome&, const TableColumn&, const OurArrays&, const std::string& source);
 
 void put_sizes(Outcome&, const PrintedArrays&, const OurArrays&);
 void put_small_signals(Outcome&, const PrintedArrays&, const OurArrays&);

@@ -4,8 +4,8 @@
 
 namespace corpuscle {
 
-Spread spread_of(std::vector<double> values) {
-    Spread out;
+SampleSpread spread_of(std::vector<double> values) {
+    SampleSpread out;
     const auto n = static_cast<double>(values.size());
     for (const double x : values) out.mean += x / n;
     for (const double x : values) out.deviation += (x - out.mean) * (x - out.mean) / (n - 1);
@@ -14,7 +14,7 @@ Spread spread_of(std::vector<double> values) {
     return out;
 }
 
-Spread spread_of(const std::vector<Found>& chips, const std::string& name) {
+SampleSpread spread_of(const std::vector<Found>& chips, const std::string& name) {
     std::vector<double> values;
     for (const auto& chip : chips) values.push_back(chip.at_rest(name));
     return spread_of(std::move(values));

@@ -7,14 +7,14 @@
 
 namespace corpuscle {
 
-struct Spread {
+struct SampleSpread {
     std::vector<double> values;
     double mean = 0, deviation = 0;  ///< the deviation of a sample: n - 1
     double percent() const { return 100 * deviation / mean; }
 };
-Spread spread_of(std::vector<double> values);
+SampleSpread spread_of(std::vector<double> values);
 
 /// Of a voltage or a current at each chip's operating point: "v(q)".
-Spread spread_of(const std::vector<Found>& chips, const std::string& name);
+SampleSpread spread_of(const std::vector<Found>& chips, const std::string& name);
 
 }  // namespace corpuscle

@@ -28,7 +28,7 @@ inline double rounded(double x) {
 }
 
 /// Words of `word` bits, of which `frac` stand behind the point.
-struct Format {
+struct WordFormat {
     int word = 32, frac = 20;
     Word most() const { return (Word{1} << (word - 1)) - 1; }
     Word least() const { return -(Word{1} << (word - 1)); }
@@ -45,7 +45,7 @@ struct Factor {
 
 /// The operations; counts every result that did not fit a word and was kept at its largest or least.
 struct Arithmetic {
-    Format format;
+    WordFormat format;
     std::int64_t overflowed = 0;
 
     /// A sum, brought back to a word.
@@ -72,8 +72,8 @@ public:
         int shift = -1;  ///< of a factor; -1: a level or a count
     };
 
-    Constants(Format format) : format_(format) {}
-    Format format() const { return format_; }
+    Constants(WordFormat format) : format_(format) {}
+    WordFormat format() const { return format_; }
     const std::vector<Said>& all() const { return all_; }
     const std::optional<Error>& misfit() const { return misfit_; }
 
@@ -110,7 +110,7 @@ private:
                                       name, x, format_.word, format_.frac));
     }
 
-    Format format_;
+    WordFormat format_;
     std::vector<Said> all_;
     std::optional<Error> misfit_;
 };

@@ -50,7 +50,7 @@ class FixedChainOf final : public FixedChain {
     N neuron_;
 
 public:
-    FixedChainOf(const typename R::Facts::Params& r, const typename N::Facts::Params& n, double f_s, Format format)
+    FixedChainOf(const typename R::Facts::Params& r, const typename N::Facts::Params& n, double f_s, WordFormat format)
         : FixedChain(format), receptor_(r, f_s, constants_), neuron_(n, f_s, constants_) {
         const auto sign = [](int k) -> std::string {
             if constexpr (requires { R::Facts::signs; }) return "_" + std::string(R::Facts::signs[k]);

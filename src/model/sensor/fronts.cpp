@@ -39,7 +39,7 @@ Front front_of(const AfferentPlan& plan) {
 Result<std::unique_ptr<const FixedChain>> fixed_chain_of(const AfferentPlan& plan) {
     const auto settings = settings_of(plan);
     const auto adc = adc_of(plan);
-    const Format format{static_cast<int>(adc.word), static_cast<int>(adc.frac)};
+    const WordFormat format{static_cast<int>(adc.word), static_cast<int>(adc.frac)};
     std::unique_ptr<const FixedChain> made;
     with_fixed(FixedReceptors{}, plan.receptor, [&]<class R>(Part<R>) {
         with_fixed(FixedNeurons{}, plan.neuron, [&]<class N>(Part<N>) {

@@ -49,7 +49,7 @@ std::string reason(const Row& row, std::size_t way, bool voltage) {
            "known; fig. 52's inferred bulks are not it";
 }
 
-void claim(Outcome& out, const Row& row, std::size_t way, const Spread& s, bool voltage) {
+void claim(Outcome& out, const Row& row, std::size_t way, const SampleSpread& s, bool voltage) {
     const auto& printed = (voltage ? row.V : row.I)[way];
     const char *symbol = voltage ? "V_Q" : "I_Q", *table = voltage ? "table 17" : "table 18";
     const auto what = fmt::format("{}, {}{}: ", row.name, ways[way].name, row.fitted && way == 0 ? " (fitted)" : "");

@@ -18,7 +18,7 @@ std::int64_t between(std::int64_t low, std::int64_t high) {
 
 /// doc/fixed-point.md's operations in 128 bits, where nothing here can overflow.
 struct Reference {
-    Format format;
+    WordFormat format;
     std::int64_t overflows = 0;
     Wide sat(Wide x) {
         const Wide kept = std::min<Wide>(std::max<Wide>(x, format.least()), format.most());
@@ -32,7 +32,7 @@ struct Reference {
     Wide abs(Wide n) { return n < 0 ? sat(-n) : n; }
 };
 
-Word any_word(Format f) {
+Word any_word(WordFormat f) {
     switch (between(0, 9)) {
         case 0:
             return f.least();
@@ -44,10 +44,10 @@ Word any_word(Format f) {
             return between(f.least(), f.most()) >> between(0, f.word - 1);
     }
 }
-Factor any_factor(Format f) { return {between(0, 4) ? between(f.most() / 2 + 1, f.most()) : f.most(), static_cast<int>(between(0, 62))}; }
+Factor any_factor(WordFormat f) { return {between(0, 4) ? between(f.most() / 2 + 1, f.most()) : f.most(), static_cast<int>(between(0, 62))}; }
 
 template <class R>
-R any_receptor(Format f) {
+R any_receptor(WordFormat f) {
     Constants c(f);
     static const R made({}, 1e3, c);
     R r = made;
@@ -83,7 +83,7 @@ template <class R>
 void a_quarter_of_a_million() {
     for (int n = 0; n < 250'000; ++n) {
         const int word = static_cast<int>(between(8, 32));
-        const Format f{word, static_cast<int>(between(0, word - 1))};
+        const WordFormat f{word, static_cast<int>(between(0, word - 1))};
         const auto r = any_receptor<R>(f);
         typename R::State s;
         Word words[sizeof s / sizeof(Word)];
@@ -108,7 +108,7 @@ TEST(Fixed, AMillionRandomTransductionsGiveTheWordsOfWideArithmeticAndTellEveryO
 }
 
 template <class N>
-N any_neuron(Format f) {
+N any_neuron(WordFormat f) {
     Constants c(f);
     static const N made({}, 1e3, c);
     N n = made;
@@ -153,7 +153,7 @@ template <class N>
 void a_third_of_a_million() {
     for (int m = 0; m < 333'334; ++m) {
         const int word = static_cast<int>(between(8, 32));
-        const Format f{word, static_cast<int>(between(0, word - 1))};
+        const WordFormat f{word, static_cast<int>(between(0, word - 1))};
         const auto n = any_neuron<N>(f);
         typename N::State s{};
         s.u = any_word(f), s.wait = between(0, 4) / 4;
