@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/bias_chips.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/bias_chips.hpp"
 
 namespace corpuscle::studies::bias_spread {
 

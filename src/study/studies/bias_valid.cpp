@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "signal/quantity.hpp"
-#include "study/bias_figure.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/bias_figure.hpp"
 
 namespace corpuscle::studies::bias_valid {
 

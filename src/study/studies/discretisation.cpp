@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::discretisation {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "study/deck.hpp"
-#include "study/load.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/load.hpp"
 
 namespace corpuscle::studies::eq16_20 {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <complex>
 
-#include "study/algorithms.hpp"
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/algorithms.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::eq1_12 {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/array_text.hpp"
-#include "study/arrays.hpp"
 #include "study/deck.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/array_text.hpp"
+#include "study/thesis/arrays.hpp"
 
 namespace corpuscle::studies::eq31_33 {
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/array_text.hpp"
 #include "study/deck.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/array_text.hpp"
 
 namespace corpuscle::studies::eq34_41 {
 

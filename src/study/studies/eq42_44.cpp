@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "circuit/device/constants.hpp"
-#include "study/array_text.hpp"
 #include "study/deck.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/array_text.hpp"
 
 namespace corpuscle::studies::eq42_44 {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "study/deck.hpp"
-#include "study/inverters.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/inverters.hpp"
 
 namespace corpuscle::studies::eq45_47 {
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/bias_sweep.hpp"
-#include "study/inverters.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/bias_sweep.hpp"
+#include "study/thesis/inverters.hpp"
 
 namespace corpuscle::studies::errata_inverters {
 

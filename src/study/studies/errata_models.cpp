@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/algorithms.hpp"
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/algorithms.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::errata_models {
 

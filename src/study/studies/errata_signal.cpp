@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "measure/distance.hpp"
-#include "study/beside.hpp"
-#include "study/load.hpp"
-#include "study/oscillator_alone.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/beside.hpp"
+#include "study/thesis/load.hpp"
+#include "study/thesis/oscillator_alone.hpp"
 
 namespace corpuscle::studies::errata_signal {
 

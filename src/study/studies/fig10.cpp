@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "study/deck.hpp"
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::fig10 {
 

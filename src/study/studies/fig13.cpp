@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "study/studies.hpp"
-#include "study/transconductor.hpp"
+#include "study/thesis/transconductor.hpp"
 
 namespace corpuscle::studies::fig13 {
 

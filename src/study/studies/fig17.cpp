@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::fig17 {
 

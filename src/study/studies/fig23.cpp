@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/force_sensor.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/force_sensor.hpp"
 
 namespace corpuscle::studies::fig23 {
 

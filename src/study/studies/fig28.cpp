@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "study/deck.hpp"
-#include "study/load.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/load.hpp"
 
 namespace corpuscle::studies::fig28 {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/beside.hpp"
-#include "study/oscillator_alone.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/beside.hpp"
+#include "study/thesis/oscillator_alone.hpp"
 
 namespace corpuscle::studies::fig34 {
 

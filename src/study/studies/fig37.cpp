@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/beside.hpp"
 #include "study/deck.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/beside.hpp"
 
 namespace corpuscle::studies::fig37 {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/oscillator_alone.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/oscillator_alone.hpp"
 
 namespace corpuscle::studies::fig39 {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::fig4 {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/beside.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/beside.hpp"
 
 namespace corpuscle::studies::fig40 {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "study/beside.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/beside.hpp"
 
 namespace corpuscle::studies::fig41 {
 

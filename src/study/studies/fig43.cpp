@@ -1,7 +1,7 @@
 // Fig. 43: the layout of the rectangular arrays, drawn by one rule.
 
-#include "study/layout.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/layout.hpp"
 
 namespace corpuscle::studies::fig43 {
 

@@ -1,7 +1,7 @@
 // Fig. 45: the layout of the trapezoidal arrays, drawn by one rule.
 
-#include "study/layout.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/layout.hpp"
 
 namespace corpuscle::studies::fig45 {
 

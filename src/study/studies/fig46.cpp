@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "circuit/cost/area.hpp"
-#include "study/array_text.hpp"
 #include "study/deck.hpp"
 #include "study/spread.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/array_text.hpp"
 
 namespace corpuscle::studies::fig46 {
 

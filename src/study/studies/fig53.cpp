@@ -1,7 +1,7 @@
 // Fig. 53: the bias generator along its current.
 
-#include "study/bias_figure.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/bias_figure.hpp"
 
 namespace corpuscle::studies::fig53 {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/bias_figure.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/bias_figure.hpp"
 
 namespace corpuscle::studies::fig54 {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "study/bias_figure.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/bias_figure.hpp"
 
 namespace corpuscle::studies::fig55 {
 

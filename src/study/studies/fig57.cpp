@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "study/bias_sweep.hpp"
-#include "study/inverters.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/bias_sweep.hpp"
+#include "study/thesis/inverters.hpp"
 
 namespace corpuscle::studies::fig57 {
 

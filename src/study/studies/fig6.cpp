@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "study/apart.hpp"
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::fig6 {
 

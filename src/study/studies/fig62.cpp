@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/inverters.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/inverters.hpp"
 
 namespace corpuscle::studies::fig62 {
 

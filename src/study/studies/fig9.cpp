@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/press.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle::studies::fig9 {
 

@@ -8,8 +8,8 @@
 #include <mutex>
 
 #include "signal/pool.hpp"
-#include "study/beside.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/beside.hpp"
 
 namespace corpuscle::studies::range {
 

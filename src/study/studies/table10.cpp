@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "study/arrays.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/arrays.hpp"
 
 namespace corpuscle::studies::table10 {
 

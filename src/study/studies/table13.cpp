@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/arrays.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/arrays.hpp"
 
 namespace corpuscle::studies::table13 {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/arrays.hpp"
 #include "study/deck.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/arrays.hpp"
 
 namespace corpuscle::studies::table15 {
 

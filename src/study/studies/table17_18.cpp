@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/arrays.hpp"
-#include "study/bias_chips.hpp"
 #include "study/histogram.hpp"
 #include "study/studies.hpp"
+#include "study/thesis/arrays.hpp"
+#include "study/thesis/bias_chips.hpp"
 
 namespace corpuscle::studies::table17_18 {
 

@@ -1,4 +1,4 @@
-#include "study/layout.hpp"
+#include "study/thesis/layout.hpp"
 
 #include <fmt/format.h>
 #include <numeric>

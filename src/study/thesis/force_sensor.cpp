@@ -1,4 +1,4 @@
-#include "study/force_sensor.hpp"
+#include "study/thesis/force_sensor.hpp"
 
 #include <fmt/format.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "study/bias_figure.hpp"
+#include "study/thesis/bias_figure.hpp"
 
 #include <fmt/format.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "study/bias_chips.hpp"
+#include "study/thesis/bias_chips.hpp"
 
 #include <fmt/format.h>
 

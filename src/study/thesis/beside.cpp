@@ -1,4 +1,4 @@
-#include "study/beside.hpp"
+#include "study/thesis/beside.hpp"
 
 #include <algorithm>
 #include <cmath>

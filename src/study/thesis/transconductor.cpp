@@ -1,4 +1,4 @@
-#include "study/transconductor.hpp"
+#include "study/thesis/transconductor.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

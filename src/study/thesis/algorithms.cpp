@@ -1,4 +1,4 @@
-#include "study/algorithms.hpp"
+#include "study/thesis/algorithms.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "study/press.hpp"
+#include "study/thesis/press.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/array_text.hpp"
+#include "study/thesis/array_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // A chip under the press beside the model that it is made after.
 
-#include "study/press.hpp"
+#include "study/thesis/press.hpp"
 
 namespace corpuscle {
 

@@ -1,4 +1,4 @@
-#include "study/load.hpp"
+#include "study/thesis/load.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "study/arrays.hpp"
+#include "study/thesis/arrays.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

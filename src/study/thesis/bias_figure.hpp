@@ -1,8 +1,8 @@
 #pragma once
 // Figs. 53 to 55 are one figure along three axes: the body voltages, typical, and the replica's current in the corners.
 
-#include "study/bias_sweep.hpp"
 #include "study/study.hpp"
+#include "study/thesis/bias_sweep.hpp"
 
 namespace corpuscle {
 

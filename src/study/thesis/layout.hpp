@@ -1,7 +1,7 @@
 #pragma once
 // Arrays as they lie on the chip: their channels in the rectangle that is counted as their total area.
 
-#include "study/arrays.hpp"
+#include "study/thesis/arrays.hpp"
 
 namespace corpuscle {
 

@@ -1,4 +1,4 @@
-#include "study/bias_sweep.hpp"
+#include "study/thesis/bias_sweep.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

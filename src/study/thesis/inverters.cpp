@@ -1,4 +1,4 @@
-#include "study/inverters.hpp"
+#include "study/thesis/inverters.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "study/oscillator_alone.hpp"
+#include "study/thesis/oscillator_alone.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
