@@ -20,7 +20,7 @@ namespace {
 
 using test::functions;
 
-constexpr std::size_t count = 4096;
+constexpr std::size_t points = 4096;
 
 template <class V>
 test::NumberFunctions<V> on(InstructionSet set) {
@@ -40,7 +40,7 @@ test::NumberFunctions<V> on(InstructionSet set) {
 /// Numbers of all sizes, and those at the edges.
 template <class V>
 struct Arguments {
-    lanes::Buffer<V> a{count}, b{count};
+    lanes::Buffer<V> a{points}, b{points};
     Arguments() {
         const V odd[] = {0,
                          -V(0),
@@ -54,7 +54,7 @@ struct Arguments {
                          -700,
                          V(1e-30),
                          V(0.01)};
-        for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t k = 0; k < points; ++k) {
             a.data()[k] = static_cast<V>(20 * normal(1, 0, 0, k)), b.data()[k] = static_cast<V>(normal(1, 1, 0, k));
             if (k < 144) a.data()[k] = odd[k / 12], b.data()[k] = odd[k % 12];
         }
@@ -65,8 +65,8 @@ template <class V>
 std::vector<lanes::Buffer<V>> values(InstructionSet set, const Arguments<V>& x) {
     std::vector<lanes::Buffer<V>> out;
     V* at[functions];
-    for (auto& p : at) p = out.emplace_back(count).data();
-    on<V>(set)(x.a.data(), x.b.data(), count, at);
+    for (auto& p : at) p = out.emplace_back(points).data();
+    on<V>(set)(x.a.data(), x.b.data(), points, at);
     return out;
 }
 
@@ -80,7 +80,7 @@ TEST(Lanes, EveryFunctionInDoubleGivesTheBitsOfOneNumber) {
     const Arguments<double> x;
     for (const auto set : instruction_sets().subspan(1)) {
         const auto found = values(set, x);
-        for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t k = 0; k < points; ++k)
             test::each_function(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double right) {
                 EXPECT_TRUE(same(found[f].data()[k], right)) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", "
                                                              << x.b.data()[k] << ": " << found[f].data()[k] << ", not " << right;
@@ -94,12 +94,12 @@ TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllSetsAndNearDouble) {
     for (const auto set : instruction_sets().subspan(1)) {
         const auto found = values(set, x);
         for (std::size_t f = 0; f < functions; ++f)
-            for (std::size_t k = 0; k < count; ++k)
+            for (std::size_t k = 0; k < points; ++k)
                 EXPECT_TRUE(same(found[f].data()[k], right[f].data()[k]))
                     << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k] << ": " << found[f].data()[k]
                     << ", not " << right[f].data()[k];
     }
-    for (std::size_t k = 144; k < count; ++k)  // exp's error grows with its argument, log's with how near 1 it is
+    for (std::size_t k = 144; k < points; ++k)  // exp's error grows with its argument, log's with how near 1 it is
         test::each_function<double>(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double y) {
             if (std::abs(x.a.data()[k]) > 80 && f == 0) return;
             const double scale = f == 0 ? std::abs(y) * (1 + std::abs(x.a.data()[k])) : std::abs(y) + 1;
