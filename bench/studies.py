@@ -12,7 +12,7 @@ import sys
 import time
 
 PROGRAM = sys.argv[1]
-DRAWN = {"table12", "table15", "table17-18"}
+DRAWN = {"table12", "table15", "table17-18", "bias-spread", "fig46"}
 
 
 def timed(names):
