@@ -208,4 +208,8 @@ std::unique_ptr<Afferent> CircuitDesign::make(double dt, bool sampled, std::uint
     return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
 }
 
+std::unique_ptr<Afferent> CircuitDesign::make(double dt, const std::optional<Draw>& chip) const {
+    return std::make_unique<CircuitAfferent>(shared_from_this(), dt, false, chip);
+}
+
 }  // namespace corpuscle::circuit

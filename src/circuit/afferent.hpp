@@ -24,6 +24,7 @@ public:
     std::string_view title() const override { return circuit->title; }
     std::vector<std::pair<std::string, std::string>> words() const override;
     std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy = 0) const override;
+    std::unique_ptr<Afferent> make(double dt, const std::optional<Draw>& chip) const;
 
     std::optional<Netlist> netlist;  ///< it is of, with what is set of it
     std::shared_ptr<const Circuit> circuit;

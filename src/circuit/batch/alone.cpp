@@ -1,0 +1,74 @@
+// One chip of a batch by itself, as an afferent.
+
+#include "circuit/batch/chips.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr std::size_t block = 256;  // samples
+
+/// A chip at work, block by block.
+class Alone {
+    const Chip& chip_;
+    const BatchOptions& options_;
+    ChipAnswer& out_;
+    std::unique_ptr<Afferent> afferent_;
+    State state_;
+    std::vector<Spike> spikes_;
+    std::vector<std::vector<double>> probes_;
+    std::vector<double*> rows_;
+
+    void keep_shown(std::int64_t first, std::size_t count) {
+        const auto every = static_cast<std::int64_t>(options_.show_every), last = static_cast<std::int64_t>(chip_.force.size());
+        for (std::size_t p = 0; p < probes_.size(); ++p)
+            for (std::size_t k = 0; k < count; ++k)
+                if (const auto sample = first + static_cast<std::int64_t>(k); sample >= 0 && sample < last && sample % every == 0)
+                    out_.shown[p].push_back(static_cast<float>(probes_[p][k]));
+    }
+
+public:
+    Alone(const Chip& chip, const BatchOptions& options, ChipAnswer& out)
+        : chip_(chip), options_(options), out_(out), afferent_(chip.design->make(chip.T, chip.draw)), state_(afferent_->start()) {
+        out.outside.resize(afferent_->ranges().size());
+        if (options.show_every == 0) return;
+        probes_.assign(afferent_->probes().size(), std::vector<double>(block));
+        for (auto& p : probes_) rows_.push_back(p.data());
+        out.shown.resize(probes_.size());
+    }
+
+    Result<void> run() {
+        std::vector<double> force(chip_.force.begin(), chip_.force.end());
+        force.insert(force.end(), static_cast<std::size_t>(afferent_->delay()), force.back());
+        for (std::size_t at = 0; at < force.size() && !out_.capped; at += block) {
+            if (options_.stop && options_.stop()) return Error{Code::interrupted, "interrupted"};
+            const auto count = std::min(block, force.size() - at);
+            const auto first = state_.step - afferent_->delay();
+            Answer answer{spikes_, 0, rows_, out_.outside};
+            auto done = afferent_->respond(std::span(force).subspan(at, count), state_, answer);
+            out_.work.steps += answer.steps, out_.work.rejected += answer.rejected, out_.work.iterations += answer.iterations;
+            out_.spent += answer.spent;
+            if (!done) return done;
+            keep_shown(first, count);
+            out_.capped = options_.most_iterations > 0 && out_.work.iterations > options_.most_iterations;
+        }
+        return {};
+    }
+
+    void tell_spikes() {
+        const auto end = static_cast<std::int64_t>(chip_.force.size());
+        for (const auto& spike : spikes_)
+            if (spike.step <= end) out_.spikes.push_back((static_cast<double>(spike.step - 1) + spike.offset) * chip_.T);
+    }
+};
+
+}  // namespace
+
+ChipAnswer run_chip_alone(const Chip& chip, const BatchOptions& options) {
+    ChipAnswer out;
+    Alone alone(chip, options, out);
+    if (auto done = alone.run(); !done) out.error = done.error();
+    alone.tell_spikes();
+    return out;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,60 @@
+#pragma once
+// The results of a sweep: one SQLite file, a row a unit.
+
+#include "study/sweep/sweep.hpp"
+
+struct sqlite3;
+
+namespace corpuscle {
+
+/// Tables: about(key, value): what results depend on, nothing of who ran it or when; columns(position, kind 'axis' or 'measure', name,
+/// unit, sentence, words, at_least, at_most); units(unit, ended, steps, iterations, alone, why, a column for each axis and measure), ended
+/// as in UnitEnd; spikes(unit, train, times) and traces(unit, trace, samples) of little-endian doubles and floats.
+class SweepResults {
+public:
+    /// The file of this sweep, made if it is not there; refuses the file of another (the first fact that differs is named) and one that
+    /// another process writes.
+    static Result<SweepResults> open(const std::string& path, const Sweep&);
+    /// To be looked at: also while somebody writes.
+    static Result<SweepResults> look(const std::string& path);
+    SweepResults(SweepResults&&) noexcept;
+    SweepResults& operator=(SweepResults&&) noexcept;
+    ~SweepResults();
+
+    /// All of these or, if the program or the disk fails, none; what is there already is left as it is.
+    Result<void> add(const Sweep&, std::vector<UnitOutcome>&&);
+
+    const std::string& path() const;
+    std::int64_t units() const;     ///< of the whole sweep
+    std::int64_t finished() const;  ///< rows
+    const std::vector<SweepColumn>& axes() const;
+    const std::vector<SweepColumn>& measures() const;
+    const std::vector<std::string>& trains() const;
+    const std::vector<std::string>& traces() const;
+    const std::vector<double>& trace_times() const;
+    /// What is said of the sweep under this key; "" if nothing is.
+    std::string about(const std::string& key) const;
+    /// Those that have no row yet, from this shard (unit % of == index): as ranges [from, to).
+    std::vector<std::pair<std::int64_t, std::int64_t>> missing() const;
+
+    /// Every row, in order of unit: `see` gets the unit, its end, axes and measures as in the columns; false stops.
+    struct Row {
+        std::int64_t unit;
+        UnitEnd end;
+        std::int64_t steps, iterations;
+        bool alone;
+        std::string why;
+        std::vector<double> axes, measures;
+    };
+    Result<void> each(const std::function<bool(const Row&)>& see) const;
+    Result<std::vector<double>> spikes(std::int64_t unit, std::size_t train) const;
+    Result<std::vector<float>> trace(std::int64_t unit, std::size_t trace) const;
+    sqlite3* handle() const;  ///< for questions of one's own
+
+private:
+    struct Held;
+    std::unique_ptr<Held> held_;
+    explicit SweepResults(std::unique_ptr<Held>);
+};
+
+}  // namespace corpuscle
