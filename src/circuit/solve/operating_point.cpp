@@ -13,6 +13,7 @@ namespace {
 class Search {
     Newton& newton_;
     const System& system_;
+    bool led_;                          // it begins where somebody knows it to be near; then .nodeset has nothing to add
     std::vector<double> start_, last_;  // last: where plain Newton gave up
     std::size_t nodes_;
     Springs held_;  // to the end
@@ -105,14 +106,14 @@ class Search {
 
 public:
     Search(Newton& newton, std::vector<double> start, Springs held)
-        : newton_(newton), system_(newton.system), start_(std::move(start)), nodes_(static_cast<std::size_t>(system_.nodes())),
-          held_(std::move(held)) {
+        : newton_(newton), system_(newton.system), led_(!start.empty()), start_(std::move(start)),
+          nodes_(static_cast<std::size_t>(system_.nodes())), held_(std::move(held)) {
         start_.resize(static_cast<std::size_t>(system_.size()));
         newton_.iterations = 0;
     }
 
     Result<OperatingPoint> run() {
-        hold(start_);
+        if (!led_) hold(start_);
         struct Way {
             std::string_view name;
             bool (Search::*go)(std::vector<double>&);

@@ -50,7 +50,7 @@ struct Newton {
     std::string distance(std::span<const double> x);
 };
 
-/// From `start` (empty: 0 everywhere), with .nodeset first. `held`: springs that stay to the end.
+/// From `start`; if that is empty, from 0 everywhere, with .nodeset first. `held`: springs that stay to the end.
 Result<OperatingPoint> operating_point(Newton&, std::vector<double> start = {}, Springs held = {});
 
 }  // namespace corpuscle::circuit
