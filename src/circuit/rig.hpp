@@ -51,6 +51,11 @@ public:
     /// Since this was last asked.
     Spent spent() { return std::exchange(spent_, {}); }
 
+    TestBench& bench() { return *bench_; }
+    const Trace& trace() const { return trace_; }
+    const Transient& transient() const { return *transient_; }
+    const PowerMeter& meter() const { return *meter_; }
+
     void save(std::vector<double>& out);
     /// False: this cannot be what save() gave after so many samples.
     bool restore(std::span<const double> in, std::int64_t samples);

@@ -22,25 +22,26 @@ struct Chip {
 
 /// What it did.
 struct ChipAnswer {
-    std::vector<double> spikes;     ///< s
+    std::vector<double> spikes;  ///< s
     TransientWork work;
     Spent spent;
-    std::vector<Outside> outside;   ///< of each of the design's ranges
+    std::vector<Outside> outside;           ///< of each of the design's ranges
     std::vector<std::vector<float>> shown;  ///< what was asked to be shown: each of the design's probes at each sample asked for
-    std::optional<Error> error;     ///< it did not converge: when and where
-    bool capped = false;            ///< it was stopped: more iterations than it may have
-    bool alone = false;             ///< it left its lane, and was done again by itself
+    std::optional<Error> error;             ///< it did not converge: when and where
+    bool capped = false;                    ///< it was stopped: more iterations than it may have
+    bool alone = false;                     ///< it left its lane, and was done again by itself
 };
 
 struct BatchOptions {
-    std::size_t lanes = 8;          ///< 1, 4 or 8; the answers do not depend on it
-    long most_iterations = 0;       ///< of a chip; 0: as many as it takes
-    std::size_t show_every = 0;     ///< samples; 0: nothing is shown
+    std::size_t lanes = 8;       ///< 1, 4 or 8; the answers do not depend on it
+    long most_iterations = 0;    ///< of a chip; 0: as many as it takes
+    std::size_t show_every = 0;  ///< samples; 0: nothing is shown
     std::function<bool()> stop = {};
 };
 
 /// Takes chips until `next` has none, and tells each as it ends, in any order. An answer depends on its chip alone, not on the chips beside
-/// it, on lanes or instruction set. One whose elimination or convergence fails on its lane is done again as one chip alone (CircuitDesign::make).
+/// it, on lanes or instruction set. One whose elimination or convergence fails on its lane is done again as one chip alone
+/// (CircuitDesign::make).
 Result<void> run_chips(const std::shared_ptr<const CircuitDesign>& nominal, const std::function<std::optional<Chip>()>& next,
                        const std::function<void(const Chip&, ChipAnswer&&)>& told, const BatchOptions&);
 

@@ -6,12 +6,13 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/device/uicm_point.hpp"
 #include "circuit/device/values.hpp"
-#include "circuit/lanes/transistors_on.hpp"
+#include "circuit/lanes/chips_on.hpp"
 #include "signal/instruction_set.hpp"
 
 namespace corpuscle::circuit {
 
 const lanes::TransistorLanes lanes::one_by_one = lanes::transistor_lanes<double>;
+const lanes::ChipLanes lanes::chips_one_by_one = lanes::chip_lanes_of<double>;
 
 namespace {
 
@@ -137,16 +138,42 @@ Result<std::unique_ptr<Device>> make_transistor(const Element& e, Setup& setup) 
     return std::unique_ptr<Device>(std::move(device));
 }
 
-Result<std::unique_ptr<Bank>> make_transistor_bank() {
+const UicmConstants& transistor_constants(const Device& device) { return static_cast<const Transistor&>(device).constants(); }
+
+namespace {
+
+/// Of several makes, one for each instruction set, the one for this machine.
+template <class Table>
+Result<const Table*> best_of(const Table& scalar, [[maybe_unused]] const Table& avx2, [[maybe_unused]] const Table& avx512,
+                             const Table& baseline) {
     const auto set = instruction_set();
     if (!set) return set.error();
-    const auto& lanes = *set == InstructionSet::scalar ? lanes::one_by_one
-#ifdef __x86_64__
-                        : *set == InstructionSet::avx512 ? lanes::avx512::transistors
-                        : *set == InstructionSet::avx2   ? lanes::avx2::transistors
-#endif
-                                                       : lanes::baseline::transistors;
-    return std::unique_ptr<Bank>(std::make_unique<TransistorBank>(lanes));
+    switch (*set) {
+        case InstructionSet::scalar:
+            return &scalar;
+        case InstructionSet::avx2:
+            return &avx2;
+        case InstructionSet::avx512:
+            return &avx512;
+        default:
+            return &baseline;
+    }
 }
+
+}  // namespace
+
+#ifdef __x86_64__
+#define CORPUSCLE_BEST_OF(scalar, table) best_of(scalar, lanes::avx2::table, lanes::avx512::table, lanes::baseline::table)
+#else
+#define CORPUSCLE_BEST_OF(scalar, table) best_of(scalar, lanes::baseline::table, lanes::baseline::table, lanes::baseline::table)
+#endif
+
+Result<std::unique_ptr<Bank>> make_transistor_bank() {
+    const auto best = CORPUSCLE_BEST_OF(lanes::one_by_one, transistors);
+    if (!best) return best.error();
+    return std::unique_ptr<Bank>(std::make_unique<TransistorBank>(**best));
+}
+
+Result<const lanes::ChipLanes*> chip_kernels() { return CORPUSCLE_BEST_OF(lanes::chips_one_by_one, chip_lanes); }
 
 }  // namespace corpuscle::circuit

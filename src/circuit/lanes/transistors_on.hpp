@@ -43,9 +43,21 @@ void build(std::byte* at, const UicmConstants* of) {
 
 constexpr double phi_t = 0.026;  // V: rounding is of what exponents hold, and they hold no less
 
+/// A small conductance beside both junctions.
+template <class T>
+[[gnu::always_inline]] inline void add_gmin(UicmAnswer<T>& a, const T (&v)[4], T gmin) {
+    using Of = Terminals;
+    const T i_d = gmin * (v[Of::B] - v[Of::D]), i_s = gmin * (v[Of::B] - v[Of::S]);
+    a.i[Of::B] = a.i[Of::B] + i_d + i_s, a.i[Of::D] = a.i[Of::D] - i_d, a.i[Of::S] = a.i[Of::S] - i_s;
+    a.di[Of::B][Of::B] = a.di[Of::B][Of::B] + gmin + gmin;
+    for (const int end : {Of::D, Of::S}) {
+        a.di[end][end] = a.di[end][end] + gmin;
+        a.di[Of::B][end] = a.di[Of::B][end] - gmin, a.di[end][Of::B] = a.di[end][Of::B] - gmin;
+    }
+}
+
 template <class T, bool charges>
 [[gnu::always_inline]] inline void eval_as(const TransistorCall& call) {
-    using Of = Terminals;
     const std::size_t room = call.room;
     const auto* model = reinterpret_cast<const Uicm<T>*>(call.models);
     const T gmin(call.gmin), rate(call.rate);
@@ -54,13 +66,7 @@ template <class T, bool charges>
                         loaded<T>(call.v + 3 * room + k)};
         UicmAnswer<T> a;
         model->eval(v, a);
-        const T i_d = gmin * (v[Of::B] - v[Of::D]), i_s = gmin * (v[Of::B] - v[Of::S]);
-        a.i[Of::B] = a.i[Of::B] + i_d + i_s, a.i[Of::D] = a.i[Of::D] - i_d, a.i[Of::S] = a.i[Of::S] - i_s;
-        a.di[Of::B][Of::B] = a.di[Of::B][Of::B] + gmin + gmin;
-        for (const int end : {Of::D, Of::S}) {
-            a.di[end][end] = a.di[end][end] + gmin;
-            a.di[Of::B][end] = a.di[Of::B][end] - gmin, a.di[end][Of::B] = a.di[end][Of::B] - gmin;
-        }
+        add_gmin(a, v, gmin);
         if constexpr (charges) {
             for (std::size_t row = 0; row < 4; ++row) {
                 store(a.q[row], call.q + row * room + k);

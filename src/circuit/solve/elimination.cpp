@@ -72,7 +72,6 @@ Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<
         pivots_[k].l_end = static_cast<int>(slot.size());
     }
     for (auto& pivot : pivots_) {
-        pivot.update = static_cast<int>(updates_.size());
         for (int l = pivot.l_begin; l < pivot.l_end; ++l)
             for (int u = pivot.u_begin; u < pivot.u_end; ++u)
                 updates_.push_back(slot.at({l_rows_[static_cast<std::size_t>(l - l_from_)], u_columns_[static_cast<std::size_t>(u)]}));
@@ -88,6 +87,11 @@ Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<
         }
     for (double& s : scale_) s = s > 0 ? 1 / s : 1;
     slots_.resize(slot.size()), per_pivot_.resize(n), work_.resize(n);
+}
+
+lanes::EliminationList Elimination::list() const {
+    return {pivots_.size(),     entry_slot_.size(), slots_.size(), pivots_.data(),  updates_.data(), l_rows_.data(), u_columns_.data(),
+            entry_slot_.data(), entry_row_.data(),  rows_.data(),  columns_.data(), scale_.data(),   l_from_};
 }
 
 bool Elimination::factor(std::span<const double> values) {

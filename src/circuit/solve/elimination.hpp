@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "circuit/lanes/chips.hpp"
+
 namespace corpuscle::circuit {
 
 class Pattern;
@@ -13,13 +15,9 @@ class Pattern;
 /// P R A Q = L U with the row scales R, rows P and columns Q chosen beforehand. Slots hold U, row by row, each beginning with its pivot,
 /// then L, column by column.
 class Elimination {
-    struct Pivot {
-        int u_begin, u_end;  // slots of U's row, after its pivot
-        int l_begin, l_end;  // slots of L's column
-        int update;          // where in updates_ its targets begin: for each of L's slots as many as U's row has
-    };
+    using Pivot = lanes::EliminationList::Pivot;  // slots of U's row, after its pivot; slots of L's column
     std::vector<Pivot> pivots_;
-    std::vector<int> updates_;             // target slots
+    std::vector<int> updates_;             // target slots, pivot by pivot: for each of L's slots as many as U's row has
     std::vector<int> l_rows_, u_columns_;  // of the slots: steps of elimination
     std::vector<int> entry_slot_, entry_row_;
     std::vector<int> rows_, columns_;  // P, Q
@@ -36,6 +34,9 @@ public:
     bool factor(std::span<const double> values);
     void solve(std::span<double> b) const;     ///< A x = b, in place
     double growth() const { return growth_; }  ///< the largest multiplier of the last matrix, of scaled rows
+
+    /// For many matrices at once; it lives as long as this does.
+    lanes::EliminationList list() const;
 
     std::size_t multiplications() const { return updates_.size(); }  ///< and as many additions, in one factor()
     std::size_t slots() const { return slots_.size(); }

@@ -119,6 +119,11 @@ void Solver<T>::settle(std::span<const T> values) {
 }
 
 template <class T>
+const Elimination* Solver<T>::list() const {
+    return held_->list ? &*held_->list : nullptr;
+}
+
+template <class T>
 long Solver<T>::strayed() const {
     return held_->strayed;
 }

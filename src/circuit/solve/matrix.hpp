@@ -30,6 +30,8 @@ struct Singular {
     int column = -1;
 };
 
+class Elimination;
+
 /// T: double or std::complex<double>.
 template <class T>
 class Solver {
@@ -47,7 +49,8 @@ public:
     /// Takes the pivots of this matrix for good and writes their elimination out as a list, for the many like it that follow; one that
     /// they do not serve is still factored anew. Only of doubles, and not of a very large one: then nothing changes.
     void settle(std::span<const T> values);
-    long strayed() const;  ///< matrices since then that the list did not serve
+    const Elimination* list() const;  ///< null: none was written out
+    long strayed() const;             ///< matrices since then that the list did not serve
     /// Of the last matrix along the list, its largest multiplier: where it is large, an answer is worth a look. 0: it went another way.
     double growth() const;
     bool factor_anew(std::span<const T> values);           ///< with pivots of its own, whatever list there is; counts as strayed

@@ -9,28 +9,44 @@ void Past::accept() {
     count_ = std::min(count_ + 1, most);
 }
 
-Past::Weights Past::value(double t, int points) const {
-    Weights w{};
-    for (int j = 0; j < points; ++j) {
+PastWeights weights_of_value(std::span<const double> times, double t) {
+    PastWeights w{};
+    for (std::size_t j = 0; j < times.size(); ++j) {
         double part = 1;
-        for (int i = 0; i < points; ++i)
-            if (i != j) part *= (t - (*this)[i].t) / ((*this)[j].t - (*this)[i].t);
-        w[static_cast<std::size_t>(j)] = part;
+        for (std::size_t i = 0; i < times.size(); ++i)
+            if (i != j) part *= (t - times[i]) / (times[j] - times[i]);
+        w[j] = part;
     }
     return w;
 }
 
-Past::Weights Past::slope(double t, int order, double& leading) const {
-    Weights w{};
+PastWeights weights_of_slope(std::span<const double> times, double t, double& leading) {
+    PastWeights w{};
     leading = 0;
-    for (int j = 0; j < order; ++j) {
-        leading += 1 / (t - (*this)[j].t);
-        double part = 1 / ((*this)[j].t - t);
-        for (int i = 0; i < order; ++i)
-            if (i != j) part *= (t - (*this)[i].t) / ((*this)[j].t - (*this)[i].t);
-        w[static_cast<std::size_t>(j)] = part;
+    for (std::size_t j = 0; j < times.size(); ++j) {
+        leading += 1 / (t - times[j]);
+        double part = 1 / (times[j] - t);
+        for (std::size_t i = 0; i < times.size(); ++i)
+            if (i != j) part *= (t - times[i]) / (times[j] - times[i]);
+        w[j] = part;
     }
     return w;
+}
+
+std::array<double, Past::most> Past::times() const {
+    std::array<double, most> out{};
+    for (int k = 0; k < count_; ++k) out[static_cast<std::size_t>(k)] = (*this)[k].t;
+    return out;
+}
+
+Past::Weights Past::value(double t, int points) const {
+    const auto all = times();
+    return weights_of_value(std::span(all).first(static_cast<std::size_t>(points)), t);
+}
+
+Past::Weights Past::slope(double t, int order, double& leading) const {
+    const auto all = times();
+    return weights_of_slope(std::span(all).first(static_cast<std::size_t>(order)), t, leading);
 }
 
 void Past::sum(const Weights& w, int points, std::vector<double> Moment::* member, std::span<double> out) const {

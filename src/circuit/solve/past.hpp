@@ -13,10 +13,17 @@ struct Moment {
     std::vector<double> x, q;
 };
 
+/// Weights of values at some times, newest first, that give what the polynomial through them has elsewhere.
+using PastWeights = std::array<double, 7>;
+/// Its value at t.
+PastWeights weights_of_value(std::span<const double> times, double t);
+/// Its slope at t, if it goes through a point there, too: leading times that one's value plus these.
+PastWeights weights_of_slope(std::span<const double> times, double t, double& leading);
+
 /// The newest points, newest first; where time has come from and, to some order, where it is going.
 class Past {
 public:
-    static constexpr int most = 7;  ///< points
+    static constexpr int most = std::tuple_size_v<PastWeights>;  ///< points
 
     void clear() { count_ = 0; }
     int count() const { return count_; }
@@ -25,7 +32,8 @@ public:
     Moment& next() { return ring_[static_cast<std::size_t>((first_ + room - 1) % room)]; }
     void accept();
 
-    using Weights = std::array<double, most>;
+    std::array<double, most> times() const;
+    using Weights = PastWeights;
     /// Of the newest `points`: what the polynomial through them is at t.
     Weights value(double t, int points) const;
     /// Of the newest `order`: with them and a point at t, the polynomial's slope at t is leading times the new value plus these.

@@ -7,9 +7,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int most_iterations = 12;
 constexpr double doubtful_growth = 1e4, doubtful_rest = 1e-9;  // of the list's elimination: when its answer is looked at, what it may leave
-constexpr double near_enough = 0.03;                           // of what is allowed: what an iteration may leave over
 
 }  // namespace
 
@@ -47,7 +45,7 @@ StepEquations::StepEquations(const System& system, Newton& newton)
 
 void StepEquations::prepare(double t, double a, std::span<const double> history) {
     newton_.instant.time = t, newton_.instant.charges = true;
-    a_ = a, tries_ = 0, before_ = 0;
+    a_ = a, newton_control_.begin();
     base_ = still_;
     for (std::size_t n = 0; n < history.size(); ++n) base_[n] += history[n];
     for (const auto k : varying_) {
@@ -145,18 +143,11 @@ StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<cons
     ++iterations;
     if (!solve_for_step()) return Way::lost;
     bool clamped = false;
-    const double size = largest_step(allowed, clamped), before = std::exchange(before_, size);
+    const double size = largest_step(allowed, clamped);
     if (!std::isfinite(size)) return Way::lost;
     for (std::size_t n = 0; n < x.size(); ++n) x[n] += step_[n];
-    ++tries_;
     if (system_.linear()) return Way::arrived;
-    if (limited_ || clamped) {
-        before_ = 0;
-        return tries_ < most_iterations ? Way::on : Way::lost;
-    }
-    if (before > 0.1) bend_ = std::max(0.7 * bend_, std::min(1.0, size / (before * before)));
-    if (bend_ * size * size <= near_enough && (size < 10 || before > 0)) return Way::arrived;
-    return tries_ >= most_iterations || (before > 0 && size > 2 * before && tries_ > 3) ? Way::lost : Way::on;
+    return newton_control_.after(size, limited_ || clamped);
 }
 
 void StepEquations::charges(std::span<double> q) {

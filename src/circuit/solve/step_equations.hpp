@@ -3,6 +3,7 @@
 
 #include "circuit/solve/operating_point.hpp"
 #include "circuit/solve/side_by_side.hpp"
+#include "circuit/solve/step_control.hpp"
 
 namespace corpuscle::circuit {
 
@@ -31,9 +32,8 @@ class StepEquations {
     Solver<double> solver_;  // its own: the list of a transient's matrices is not that of an operating point's
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
     std::vector<char> voltage_;
-    int tries_ = 0;
-    double before_ = 0;        // the last step's size; 0: it was cut short
-    double a_ = 0, bend_ = 1;  // bend: how much of a squared step is left after it, in allowed units
+    NewtonControl newton_control_;
+    double a_ = 0;
     bool limited_ = false;
 
     void look(std::span<const double> x);
@@ -49,11 +49,11 @@ public:
 
     /// For a step that ends at t, with dq/dt = a q + history.
     void prepare(double t, double a, std::span<const double> history);
-    enum class Way { on, arrived, lost };
+    using Way = NewtonControl::Way;
     /// One of Newton's steps from x. Arrived: no unknown with allowed[n] > 0 is further from the answer than a small part of that.
     Way iterate(std::vector<double>& x, std::span<const double> allowed);
     /// The largest part of the last step, in allowed units.
-    double step_size() const { return before_; }
+    double step_size() const { return newton_control_.before; }
     /// Of the answer.
     void charges(std::span<double> q);
     /// e with (G + a C) e = r, at the answer's slopes, in place: what a disturbance of the equations does to the unknowns.
@@ -62,8 +62,10 @@ public:
     void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
     /// The matrix's order of elimination, for all that follow, is taken from the one at x with dq/dt = a q.
     void settle(std::span<const double> x, double a);
-    double bend() const { return bend_; }
-    void set_bend(double bend) { bend_ = bend; }
+    double bend() const { return newton_control_.bend; }
+    void set_bend(double bend) { newton_control_.bend = bend; }
+    /// The list of its elimination, once it is settled; null: there is none.
+    const Elimination* elimination() const { return solver_.list(); }
 };
 
 }  // namespace corpuscle::circuit

@@ -11,12 +11,7 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr double shortest_part = 1e-15;       // of the whole: no step is shorter
-constexpr double safety = 0.65;               // a step that has to be taken again costs more than some shorter ones
-constexpr double longer = 2;                  // no step is so many times as long as the last
 constexpr double far_off = 20, hopeless = 2;  // allowed units: of a first iteration that is looked at, of its error
-
-/// How much longer a step of this order may be, for an error of one allowed unit.
-double growth(double error, int order) { return error > 0 ? std::min(safety * std::pow(error, -1.0 / (order + 1)), 10.0) : 10; }
 
 }  // namespace
 
@@ -35,7 +30,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled) {
     auto& first = past_.next();
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     past_.accept();
-    h_ = plan_.longest, bent_ = false;
+    pace_.h = plan_.longest, bent_ = false;
     equations_.at(0, past_[0].x, rate_, first.q);
     start_over();
     allow();
@@ -75,7 +70,7 @@ void Transient::start_over() {
     past_.clear();
     past_.next() = std::move(now);
     past_.accept();
-    order_ = 1, since_choice_ = 0, starting_ = true;
+    pace_.start_over();
 }
 
 void Transient::allow() {
@@ -91,14 +86,14 @@ bool Transient::attempt(double t, double& error) {
     auto& next = past_.next();
     const auto count = scale_.size();
     next.t = t, next.x.resize(count), next.q.resize(count);
-    const int points = std::min(order_ + 1, past_.count());
+    const int points = std::min(pace_.order + 1, past_.count());
     past_.sum(past_.value(t, points), points, &Moment::x, next.x);
     if (trapezoid() && past_.count() > 1) {
         leading_ = 2 / h;
         for (std::size_t n = 0; n < count; ++n) history_[n] = -leading_ * past_[0].q[n] - rate_[n];
     } else {
-        const auto weights = past_.slope(t, order_, leading_);
-        past_.sum(weights, order_, &Moment::q, history_);
+        const auto weights = past_.slope(t, pace_.order, leading_);
+        past_.sum(weights, pace_.order, &Moment::q, history_);
     }
     equations_.prepare(t, leading_, history_);
     for (;;) {
@@ -108,7 +103,7 @@ bool Transient::attempt(double t, double& error) {
         const bool far = way == Way::on && equations_.step_size() > far_off;  // is it worth to go on?
         if (way == Way::on && !far) continue;
         equations_.charges(next.q);
-        error = error_of(order_);
+        error = error_of(pace_.order);
         if (way == Way::arrived || error > hopeless) return true;
     }
 }
@@ -139,36 +134,20 @@ double Transient::error_of(int order) {
 
 /// The order and length of the next step, after one of this length and error.
 void Transient::choose(double h, double error) {
-    const int highest = std::min(trapezoid() ? 2 : plan_.order, past_.count() - 1);
-    double most = growth(error, order_);
-    int best = order_;
-    if (trapezoid()) {
-        best = std::max(1, highest);
-    } else if (since_choice_ > order_ || starting_) {
-        since_choice_ = 0;
-        const double lower = order_ > 1 ? 0.9 * growth(error_of(order_ - 1), order_ - 1) : 0;
-        const bool can_rise = order_ < highest && past_.count() > order_ + 1;
-        const double higher = can_rise ? 0.9 * growth(error_of(order_ + 1), order_ + 1) : 0;
-        if (lower > most && lower > higher)
-            best = order_ - 1, most = lower, starting_ = false;
-        else if (higher > most)
-            best = order_ + 1, most = higher;
-        else if (starting_ && order_ < highest)
-            best = order_ + 1;
-    }
-    order_ = best;
-    const double limit = past_.count() < 3 ? 5 : longer;
-    h_ = h * std::clamp(most, 0.3, limit);
+    const int points = past_.count(), highest = std::min(trapezoid() ? 2 : plan_.order, points - 1);
+    if (!trapezoid()) return pace_.choose(h, error, points, highest, [this](int order) { return error_of(order); });
+    const double most = StepControl::growth(error, pace_.order);
+    pace_.order = std::max(1, highest);
+    pace_.stretch(h, most, points);
 }
 
 /// The step was too long, or its equations were not solved (error 0).
 Result<void> Transient::shorten(double h, double error) {
-    ++work_.rejected, ++failures_;
+    ++work_.rejected;
     if (error == 0) ++work_.lost;
-    h_ = h * (error > 0 ? std::clamp(growth(error, order_), past_.count() == 1 ? 1e-3 : 0.1, 0.8) : 0.125);
-    if (past_.count() > 1 && (failures_ > 1 || h_ < 0.1 * (past_[0].t - past_[1].t))) start_over();
-    if (h_ >= shortest_part * plan_.stop) return {};
-    return too_short(h_);
+    if (pace_.shorten(h, error, past_.count() > 1 ? past_[0].t - past_[1].t : 0)) start_over();
+    if (pace_.h >= shortest_part * plan_.stop) return {};
+    return too_short(pace_.h);
 }
 
 Error Transient::too_short(double h) {
@@ -192,7 +171,7 @@ void Transient::watch() {
     }
     if (calming_ > 0) --calming_;
     if (!rings) return;
-    calming_ = 2, order_ = std::min(2, past_.count());
+    calming_ = 2, pace_.order = std::min(2, past_.count());
     std::fill(alternations_.begin(), alternations_.end(), 0);
 }
 
@@ -202,14 +181,14 @@ void Transient::take() {
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
     past_.accept();
     allow();
-    ++work_.steps, ++since_choice_, failures_ = 0;
+    ++work_.steps, ++pace_.since_choice, pace_.failures = 0;
 }
 
 Result<bool> Transient::step(double until) {
     if (std::exchange(bent_, false)) start_over();
     for (;;) {
         const double t0 = time(), corner = std::min(plan_.stop, system_.next_corner(t0));
-        double h = std::min(h_, plan_.longest);
+        double h = std::min(pace_.h, plan_.longest);
         if (until < plan_.stop && t0 + 2.1 * h > until) return false;
         const bool last = t0 + 1.01 * h >= corner;
         if (!last && t0 + 2 * h > corner) h = (corner - t0) / 2;
@@ -221,9 +200,9 @@ Result<bool> Transient::step(double until) {
             if (auto ok = shorten(t - t0, found ? error : 0); !ok) return ok.error();
             continue;
         }
-        const double wanted = h_;
+        const double wanted = pace_.h;
         choose(t - t0, error);
-        if (last && t - t0 < wanted) h_ = std::max(h_, std::min(wanted, plan_.longest));
+        if (last && t - t0 < wanted) pace_.h = std::max(pace_.h, std::min(wanted, plan_.longest));
         take();
         bent_ = last;
         return true;
@@ -233,8 +212,9 @@ Result<bool> Transient::step(double until) {
 TransientState Transient::save() const {
     TransientState s;
     for (int k = 0; k < past_.count(); ++k) s.past.push_back(past_[k]);
-    s.order = order_, s.since_choice = since_choice_, s.failures = failures_, s.calming = calming_, s.starting = starting_, s.bent = bent_;
-    s.h = h_, s.bend = equations_.bend(), s.work = work_;
+    s.order = pace_.order, s.since_choice = pace_.since_choice, s.failures = pace_.failures, s.calming = calming_,
+    s.starting = pace_.starting, s.bent = bent_;
+    s.h = pace_.h, s.bend = equations_.bend(), s.work = work_;
     s.scale = scale_, s.rate = rate_, s.turn = turn_, s.fastest = fastest_, s.alternations = alternations_, s.memory = newton_.memory;
     return s;
 }
@@ -242,8 +222,9 @@ TransientState Transient::save() const {
 void Transient::restore(const TransientState& s) {
     past_.clear();
     for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
-    order_ = s.order, since_choice_ = s.since_choice, failures_ = s.failures, calming_ = s.calming, starting_ = s.starting, bent_ = s.bent;
-    h_ = s.h, equations_.set_bend(s.bend), work_ = s.work, equations_.iterations = s.work.iterations;
+    pace_.order = s.order, pace_.since_choice = s.since_choice, pace_.failures = s.failures, calming_ = s.calming,
+    pace_.starting = s.starting, bent_ = s.bent;
+    pace_.h = s.h, equations_.set_bend(s.bend), work_ = s.work, equations_.iterations = s.work.iterations;
     scale_ = s.scale, rate_ = s.rate, turn_ = s.turn, fastest_ = s.fastest, alternations_ = s.alternations, newton_.memory = s.memory;
     allow();
 }

@@ -53,11 +53,10 @@ private:
     TransientPlan plan_;
     StepEquations equations_;
     Past past_;
-    int order_ = 1, since_choice_ = 0, failures_ = 0;
-    double h_ = 0, leading_ = 0;
+    StepControl pace_;
+    double leading_ = 0;
     bool ordered_ = false;  // the matrix's elimination, once and for all
     bool bent_ = false;     // the last point is a source's corner: from there it starts over
-    bool starting_ = true;  // since the start every step has been of the highest order its points allow
     std::vector<double> scale_, allowed_, history_, rate_, error_;
     std::vector<char> charged_;
     std::vector<double> turn_, fastest_;  // of the trapezoidal rule: the last change of rate, the fastest rate
@@ -68,7 +67,7 @@ private:
 
     bool trapezoid() const { return plan_.method == Integration::trapezoidal && calming_ == 0; }
     void watch();
-    int points_between() const { return std::min(std::max(order_ + 1, 4), past_.count()); }
+    int points_between() const { return std::min(std::max(pace_.order + 1, 4), past_.count()); }
     void start_over();
     Result<void> settle();
     Error too_short(double h);
@@ -89,6 +88,10 @@ public:
     /// straight line would be off by more than a few times the allowed error. An error says when no step was short enough, and where.
     Result<void> run(std::vector<double> x, bool settled, const Each& each);
     const TransientWork& work() const { return work_; }
+    const TransientPlan& plan() const { return plan_; }
+    bool charged(std::size_t unknown) const { return charged_[unknown] != 0; }  ///< whether it holds a charge, so that its error counts
+    /// Once it has begun; null: there is no list of its elimination.
+    const Elimination* elimination() const { return equations_.elimination(); }
 
     /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them. The matrix's order of
     /// elimination is that of the first x handed in, so that steps after restore() are those that would have come.

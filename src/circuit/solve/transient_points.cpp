@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "circuit/solve/crossing.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {
@@ -43,13 +44,7 @@ std::optional<double> Transient::crossing(int plus, int minus, double level, boo
     if (past_.count() < 2) return {};
     const double sign = upwards ? 1 : -1;
     const auto above = [&](double t) { return sign * (between(t, plus) - between(t, minus) - level); };
-    double from = past_[1].t, to = past_[0].t;
-    if (!(above(from) <= 0 && above(to) > 0)) return {};
-    for (int k = 0; k < 50; ++k) {
-        const double half = from + (to - from) / 2;
-        above(half) > 0 ? to = half : from = half;
-    }
-    return to;
+    return crossing_between(past_[1].t, past_[0].t, above);
 }
 
 }  // namespace corpuscle::circuit

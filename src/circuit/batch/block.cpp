@@ -1,0 +1,199 @@
+#include "circuit/batch/block.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/device/transistor.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// Rows one after another out of one stretch of memory.
+class Rows {
+    std::vector<std::pair<lanes::Row**, std::size_t>> wanted_;
+
+public:
+    void want(lanes::Row*& at, std::size_t count) { wanted_.emplace_back(&at, count); }
+    void give(std::vector<lanes::Row>& memory) {
+        std::size_t all = 0;
+        for (const auto& [at, count] : wanted_) all += count;
+        memory.assign(all, {});
+        all = 0;
+        for (const auto& [at, count] : wanted_) *at = memory.data() + all, all += count;
+    }
+};
+
+}  // namespace
+
+ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std::size_t points) {
+    const auto& p = system.pattern();
+    const auto n = static_cast<std::size_t>(system.size()), entries = p.entries();
+    for (int column = 0; column < p.size(); ++column)
+        for (int e = p.begin()[static_cast<std::size_t>(column)]; e < p.begin()[static_cast<std::size_t>(column) + 1]; ++e)
+            row_.push_back(p.rows()[static_cast<std::size_t>(e)]), column_.push_back(column);
+    for (int u = 0; u < system.size(); ++u) voltage_.push_back(system.is_voltage(u));
+    for (const auto& group : system.groups()) {
+        transistors_ += group.members.size();
+        for (const int u : group.unknowns) terminals_.push_back(u < 0 ? system.size() : u);
+        places_.insert(places_.end(), group.places.begin(), group.places.end());
+    }
+    auto& b = block;
+    b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = elimination.list();
+    b.row = row_.data(), b.column = column_.data(), b.voltage = voltage_.data(), b.terminals = terminals_.data();
+    Rows rows;
+    for (auto* at : {&b.I, &b.Q, &b.q, &b.base, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.per_pivot, &b.work, &b.scale,
+                     &b.per_allowed, &b.relative, &b.floor})
+        rows.want(*at, n);
+    rows.want(b.x, n + 1);
+    for (auto* at : {&b.G, &b.C, &b.J}) rows.want(*at, entries);
+    rows.want(b.slots, b.list.slots);
+    for (auto* at : {&b.past_x, &b.past_q}) rows.want(*at, points * n);
+    rows.want(b.looked, 4 * transistors_);
+    rows.give(rows_);
+    lines_.resize(lanes::chips * transistors_), of_.resize(lines_.size()), moved_.resize(transistors_);
+    still_.resize(n + 2 * entries);
+    numbers_.resize((4 + 4 + 4 + 16 + 16) * transistors_);  // a row is eight chips of every transistor, or more than are picked
+}
+
+void ChipMemory::set_linear(const System& system, std::size_t chip, const Instant& at) {
+    lanes::Row *const I = still_.data(), *const G = I + block.unknowns, *const C = G + block.entries;
+    for (auto& row : still_) row.of[chip] = 0;
+    others_[chip].clear();
+    for (const auto k : system.alone()) {
+        const Device& d = *system.devices()[k];
+        const auto n = d.unknowns.size();
+        OtherDevice other{k, d.unknowns, {}, std::vector<double>(n), {}, std::vector<double>(2 * n + 2 * n * n), {}};
+        other.places.assign(system.places(k).begin(), system.places(k).end());
+        if (!d.linear()) {
+            other.before = other.line;
+            others_[chip].push_back(std::move(other));
+            continue;
+        }
+        const std::span<double> all(other.line);
+        d.eval(other.v, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        for (std::size_t row = 0; row < n; ++row) {
+            if (!d.varies() && d.unknowns[row] >= 0) I[d.unknowns[row]].of[chip] += all[row];
+            for (std::size_t column = 0; column < n; ++column) {
+                const auto place = other.places[row * n + column];
+                if (place >= block.entries) continue;
+                G[place].of[chip] += all[2 * n + row * n + column];
+                C[place].of[chip] += all[2 * n + n * n + row * n + column];
+            }
+        }
+    }
+}
+
+void ChipMemory::seat(std::size_t chip, const System& system, const Instant& at) {
+    set_linear(system, chip, at);
+    auto* of = of_.data() + chip * transistors_;
+    for (const auto& group : system.groups())
+        for (const auto* device : group.members) *of++ = &transistor_constants(*device);
+    std::fill_n(lines_.begin() + static_cast<std::ptrdiff_t>(chip * transistors_), transistors_, StraightLine{});
+    for (std::size_t k = 0; k < 4 * transistors_; ++k) block.looked[k].of[chip] = 1e30;
+    for (std::size_t n = 0; n < block.unknowns; ++n) block.base[n].of[chip] = 0;
+    freshen(chip);
+}
+
+void ChipMemory::freshen(std::size_t chip) {
+    const lanes::Row *const I = still_.data(), *const G = I + block.unknowns, *const C = G + block.entries;
+    for (std::size_t n = 0; n < block.unknowns; ++n) block.I[n].of[chip] = I[n].of[chip], block.Q[n].of[chip] = 0;
+    for (std::size_t e = 0; e < block.entries; ++e) block.G[e].of[chip] = G[e].of[chip], block.C[e].of[chip] = C[e].of[chip];
+    const auto n = static_cast<int>(block.unknowns);
+    for (std::size_t d = 0; d < transistors_; ++d) {
+        const StraightLine& line = lines_[chip * transistors_ + d];
+        for (std::size_t j = 0; j < 4; ++j)
+            if (const int u = terminals_[4 * d + j]; u < n) block.I[u].of[chip] += line.i[j], block.Q[u].of[chip] += line.q[j];
+        for (std::size_t e = 0; e < 16; ++e)
+            if (const auto place = places_[16 * d + e]; place < block.entries)
+                block.G[place].of[chip] += line.g[e], block.C[place].of[chip] += line.c[e];
+    }
+    for (auto& other : others_[chip]) std::fill(other.before.begin(), other.before.end(), 0.0);
+}
+
+void ChipMemory::renew(std::size_t device, std::size_t chip, const double* now, std::size_t room) {
+    const double *const v = now, *const f = v + 4 * room, *const q = f + 4 * room, *const df = q + 4 * room, *const dq = df + 16 * room;
+    StraightLine& old = lines_[chip * transistors_ + device];
+    const int* const terminal = terminals_.data() + 4 * device;
+    const std::size_t* const place = places_.data() + 16 * device;
+    for (std::size_t row = 0; row < 4; ++row) {
+        double i = f[row * room], charge = q[row * room];
+        for (std::size_t column = 0; column < 4; ++column) {
+            const std::size_t e = 4 * row + column;
+            const double g = df[e * room], c = dq[e * room];
+            i -= g * v[column * room], charge -= c * v[column * room];
+            if (place[e] < block.entries) block.G[place[e]].of[chip] += g - old.g[e], block.C[place[e]].of[chip] += c - old.c[e];
+            old.g[e] = g, old.c[e] = c;
+        }
+        if (terminal[row] < static_cast<int>(block.unknowns))
+            block.I[terminal[row]].of[chip] += i - old.i[row], block.Q[terminal[row]].of[chip] += charge - old.q[row];
+        old.i[row] = i, old.q[row] = charge;
+        block.looked[4 * device + row].of[chip] = v[row * room];
+    }
+}
+
+void ChipMemory::look(const lanes::ChipLanes& kernels, std::uint8_t chips, double gmin) {
+    kernels.moved(block, far, moved_.data());
+    picked_.clear(), picked_of_.clear();
+    for (std::size_t d = 0; d < transistors_; ++d)
+        for (unsigned bits = moved_[d] & chips; bits != 0; bits &= bits - 1) {
+            const auto chip = static_cast<std::size_t>(__builtin_ctz(bits));
+            picked_.push_back({d, chip}), picked_of_.push_back(of_[chip * transistors_ + d]);
+        }
+    if (picked_.empty()) return;
+    const std::size_t room = (picked_.size() + lanes::chips - 1) / lanes::chips * lanes::chips;
+    picked_of_.resize(room, picked_of_.back());
+    double *const v = numbers_[0].of, *const f = v + 4 * room, *const q = f + 4 * room, *const df = q + 4 * room;
+    for (std::size_t k = 0; k < room; ++k) {
+        const auto& p = picked_[std::min(k, picked_.size() - 1)];
+        for (std::size_t j = 0; j < 4; ++j) v[j * room + k] = block.x[terminals_[4 * p.device + j]].of[p.chip];
+    }
+    kernels.picked({picked_of_.data(), picked_.size(), room, v, gmin, f, q, df, df + 16 * room});
+    for (std::size_t k = 0; k < picked_.size(); ++k) renew(picked_[k].device, picked_[k].chip, v + k, room);
+}
+
+bool ChipMemory::look_at_others(std::size_t chip, const System& system, const Instant& at, std::vector<double>& memory) {
+    bool any = false;
+    for (auto& o : others_[chip]) {
+        const Device& d = *system.devices()[o.number];
+        const auto n = o.unknowns.size();
+        for (std::size_t j = 0; j < n; ++j) o.v[j] = o.unknowns[j] < 0 ? 0 : block.x[o.unknowns[j]].of[chip];
+        o.looked = o.v;
+        any |= d.memory() > 0 && d.limit(o.looked, system.memory_of(o.number, memory));
+        std::fill(o.line.begin(), o.line.end(), 0.0);
+        const std::span<double> all(o.line);
+        const auto i = all.first(n), q = all.subspan(n, n), g = all.subspan(2 * n, n * n), c = all.subspan(2 * n + n * n);
+        d.eval(o.looked, at, {i, q, g, c});
+        for (std::size_t row = 0; row < n; ++row) {
+            for (std::size_t column = 0; column < n; ++column) {
+                const auto e = row * n + column;
+                i[row] -= g[e] * o.looked[column], q[row] -= c[e] * o.looked[column];
+                if (o.places[e] >= block.entries) continue;
+                block.G[o.places[e]].of[chip] += g[e] - o.before[2 * n + e];
+                block.C[o.places[e]].of[chip] += c[e] - o.before[2 * n + n * n + e];
+            }
+            if (o.unknowns[row] < 0) continue;
+            block.I[o.unknowns[row]].of[chip] += i[row] - o.before[row];
+            block.Q[o.unknowns[row]].of[chip] += q[row] - o.before[n + row];
+        }
+        std::swap(o.before, o.line);
+    }
+    return any;
+}
+
+double ChipMemory::left_over(std::size_t chip) const {
+    std::vector<double> left(block.unknowns), largest(block.unknowns);
+    for (std::size_t n = 0; n < block.unknowns; ++n) left[n] = block.r[n].of[chip];
+    for (std::size_t e = 0; e < block.entries; ++e) {
+        const auto row = static_cast<std::size_t>(block.row[e]);
+        const double part = block.J[e].of[chip] * block.step[block.column[e]].of[chip];
+        left[row] += part, largest[row] = std::max(largest[row], std::abs(part));
+    }
+    double most = 0;
+    for (std::size_t n = 0; n < block.unknowns; ++n)
+        if (largest[n] > 0) most = std::max(most, std::abs(left[n]) / std::max(largest[n], std::abs(block.r[n].of[chip])));
+    return most;
+}
+
+bool can_be_seated(const System& system) { return system.groups().size() == 1 && system.groups()[0].terminals == 4; }
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,76 @@
+#pragma once
+// Chips side by side in memory, as kernels see them: straight lines that are renewed wherever a device has moved.
+
+#include <memory>
+#include <vector>
+
+#include "circuit/lanes/chips.hpp"
+#include "circuit/solve/elimination.hpp"
+#include "circuit/solve/system.hpp"
+
+namespace corpuscle::circuit {
+
+/// A device's currents and charges about where it was looked at: i + g v + d/dt (q + c v).
+struct StraightLine {
+    double i[4] = {}, q[4] = {}, g[16] = {}, c[16] = {};
+};
+
+/// A device that no kernel knows, as a chip has it; looked at anew each time.
+struct OtherDevice {
+    std::size_t number;  ///< in the system
+    std::vector<int> unknowns;
+    std::vector<std::size_t> places;              ///< of its slopes; beyond all entries: of ground
+    std::vector<double> v, looked, line, before;  ///< line: i, q, g, c, as in StraightLine
+};
+
+class ChipMemory {
+    std::vector<lanes::Row> rows_;
+    std::vector<int> row_, column_, terminals_;
+    std::vector<char> voltage_;
+    std::vector<std::size_t> places_;       // of transistors' slopes
+    std::vector<StraightLine> lines_;       // [chip][transistor]
+    std::vector<lanes::Row> still_;         // I, G, C of linear devices
+    std::vector<const UicmConstants*> of_;  // [chip][transistor]
+    std::vector<std::uint8_t> moved_;
+    struct Picked {
+        std::size_t device, chip;
+    };
+    std::vector<Picked> picked_;
+    std::vector<const UicmConstants*> picked_of_;
+    struct alignas(64) Line {
+        double of[8];
+    };
+    std::vector<Line> numbers_;
+    std::vector<OtherDevice> others_[lanes::chips];
+    std::size_t transistors_ = 0;
+
+    void renew(std::size_t device, std::size_t chip, const double* of_picked, std::size_t room);
+    void set_linear(const System&, std::size_t chip, const Instant&);
+
+public:
+    lanes::ChipBlock block{};
+    double far = 0;  ///< V: how far a transistor may move before it is looked at again
+
+    /// Of systems like this one; `points`: how many of the past are kept.
+    ChipMemory(const System&, const Elimination&, std::size_t points);
+    ChipMemory(const ChipMemory&) = delete;
+
+    std::size_t unknowns() const { return block.unknowns; }
+    /// A chip takes its place; its transistors are looked at when they are next needed.
+    void seat(std::size_t chip, const System&, const Instant&);
+    /// Sums its lines anew, so that what rounding leaves does not add up.
+    void freshen(std::size_t chip);
+
+    /// Looks at all transistors that have moved, in those chips, by kernels of this set.
+    void look(const lanes::ChipLanes&, std::uint8_t chips, double gmin);
+    /// Looks at a chip's other devices; whether one could not be looked at where it stands.
+    bool look_at_others(std::size_t chip, const System&, const Instant&, std::vector<double>& memory);
+
+    /// Of a chip's last elimination: the largest part of a row of J step + r that is left, of the largest number in it.
+    double left_over(std::size_t chip) const;
+};
+
+/// Whether a block can hold chips of this system: every device is linear, a transistor, or has few terminals.
+bool can_be_seated(const System&);
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,264 @@
+#include "circuit/batch/seat.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/solve/crossing.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double shortest_part = 1e-15;       // of a transient's longest time, as in Transient
+constexpr double far_off = 20, hopeless = 2;  // allowed units: of an iteration that is looked at, of its error
+constexpr double largest_growth = 1e7;        // of an elimination along the list: see Elimination
+constexpr double doubtful_growth = 1e4;       // when its answer is looked at
+constexpr long fresh_for = 256;               // rounds
+
+}  // namespace
+
+Result<void> Seat::take(Chip chip, const BatchOptions& options) {
+    options_ = &options, answer_ = {};
+    auto rig = Rig::make(*chip.design, chip.T, chip.draw);
+    if (!rig) return rig.error();
+    std::vector<double> force(chip.force.begin(), chip.force.end());
+    force.insert(force.end(), static_cast<std::size_t>(2 * Trace::lag + 2), force.back());
+    if (auto ok = (*rig)->begin(force); !ok) return ok;
+    rig_ = std::move(*rig), chip_ = std::move(chip);
+
+    auto& bench = rig_->bench();
+    const auto start = rig_->transient().save();
+    plan_ = rig_->transient().plan();
+    pace_ = {}, newton_ = {}, bent_ = false, work_ = Work::nothing, looks_ = 0;
+    pace_.h = start.h, times_ = {}, points_ = 1, newest_ = 0, corner_ = -1;
+    end_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
+    const Instant at{0, 1, bench.tolerances.gmin, true};
+    memory_.seat(lane_, bench.system, at);
+    bench.newton.memory = start.memory;
+    auto& b = memory_.block;
+    for (std::size_t n = 0; n < b.unknowns; ++n) {
+        for (std::size_t s = 0; s < b.points; ++s) b.past_x[s * b.unknowns + n].of[lane_] = b.past_q[s * b.unknowns + n].of[lane_] = 0;
+        b.past_x[n].of[lane_] = b.x[n].of[lane_] = start.past[0].x[n], b.past_q[n].of[lane_] = start.past[0].q[n];
+        b.rate[n].of[lane_] = start.rate[n], b.scale[n].of[lane_] = start.scale[n];
+        const bool charged = rig_->transient().charged(n), voltage = b.voltage[n] != 0;
+        const double relative = charged ? plan_.reltol : 0, floor = !charged ? 0 : voltage ? plan_.vntol : plan_.abstol;
+        const double allowed = relative * start.scale[n] + floor;
+        b.relative[n].of[lane_] = relative, b.floor[n].of[lane_] = floor;
+        b.per_allowed[n].of[lane_] = allowed > 0 ? 1 / allowed : 0;
+    }
+    sources_.clear();
+    for (const auto k : bench.system.alone())
+        if (const auto& d = *bench.system.devices()[k]; d.linear() && d.varies()) sources_.push_back(k);
+    x_ = start.past[0].x;
+    power_ = rig_->meter().delivered(x_, 0);
+    answer_.outside.resize(chip_->design->kept.size());
+    if (options.show_every > 0) answer_.shown.resize(chip_->design->shown.size());
+    sample_ = 0;
+    look_at_samples();
+    return {};
+}
+
+ChipAnswer Seat::leave() {
+    chip_.reset(), rig_.reset();
+    work_ = Work::nothing;
+    return std::move(answer_);
+}
+
+/// Currents of the sources at t, into the block's base.
+void Seat::set_sources(double t) {
+    const auto& system = rig_->bench().system;
+    Instant at{t, 1, rig_->bench().tolerances.gmin, true};
+    for (const auto k : sources_)
+        for (const int u : system.devices()[k]->unknowns)
+            if (u >= 0) memory_.block.base[u].of[lane_] = 0;
+    for (const auto k : sources_) {
+        const Device& d = *system.devices()[k];
+        const auto n = d.unknowns.size();
+        v_.assign(n, 0), stamp_.assign(2 * n + 2 * n * n, 0);
+        const std::span<double> all(stamp_);
+        d.eval(v_, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        for (std::size_t row = 0; row < n; ++row)
+            if (d.unknowns[row] >= 0) memory_.block.base[d.unknowns[row]].of[lane_] += stamp_[row];
+    }
+}
+
+/// The next step's end, and how it is predicted: Transient::step and attempt.
+void Seat::attempt() {
+    const double now = times_[0];
+    if (!(now < corner_)) corner_ = std::min(plan_.stop, rig_->bench().system.next_corner(now));
+    double h = std::min(pace_.h, plan_.longest);
+    last_ = now + 1.01 * h >= corner_;
+    if (!last_ && now + 2 * h > corner_) h = (corner_ - now) / 2;
+    t_ = last_ ? corner_ : now + h;
+    value_ = weights_of_value(times(std::min(pace_.order + 1, points_)), t_);
+    newton_.begin();
+    begins_ = true;
+}
+
+Seat::Work Seat::prepare(lanes::PredictCall& call, std::span<lanes::Row> value, std::span<lanes::Row> slope, lanes::SolveCall& solve,
+                         lanes::StepCall& step) {
+    begins_ = false;
+    if (!taken()) return work_ = Work::nothing;
+    if (work_ == Work::restart) {  // at the last point, with nothing of the past
+        a_ = 0;
+        set_sources(times_[0]);
+        for (std::size_t n = 0; n < memory_.unknowns(); ++n)
+            memory_.block.x[n].of[lane_] = past(memory_.block.past_x, 0, n), memory_.block.history[n].of[lane_] = 0;
+    } else if (work_ == Work::nothing) {
+        attempt();
+        set_sources(t_);
+        const auto weights = weights_of_slope(times(pace_.order), t_, a_);
+        for (int k = 0; k < points_; ++k)
+            value[ring(k)].of[lane_] = value_[static_cast<std::size_t>(k)], slope[ring(k)].of[lane_] = weights[static_cast<std::size_t>(k)];
+        for (int k = points_; k < static_cast<int>(memory_.block.points); ++k) value[ring(k)].of[lane_] = slope[ring(k)].of[lane_] = 0;
+        work_ = Work::iterate;
+    }
+    call.begins.of[lane_] = begins_;
+    solve.a.of[lane_] = a_;
+    step.moves.of[lane_] = work_ == Work::iterate;
+    return work_;
+}
+
+void Seat::look_at_others() {
+    if (++looks_ % fresh_for == 0) memory_.freshen(lane_);
+    auto& bench = rig_->bench();
+    limited_ = memory_.look_at_others(lane_, bench.system, {work_ == Work::restart ? times_[0] : t_, 1, bench.tolerances.gmin, true},
+                                      bench.newton.memory);
+}
+
+bool Seat::solved(double growth) {
+    if (work_ == Work::restart) return true;
+    if (!(growth <= largest_growth)) return false;
+    return growth < doubtful_growth || memory_.left_over(lane_) < 1e-9;
+}
+
+Seat::Verdict Seat::iterated(double size, bool clamped, bool finite) {
+    if (work_ == Work::restart) {
+        for (std::size_t n = 0; n < memory_.unknowns(); ++n) memory_.block.rate[n].of[lane_] = -memory_.block.r[n].of[lane_];
+        for (std::size_t n = 0; n < memory_.unknowns() && newest_ != 0; ++n) {
+            auto& b = memory_.block;
+            b.past_x[n].of[lane_] = past(b.past_x, 0, n), b.past_q[n].of[lane_] = past(b.past_q, 0, n);
+        }
+        newest_ = 0, points_ = 1;
+        pace_.start_over();
+        work_ = Work::nothing;
+        return Verdict::goes_on;
+    }
+    ++answer_.work.iterations;
+    if (!finite || !std::isfinite(size)) {
+        far_ = false;
+        return Verdict::fails;
+    }
+    const auto way = newton_.after(size, limited_ || clamped);
+    if (way == NewtonControl::Way::lost) return Verdict::fails;
+    far_ = way == NewtonControl::Way::on;
+    return !far_ || newton_.before > far_off ? Verdict::wants_error : Verdict::goes_on;
+}
+
+void Seat::weigh(int order, lanes::ErrorCall& call, std::span<lanes::Row> of_past) const {
+    for (auto& row : of_past) row.of[lane_] = 0;
+    if (points_ == 1) {
+        const double per = 1 / (t_ - times_[0]);
+        call.of_q.of[lane_] = per, of_past[ring(0)].of[lane_] = -per, call.of_rate.of[lane_] = -1;
+        return;
+    }
+    const int points = std::min(order + 1, points_);
+    const auto weights = order == pace_.order ? value_ : weights_of_value(times(points), t_);
+    const double per = 1 / (t_ - times_[static_cast<std::size_t>(points) - 1]);
+    call.of_q.of[lane_] = per, call.of_rate.of[lane_] = 0;
+    for (int k = 0; k < points; ++k) of_past[ring(k)].of[lane_] = -per * weights[static_cast<std::size_t>(k)];
+}
+
+/// After Newton's steps have gone where they went; error infinite: they did not arrive.
+Seat::Judged Seat::judge(double error) {
+    const bool lost = std::isinf(error);
+    if (!lost && far_ && !(error > hopeless)) return Judged::goes_on;
+    if (error <= 1) return Judged::accepted;
+    ++answer_.work.rejected;
+    if (lost) ++answer_.work.lost;
+    work_ = Work::nothing;
+    if (pace_.shorten(t_ - times_[0], lost ? 0 : error, points_ > 1 ? times_[0] - times_[1] : 0)) work_ = Work::restart;
+    return pace_.h >= shortest_part * plan_.stop ? Judged::rejected : Judged::fails;
+}
+
+void Seat::choose(double error, double lower, double higher) {
+    const double now = times_[0], wanted = pace_.h;
+    const int order = pace_.order;
+    pace_.choose(t_ - now, error, points_, std::min(plan_.order, points_ - 1), [&](int other) { return other < order ? lower : higher; });
+    if (last_ && t_ - now < wanted) pace_.h = std::max(pace_.h, std::min(wanted, plan_.longest));
+}
+
+/// The step's end is the newest point.
+void Seat::advance() {
+    auto& b = memory_.block;
+    const int most = static_cast<int>(b.points);
+    newest_ = (newest_ + most - 1) % most, points_ = std::min(points_ + 1, most);
+    std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
+    times_[0] = t_;
+    const auto at = static_cast<std::size_t>(newest_) * b.unknowns;
+    for (std::size_t n = 0; n < b.unknowns; ++n) {
+        x_[n] = b.past_x[at + n].of[lane_] = b.x[n].of[lane_];
+        b.past_q[at + n].of[lane_] = b.q[n].of[lane_];
+    }
+    bent_ = last_;
+    ++answer_.work.steps, ++pace_.since_choice, pace_.failures = 0;
+    work_ = bent_ ? Work::restart : Work::nothing;
+}
+
+bool Seat::accepted() {
+    const double from = times_[0];
+    advance();
+    spend(from);
+    if (const auto at = spike(); at && std::ceil(*at / chip_->T) < static_cast<double>(chip_->force.size())) answer_.spikes.push_back(*at);
+    look_at_samples();
+    answer_.capped = options_->most_iterations > 0 && answer_.work.iterations > options_->most_iterations;
+    return !answer_.capped && times_[0] < end_;
+}
+
+double Seat::between(double t, int unknown) const {
+    if (unknown < 0) return 0;
+    const int points = std::min(std::max(pace_.order + 1, 4), points_);
+    const auto w = weights_of_value(times(points), t);
+    double sum = 0;
+    for (int k = 0; k < points; ++k)
+        sum += w[static_cast<std::size_t>(k)] * past(memory_.block.past_x, k, static_cast<std::size_t>(unknown));
+    return sum;
+}
+
+std::optional<double> Seat::spike() const {
+    const auto& o = chip_->design->output;
+    const auto u = [&](int k, int unknown) { return unknown < 0 ? 0 : past(memory_.block.past_x, k, static_cast<std::size_t>(unknown)); };
+    const double sign = o.upwards ? 1 : -1;
+    const auto beyond = [&](int k) { return sign * (u(k, o.of.plus) - u(k, o.of.minus) - o.level); };
+    if (!(beyond(1) <= 0 && beyond(0) > 0)) return {};
+    return crossing_between(times_[1], times_[0],
+                            [&](double t) { return sign * (between(t, o.of.plus) - between(t, o.of.minus) - o.level); });
+}
+
+/// Of samples that time has come to: what is to be shown, and whether it is where the circuit was designed to be.
+void Seat::look_at_samples() {
+    const auto& design = *chip_->design;
+    const auto every = static_cast<std::int64_t>(options_->show_every), count = static_cast<std::int64_t>(chip_->force.size());
+    if (design.kept.empty() && every == 0) return;
+    const auto& system = rig_->bench().system;
+    for (; sample_ < count && static_cast<double>(sample_) * chip_->T <= times_[0]; ++sample_) {
+        const double t = static_cast<double>(sample_) * chip_->T;
+        const auto value = [&](int u) {
+            return sample_ > 0 ? between(t, u) : u < 0 ? 0 : past(memory_.block.past_x, 0, static_cast<std::size_t>(u));
+        };
+        for (std::size_t k = 0; k < design.kept.size(); ++k)
+            if (auto& o = answer_.outside[k]; !design.kept[k].holds(design.kept[k].what.seen(system, value)))
+                o = {o.samples + 1, o.first < 0 ? sample_ : o.first};
+        for (std::size_t p = 0; every > 0 && sample_ % every == 0 && p < design.shown.size(); ++p)
+            answer_.shown[p].push_back(static_cast<float>(design.shown[p].seen(system, value)));
+    }
+}
+
+/// What the last step took, as if power went straight.
+void Seat::spend(double from) {
+    const double half = (times_[0] - from) / 2;
+    const auto then = power_;
+    power_ = rig_->meter().delivered(x_, times_[0]);
+    answer_.spent += {2 * half, half * (then.supplies + power_.supplies), half * (then.sensor + power_.sensor)};
+}
+
+}  // namespace corpuscle::circuit
