@@ -25,14 +25,25 @@ Result<std::unique_ptr<Rig>> Rig::make(const CircuitDesign& design, double T, co
     system.go(design.times.step > 0 ? design.times.step : T, design.times.stop > 0 ? design.times.stop : 1);
     for (const auto& d : system.devices()) rig->clocked_ |= d->varies();
     system.hear(&rig->trace_);
-    auto rest = beginning(*rig->bench_, design.times.uic);
-    rig->rest_ = rest ? std::move(rest->x) : beginning(*rig->bench_, true)->x;
-    rig->meter_.emplace(system, rig->rest_, rig->bench_->tolerances.gmin);
+    rig->rest();
     auto plan = design.plan;
     plan.stop = rig->clocked_ ? end_of_clock : end_of_time;
     rig->transient_.emplace(system, rig->bench_->newton, plan);
     (void)rig->transient_->begin(rig->rest_);  // it is the order of elimination that comes of it
     return rig;
+}
+
+/// Where it is at 0 N; if nowhere, as .ic has it.
+void Rig::rest() {
+    auto found = beginning(*bench_, design_.times.uic);
+    rest_ = found ? std::move(found->x) : beginning(*bench_, true)->x;
+    meter_.emplace(bench_->system, rest_, bench_->tolerances.gmin);
+}
+
+void Rig::draw(const Draw& chip) {
+    bench_->draw(chip);
+    trace_ = Trace(trace_.T());
+    rest();
 }
 
 Result<Beginning> Rig::resting(std::span<const double> force, std::vector<double> from) {

@@ -28,6 +28,7 @@ class Rig {
 
     Rig(const CircuitDesign& design, double T) : design_(design), trace_(T) {}
     void shift();
+    void rest();
     Result<Beginning> resting(std::span<const double> force, std::vector<double> from);
     std::vector<double> led_to(double force);
     void spend(double from);
@@ -35,6 +36,8 @@ class Rig {
 public:
     static Result<std::unique_ptr<Rig>> make(const CircuitDesign&, double T, const std::optional<Draw>& chip);
     Rig(const Rig&) = delete;
+    /// Becomes another chip of the same design; its matrix's order of elimination stays.
+    void draw(const Draw& chip);
 
     /// Anew, at rest under the first of these samples.
     Result<void> begin(std::span<const double> force);

@@ -1,7 +1,6 @@
 #include "circuit/batch/block.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "circuit/device/transistor.hpp"
 
@@ -23,20 +22,30 @@ public:
     }
 };
 
+/// Which unknowns the devices stand at: transistors, ground as the last of them; others.
+std::vector<int> terminals_of(const System& system) {
+    std::vector<int> out;
+    for (const auto& group : system.groups())
+        for (const int u : group.unknowns) out.push_back(u < 0 ? system.size() : u);
+    return out;
+}
+std::vector<std::vector<int>> others_of(const System& system) {
+    std::vector<std::vector<int>> out;
+    for (const auto k : system.alone()) out.push_back(system.devices()[k]->unknowns);
+    return out;
+}
+
 }  // namespace
 
-ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std::size_t points) {
+ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std::size_t points)
+    : terminals_(terminals_of(system)), transistors_(terminals_.size() / 4), alone_(others_of(system)) {
     const auto& p = system.pattern();
     const auto n = static_cast<std::size_t>(system.size()), entries = p.entries();
     for (int column = 0; column < p.size(); ++column)
         for (int e = p.begin()[static_cast<std::size_t>(column)]; e < p.begin()[static_cast<std::size_t>(column) + 1]; ++e)
             row_.push_back(p.rows()[static_cast<std::size_t>(e)]), column_.push_back(column);
     for (int u = 0; u < system.size(); ++u) voltage_.push_back(system.is_voltage(u));
-    for (const auto& group : system.groups()) {
-        transistors_ += group.members.size();
-        for (const int u : group.unknowns) terminals_.push_back(u < 0 ? system.size() : u);
-        places_.insert(places_.end(), group.places.begin(), group.places.end());
-    }
+    for (const auto& group : system.groups()) places_.insert(places_.end(), group.places.begin(), group.places.end());
     auto& b = block;
     b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = elimination.list();
     b.row = row_.data(), b.column = column_.data(), b.voltage = voltage_.data(), b.terminals = terminals_.data();
@@ -53,6 +62,10 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     lines_.resize(lanes::chips * transistors_), of_.resize(lines_.size()), moved_.resize(transistors_);
     still_.resize(n + 2 * entries);
     numbers_.resize((4 + 4 + 4 + 16 + 16) * transistors_);  // a row is eight chips of every transistor, or more than are picked
+}
+
+bool ChipMemory::fits(const System& system) const {
+    return static_cast<std::size_t>(system.size()) == block.unknowns && terminals_of(system) == terminals_ && others_of(system) == alone_;
 }
 
 void ChipMemory::set_linear(const System& system, std::size_t chip, const Instant& at) {
@@ -179,21 +192,5 @@ bool ChipMemory::look_at_others(std::size_t chip, const System& system, const In
     }
     return any;
 }
-
-double ChipMemory::left_over(std::size_t chip) const {
-    std::vector<double> left(block.unknowns), largest(block.unknowns);
-    for (std::size_t n = 0; n < block.unknowns; ++n) left[n] = block.r[n].of[chip];
-    for (std::size_t e = 0; e < block.entries; ++e) {
-        const auto row = static_cast<std::size_t>(block.row[e]);
-        const double part = block.J[e].of[chip] * block.step[block.column[e]].of[chip];
-        left[row] += part, largest[row] = std::max(largest[row], std::abs(part));
-    }
-    double most = 0;
-    for (std::size_t n = 0; n < block.unknowns; ++n)
-        if (largest[n] > 0) most = std::max(most, std::abs(left[n]) / std::max(largest[n], std::abs(block.r[n].of[chip])));
-    return most;
-}
-
-bool can_be_seated(const System& system) { return system.groups().size() == 1 && system.groups()[0].terminals == 4; }
 
 }  // namespace corpuscle::circuit

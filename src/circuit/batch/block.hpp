@@ -25,7 +25,9 @@ struct OtherDevice {
 
 class ChipMemory {
     std::vector<lanes::Row> rows_;
-    std::vector<int> row_, column_, terminals_;
+    std::vector<int> terminals_, row_, column_;  // terminals: of transistors
+    std::size_t transistors_;
+    std::vector<std::vector<int>> alone_;  // unknowns of each device that is no transistor
     std::vector<char> voltage_;
     std::vector<std::size_t> places_;       // of transistors' slopes
     std::vector<StraightLine> lines_;       // [chip][transistor]
@@ -42,7 +44,6 @@ class ChipMemory {
     };
     std::vector<Line> numbers_;
     std::vector<OtherDevice> others_[lanes::chips];
-    std::size_t transistors_ = 0;
 
     void renew(std::size_t device, std::size_t chip, const double* of_picked, std::size_t room);
     void set_linear(const System&, std::size_t chip, const Instant&);
@@ -56,6 +57,8 @@ public:
     ChipMemory(const ChipMemory&) = delete;
 
     std::size_t unknowns() const { return block.unknowns; }
+    /// Whether a system has its devices at the same places as the one that this was made for.
+    bool fits(const System&) const;
     /// A chip takes its place; its transistors are looked at when they are next needed.
     void seat(std::size_t chip, const System&, const Instant&);
     /// Sums its lines anew, so that what rounding leaves does not add up.
@@ -65,12 +68,6 @@ public:
     void look(const lanes::ChipLanes&, std::uint8_t chips, double gmin);
     /// Looks at a chip's other devices; whether one could not be looked at where it stands.
     bool look_at_others(std::size_t chip, const System&, const Instant&, std::vector<double>& memory);
-
-    /// Of a chip's last elimination: the largest part of a row of J step + r that is left, of the largest number in it.
-    double left_over(std::size_t chip) const;
 };
-
-/// Whether a block can hold chips of this system: every device is linear, a transistor, or has few terminals.
-bool can_be_seated(const System&);
 
 }  // namespace corpuscle::circuit

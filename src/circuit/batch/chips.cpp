@@ -30,6 +30,7 @@ class Batch {
     void leave(std::size_t lane);
     void fail(std::size_t lane);
     std::uint8_t prepare(lanes::SolveCall&, lanes::StepCall&);
+    std::uint8_t strayed(std::uint8_t working, const Row& growth);
     void iterate(std::uint8_t working, lanes::SolveCall&, lanes::StepCall&);
     void judge(std::uint8_t arrived, std::uint8_t lost, const Row& a);
     template <class Wants, class OrderOf>
@@ -47,6 +48,9 @@ public:
     Result<void> run();
 };
 
+constexpr double largest_growth = 1e7;                         // of an elimination along the list: see Elimination
+constexpr double doubtful_growth = 1e4, doubtful_rest = 1e-9;  // when its answer is looked at, and what it may leave over
+
 bool has(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
 std::uint8_t only(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
 
@@ -56,7 +60,14 @@ void Batch::fill(std::size_t lane) {
         auto chip = next_();
         more_ = chip.has_value();
         if (!chip) return;
-        if (auto ok = seats_[lane].take(*chip, options_); !ok) alone(*chip, 0);
+        const auto seated = seats_[lane].take(*chip, options_);
+        if (!seated) {
+            ChipAnswer answer;
+            answer.error = seated.error();
+            told_(*chip, std::move(answer));
+        } else if (!*seated) {
+            alone(*chip, 0);
+        }
     }
 }
 
@@ -100,12 +111,29 @@ void Batch::errors(std::uint8_t of, const Wants& wants, const OrderOf& order_of,
     for (std::size_t l = 0; l < seats_.size(); ++l) out[l] = call.worst.of[l];
 }
 
+/// Of those at work, whose elimination cannot be trusted.
+std::uint8_t Batch::strayed(std::uint8_t working, const Row& growth) {
+    std::uint8_t out = 0, doubtful = 0;
+    for (std::size_t l = 0; l < seats_.size(); ++l) {
+        if (!has(working, l) || seats_[l].restarts()) continue;
+        if (!(growth.of[l] <= largest_growth)) out |= only(l);
+        if (growth.of[l] >= doubtful_growth) doubtful |= only(l);
+    }
+    if (doubtful == 0) return out;
+    Row left;
+    kernels_.left_over(memory_.block, left);
+    for (std::size_t l = 0; l < seats_.size(); ++l)
+        if (has(doubtful, l) && !(left.of[l] < doubtful_rest)) out |= only(l);
+    return out;
+}
+
 void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCall& step) {
+    const auto astray = strayed(working, solve.growth);
     kernels_.go(memory_.block, step);
     std::uint8_t arrived = 0, lost = 0;
     for (std::size_t l = 0; l < seats_.size(); ++l) {
         if (!has(working, l)) continue;
-        if (!seats_[l].solved(solve.growth.of[l])) {
+        if (has(astray, l)) {
             fail(l);
             continue;
         }
@@ -191,7 +219,7 @@ Result<void> run_chips(const std::shared_ptr<const CircuitDesign>& nominal, cons
     if (!rig) return rig.error();
     const auto& system = (*rig)->bench().system;
     const auto* list = (*rig)->transient().elimination();
-    if (list == nullptr || !can_be_seated(system) || nominal->plan.method != Integration::bdf) return one_by_one(next, told, options);
+    if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf) return one_by_one(next, told, options);
     return Batch(**kernels, system, *list, far_of(nominal->plan), static_cast<std::size_t>(nominal->plan.order) + 1,
                  (*rig)->bench().tolerances.gmin, next, told, options)
         .run();

@@ -10,20 +10,24 @@ namespace {
 
 constexpr double shortest_part = 1e-15;       // of a transient's longest time, as in Transient
 constexpr double far_off = 20, hopeless = 2;  // allowed units: of an iteration that is looked at, of its error
-constexpr double largest_growth = 1e7;        // of an elimination along the list: see Elimination
-constexpr double doubtful_growth = 1e4;       // when its answer is looked at
 constexpr long fresh_for = 256;               // rounds
 
 }  // namespace
 
-Result<void> Seat::take(Chip chip, const BatchOptions& options) {
+Result<bool> Seat::take(const Chip& chip, const BatchOptions& options) {
     options_ = &options, answer_ = {};
-    auto rig = Rig::make(*chip.design, chip.T, chip.draw);
-    if (!rig) return rig.error();
+    if (rig_ && design_ == chip.design && T_ == chip.T && chip.draw) {
+        rig_->draw(*chip.draw);
+    } else {
+        auto rig = Rig::make(*chip.design, chip.T, chip.draw);
+        if (!rig) return rig.error();
+        rig_ = std::move(*rig), design_ = chip.design, T_ = chip.T;
+    }
+    if (!can_be_held()) return false;
     std::vector<double> force(chip.force.begin(), chip.force.end());
     force.insert(force.end(), static_cast<std::size_t>(2 * Trace::lag + 2), force.back());
-    if (auto ok = (*rig)->begin(force); !ok) return ok;
-    rig_ = std::move(*rig), chip_ = std::move(chip);
+    if (auto ok = rig_->begin(force); !ok) return ok.error();
+    chip_ = chip;
 
     auto& bench = rig_->bench();
     const auto start = rig_->transient().save();
@@ -54,11 +58,17 @@ Result<void> Seat::take(Chip chip, const BatchOptions& options) {
     if (options.show_every > 0) answer_.shown.resize(chip_->design->shown.size());
     sample_ = 0;
     look_at_samples();
-    return {};
+    return true;
+}
+
+bool Seat::can_be_held() const {
+    const auto& plan = rig_->transient().plan();
+    return memory_.fits(rig_->bench().system) && plan.method == Integration::bdf &&
+           static_cast<std::size_t>(plan.order) < memory_.block.points;
 }
 
 ChipAnswer Seat::leave() {
-    chip_.reset(), rig_.reset();
+    chip_.reset();
     work_ = Work::nothing;
     return std::move(answer_);
 }
@@ -123,12 +133,6 @@ void Seat::look_at_others() {
     auto& bench = rig_->bench();
     limited_ = memory_.look_at_others(lane_, bench.system, {work_ == Work::restart ? times_[0] : t_, 1, bench.tolerances.gmin, true},
                                       bench.newton.memory);
-}
-
-bool Seat::solved(double growth) {
-    if (work_ == Work::restart) return true;
-    if (!(growth <= largest_growth)) return false;
-    return growth < doubtful_growth || memory_.left_over(lane_) < 1e-9;
 }
 
 Seat::Verdict Seat::iterated(double size, bool clamped, bool finite) {

@@ -18,7 +18,9 @@ private:
     ChipMemory& memory_;
     std::size_t lane_;
     std::optional<Chip> chip_;
-    std::unique_ptr<Rig> rig_;
+    std::unique_ptr<Rig> rig_;  // also of the last chip: the next one's, if only the draw differs
+    std::shared_ptr<const CircuitDesign> design_;
+    double T_ = 0;
     ChipAnswer answer_;
     const BatchOptions* options_ = nullptr;
 
@@ -46,6 +48,7 @@ private:
     std::size_t ring(int k) const { return static_cast<std::size_t>((newest_ + k) % static_cast<int>(memory_.block.points)); }
     double past(lanes::Row* rows, int k, std::size_t n) const { return rows[ring(k) * memory_.unknowns() + n].of[lane_]; }
     std::span<const double> times(int count) const { return std::span(times_).first(static_cast<std::size_t>(count)); }
+    bool can_be_held() const;
     void set_sources(double t);
     void attempt();
     void advance();
@@ -59,8 +62,8 @@ public:
 
     bool taken() const { return chip_.has_value(); }
     const Chip& chip() const { return *chip_; }
-    /// At its beginning. Error: it does not get so far.
-    Result<void> take(Chip, const BatchOptions&);
+    /// At its beginning. False: a lane cannot hold it. Error: it does not get so far.
+    Result<bool> take(const Chip&, const BatchOptions&);
     /// Its answer, and the lane is free.
     ChipAnswer leave();
 
@@ -68,8 +71,8 @@ public:
     Work prepare(lanes::PredictCall&, std::span<lanes::Row> value, std::span<lanes::Row> slope, lanes::SolveCall&, lanes::StepCall&);
     /// Once its unknowns stand at x.
     void look_at_others();
-    /// The round's equations are solved: false if their elimination cannot be trusted.
-    bool solved(double growth);
+    bool restarts() const { return work_ == Work::restart; }
+    /// The round's equations are solved.
     enum class Verdict { goes_on, wants_error, fails };
     Verdict iterated(double size, bool clamped, bool finite);
     /// Weights of the error of the step at work, had it been of this order.

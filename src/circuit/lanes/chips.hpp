@@ -84,6 +84,8 @@ struct ChipLanes {
     /// A bit for each chip in which a terminal is `far` volts or more from where its device was looked at.
     void (*moved)(const ChipBlock&, double far, std::uint8_t* of_device);
     void (*solve)(const ChipBlock&, SolveCall&);
+    /// Of the last solve(): the largest part of a row of J step + r that is left, of the largest number in it. Uses `work` and `error`.
+    void (*left_over)(const ChipBlock&, Row& worst);
     void (*go)(const ChipBlock&, StepCall&);
     void (*charges)(const ChipBlock&);
     void (*error)(const ChipBlock&, ErrorCall&);

@@ -157,6 +157,20 @@ void solve(const ChipBlock& b, SolveCall& call) {
 }
 
 template <class T>
+void left_over(const ChipBlock& b, Row& worst) {
+    Row *const left = b.error, *const largest = b.work;
+    for (std::size_t n = 0; n < b.unknowns; ++n) left[n] = b.r[n], row<T>(b.r[n]).abs().to(largest[n]);
+    for (std::size_t e = 0; e < b.entries; ++e) {
+        const Wide<T> part = row<T>(b.J[e]) * row<T>(b.step[b.column[e]]);
+        (row<T>(left[b.row[e]]) + part).to(left[b.row[e]]);
+        max(part.abs(), row<T>(largest[b.row[e]])).to(largest[b.row[e]]);
+    }
+    Wide<T> most(0.0);
+    for (std::size_t n = 0; n < b.unknowns; ++n) most = max(row<T>(left[n]).abs() / max(row<T>(largest[n]), Wide<T>(1e-300)), most);
+    most.to(worst);
+}
+
+template <class T>
 void go(const ChipBlock& b, StepCall& call) {
     constexpr double most_volts = 0.5;
     const Wide<T> moves(call.moves), zero(0.0);
@@ -237,7 +251,8 @@ void picked(const PickedCall& call) {
 }
 
 template <class T>
-constexpr ChipLanes chip_lanes_of{width<T>(), predict<T>, moved<T>, solve<T>, go<T>, charges<T>, error<T>, accept<T>, picked<T>};
+constexpr ChipLanes chip_lanes_of{width<T>(), predict<T>, moved<T>, solve<T>,  left_over<T>,
+                                  go<T>,      charges<T>, error<T>, accept<T>, picked<T>};
 
 }  // namespace
 }  // namespace corpuscle::circuit::lanes
