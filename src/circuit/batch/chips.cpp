@@ -48,8 +48,7 @@ public:
     Result<void> run();
 };
 
-constexpr double largest_growth = 1e7;                         // of an elimination along the list: see Elimination
-constexpr double doubtful_growth = 1e4, doubtful_rest = 1e-9;  // when its answer is looked at, and what it may leave over
+constexpr double doubtful_growth = 1e4, doubtful_rest = 1e-9;  // of an elimination: when its answer is looked at, what it may leave over
 
 bool has(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
 std::uint8_t only(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
@@ -113,15 +112,13 @@ void Batch::errors(std::uint8_t of, const Wants& wants, const OrderOf& order_of,
 
 /// Of those at work, whose elimination cannot be trusted.
 std::uint8_t Batch::strayed(std::uint8_t working, const Row& growth) {
-    std::uint8_t out = 0, doubtful = 0;
-    for (std::size_t l = 0; l < seats_.size(); ++l) {
-        if (!has(working, l) || seats_[l].restarts()) continue;
-        if (!(growth.of[l] <= largest_growth)) out |= only(l);
-        if (growth.of[l] >= doubtful_growth) doubtful |= only(l);
-    }
-    if (doubtful == 0) return out;
+    std::uint8_t doubtful = 0;
+    for (std::size_t l = 0; l < seats_.size(); ++l)
+        if (has(working, l) && !seats_[l].restarts() && !(growth.of[l] < doubtful_growth)) doubtful |= only(l);
+    if (doubtful == 0) return 0;
     Row left;
     kernels_.left_over(memory_.block, left);
+    std::uint8_t out = 0;
     for (std::size_t l = 0; l < seats_.size(); ++l)
         if (has(doubtful, l) && !(left.of[l] < doubtful_rest)) out |= only(l);
     return out;
