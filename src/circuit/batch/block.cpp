@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "circuit/device/transistor.hpp"
+#include "circuit/device/uicm.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -54,11 +55,16 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
                      &b.per_allowed, &b.relative, &b.floor})
         rows.want(*at, n);
     rows.want(b.x, n + 1);
-    for (auto* at : {&b.G, &b.C, &b.J}) rows.want(*at, entries);
+    for (auto* at : {&b.G, &b.C}) rows.want(*at, entries);
     rows.want(b.slots, b.list.slots);
     for (auto* at : {&b.past_x, &b.past_q}) rows.want(*at, points * n);
     rows.want(b.looked, 4 * transistors_);
     rows.give(rows_);
+    std::vector<char> stands(b.list.slots);
+    for (std::size_t e = 0; e < entries; ++e) stands[static_cast<std::size_t>(b.list.entry_slot[e])] = 1;
+    for (std::size_t k = 0; k < b.list.slots; ++k)
+        if (!stands[k]) fill_.push_back(static_cast<int>(k));
+    b.fill = fill_.data(), b.fills = fill_.size();
     lines_.resize(lanes::chips * transistors_), of_.resize(lines_.size()), moved_.resize(transistors_);
     still_.resize(n + 2 * entries);
     numbers_.resize((4 + 4 + 4 + 16 + 16) * transistors_);  // a row is eight chips of every transistor, or more than are picked
@@ -134,7 +140,10 @@ void ChipMemory::renew(std::size_t device, std::size_t chip, const double* now, 
             const std::size_t e = 4 * row + column;
             const double g = df[e * room], c = dq[e * room];
             i -= g * v[column * room], charge -= c * v[column * room];
-            if (place[e] < block.entries) block.G[place[e]].of[chip] += g - old.g[e], block.C[place[e]].of[chip] += c - old.c[e];
+            if (place[e] < block.entries) {
+                if (row != Terminals::G) block.G[place[e]].of[chip] += g - old.g[e];  // no current goes into a gate
+                block.C[place[e]].of[chip] += c - old.c[e];
+            }
             old.g[e] = g, old.c[e] = c;
         }
         if (terminal[row] < static_cast<int>(block.unknowns))

@@ -25,7 +25,7 @@ struct OtherDevice {
 
 class ChipMemory {
     std::vector<lanes::Row> rows_;
-    std::vector<int> terminals_, row_, column_;  // terminals: of transistors
+    std::vector<int> terminals_, row_, column_, fill_;  // terminals: of transistors
     std::size_t transistors_;
     std::vector<std::vector<int>> alone_;  // unknowns of each device that is no transistor
     std::vector<char> voltage_;

@@ -30,7 +30,7 @@ class Batch {
     void leave(std::size_t lane);
     void fail(std::size_t lane);
     std::uint8_t prepare(lanes::SolveCall&, lanes::StepCall&);
-    std::uint8_t strayed(std::uint8_t working, const Row& growth);
+    std::uint8_t strayed(std::uint8_t working, const lanes::SolveCall&);
     void iterate(std::uint8_t working, lanes::SolveCall&, lanes::StepCall&);
     void judge(std::uint8_t arrived, std::uint8_t lost, const Row& a);
     template <class Wants, class OrderOf>
@@ -111,13 +111,13 @@ void Batch::errors(std::uint8_t of, const Wants& wants, const OrderOf& order_of,
 }
 
 /// Of those at work, whose elimination cannot be trusted.
-std::uint8_t Batch::strayed(std::uint8_t working, const Row& growth) {
+std::uint8_t Batch::strayed(std::uint8_t working, const lanes::SolveCall& solve) {
     std::uint8_t doubtful = 0;
     for (std::size_t l = 0; l < seats_.size(); ++l)
-        if (has(working, l) && !seats_[l].restarts() && !(growth.of[l] < doubtful_growth)) doubtful |= only(l);
+        if (has(working, l) && !seats_[l].restarts() && !(solve.growth.of[l] < doubtful_growth)) doubtful |= only(l);
     if (doubtful == 0) return 0;
     Row left;
-    kernels_.left_over(memory_.block, left);
+    kernels_.left_over(memory_.block, solve, left);
     std::uint8_t out = 0;
     for (std::size_t l = 0; l < seats_.size(); ++l)
         if (has(doubtful, l) && !(left.of[l] < doubtful_rest)) out |= only(l);
@@ -125,7 +125,7 @@ std::uint8_t Batch::strayed(std::uint8_t working, const Row& growth) {
 }
 
 void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCall& step) {
-    const auto astray = strayed(working, solve.growth);
+    const auto astray = strayed(working, solve);
     kernels_.go(memory_.block, step);
     std::uint8_t arrived = 0, lost = 0;
     for (std::size_t l = 0; l < seats_.size(); ++l) {

@@ -32,13 +32,15 @@ struct EliminationList {
 struct ChipBlock {
     std::size_t unknowns, entries, points, devices;
     EliminationList list;
-    const int *row, *column;     // of each entry
-    const char* voltage;         // of each unknown: it is one
+    const int *row, *column;  // of each entry
+    const char* voltage;      // of each unknown: it is one
+    const int* fill;          // slots of the list that no entry stands in
+    std::size_t fills;
     const int* terminals;        // [devices][4]: unknowns; ground is the last of x
     Row *I, *Q, *G, *C;          // [unknowns], [entries]
     Row *x, *q;                  // of the step at work; x has one row more, of ground, 0
     Row *base, *history, *rate;  // currents of sources at its end; what dq/dt has beside a q; dq/dt at the last point
-    Row *r, *J, *step, *error;   // what is left over, its slopes, Newton's step, a step's error
+    Row *r, *step, *error;       // what is left over, Newton's step, a step's error
     Row *slots, *per_pivot, *work;
     Row *scale, *per_allowed;  // of each unknown: the largest so far; 1 over its allowed error, 0 if it holds no charge
     Row *relative, *floor;     // its allowed error is relative scale + floor
@@ -85,7 +87,7 @@ struct ChipLanes {
     void (*moved)(const ChipBlock&, double far, std::uint8_t* of_device);
     void (*solve)(const ChipBlock&, SolveCall&);
     /// Of the last solve(): the largest part of a row of J step + r that is left, of the largest number in it. Uses `work` and `error`.
-    void (*left_over)(const ChipBlock&, Row& worst);
+    void (*left_over)(const ChipBlock&, const SolveCall&, Row& worst);
     void (*go)(const ChipBlock&, StepCall&);
     void (*charges)(const ChipBlock&);
     void (*error)(const ChipBlock&, ErrorCall&);

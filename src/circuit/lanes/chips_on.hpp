@@ -94,13 +94,11 @@ void moved(const ChipBlock& b, double far, std::uint8_t* of_device) {
     }
 }
 
-/// L U of J, along the list; growth.
+/// L U of what stands in the slots, along the list; growth.
 template <class T>
 [[gnu::always_inline]] inline Wide<T> factor(const ChipBlock& b) {
     const EliminationList& list = b.list;
     Row* const s = b.slots;
-    for (std::size_t k = 0; k < list.slots; ++k) Wide<T>(0.0).to(s[k]);
-    for (std::size_t e = 0; e < list.entries; ++e) (row<T>(b.J[e]) * Wide<T>(list.scale[list.entry_row[e]])).to(s[list.entry_slot[e]]);
     Wide<T> most(0.0);
     const int* target = list.updates;
     for (std::size_t k = 0; k < list.size; ++k) {
@@ -140,7 +138,7 @@ template <class T>
     }
 }
 
-/// r and J at x, and step with J step + r = 0.
+/// r at x and its slopes J, and step with J step + r = 0.
 template <class T>
 void solve(const ChipBlock& b, SolveCall& call) {
     const Wide<T> a(call.a);
@@ -148,20 +146,22 @@ void solve(const ChipBlock& b, SolveCall& call) {
         (row<T>(b.base[n]) + row<T>(b.history[n]) + row<T>(b.I[n]) + a * row<T>(b.Q[n])).to(b.r[n]);
     for (std::size_t e = 0; e < b.entries; ++e) {
         const Wide<T> J = row<T>(b.G[e]) + a * row<T>(b.C[e]);
-        J.to(b.J[e]);
+        (J * Wide<T>(b.list.scale[b.row[e]])).to(b.slots[b.list.entry_slot[e]]);
         (row<T>(b.r[b.row[e]]) + J * row<T>(b.x[b.column[e]])).to(b.r[b.row[e]]);
     }
+    for (std::size_t k = 0; k < b.fills; ++k) Wide<T>(0.0).to(b.slots[b.fill[k]]);
     factor<T>(b).to(call.growth);
     for (std::size_t n = 0; n < b.unknowns; ++n) (Wide<T>(0.0) - row<T>(b.r[n])).to(b.step[n]);
     solve_for<T>(b, b.step);
 }
 
 template <class T>
-void left_over(const ChipBlock& b, Row& worst) {
+void left_over(const ChipBlock& b, const SolveCall& call, Row& worst) {
+    const Wide<T> a(call.a);
     Row *const left = b.error, *const largest = b.work;
     for (std::size_t n = 0; n < b.unknowns; ++n) left[n] = b.r[n], row<T>(b.r[n]).abs().to(largest[n]);
     for (std::size_t e = 0; e < b.entries; ++e) {
-        const Wide<T> part = row<T>(b.J[e]) * row<T>(b.step[b.column[e]]);
+        const Wide<T> part = (row<T>(b.G[e]) + a * row<T>(b.C[e])) * row<T>(b.step[b.column[e]]);
         (row<T>(left[b.row[e]]) + part).to(left[b.row[e]]);
         max(part.abs(), row<T>(largest[b.row[e]])).to(largest[b.row[e]]);
     }
