@@ -1,0 +1,110 @@
+// What does a chip cost among many, on lanes, and does it do there as it would by itself?
+//
+//     bench-batch NETLIST|NAME [CHIPS] [LANES] [alone]
+//
+// Method: the netlist's afferent is pressed for 1.0 s (10 kHz); each chip draws process and mismatch. All chips go through run_chips on one
+// thread: time a chip, steps, iterations and their time, chips that left their lane, the counts of spikes. With `alone` each goes by
+// itself, too, with pivots of its own (KLU's) and every transistor looked at in every iteration: chips whose counts differ, the largest
+// distance of two spikes of the same number, and how many steps and rejections differ.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "circuit/batch/chips.hpp"
+#include "circuit/carried.hpp"
+#include "signal/stimuli.hpp"
+
+namespace {
+
+using namespace corpuscle;
+using namespace corpuscle::circuit;
+
+constexpr double T = 1e-4;
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+using Answers = std::map<std::int64_t, ChipAnswer>;
+
+
+void tell(const Answers& answers, double took) {
+    long steps = 0, rejected = 0, iterations = 0, most = 0, left = 0, lost = 0;
+    std::map<std::size_t, int> counts;
+    for (const auto& [number, a] : answers) {
+        steps += a.work.steps, rejected += a.work.rejected, iterations += a.work.iterations, most = std::max(most, a.work.iterations);
+        left += a.alone, lost += a.error.has_value(), ++counts[a.spikes.size()];
+    }
+    const auto chips = static_cast<double>(answers.size());
+    std::printf(
+        "%.0f chips: %.2f s, %.1f ms a chip; %.0f steps, %.0f rejected, %.0f iterations a chip (at most %ld), %.2f us an iteration; "
+        "%ld left their lane, %ld did not converge\nspikes:",
+        chips, took, took / chips * 1e3, static_cast<double>(steps) / chips, static_cast<double>(rejected) / chips,
+        static_cast<double>(iterations) / chips, most, took / static_cast<double>(iterations) * 1e6, left, lost);
+    for (const auto& [count, of] : counts) std::printf(" %zu (%d)", count, of);
+    std::printf("\n");
+}
+
+void compare(const Answers& lanes, const Answers& alone) {
+    int other_counts = 0, other_steps = 0;
+    long steps = 0, of = 0;
+    std::vector<double> apart;
+    for (const auto& [number, a] : lanes) {
+        const auto& b = alone.at(number);
+        other_steps += a.work.steps != b.work.steps || a.work.rejected != b.work.rejected;
+        steps += std::labs(a.work.steps - b.work.steps) + std::labs(a.work.rejected - b.work.rejected), of += b.work.steps;
+        if (a.spikes.size() != b.spikes.size()) {
+            ++other_counts;
+            continue;
+        }
+        double most = 0;
+        for (std::size_t k = 0; k < a.spikes.size(); ++k) most = std::max(most, std::abs(a.spikes[k] - b.spikes[k]));
+        apart.push_back(most);
+    }
+    std::sort(apart.begin(), apart.end());
+    const auto at = [&](double share) {
+        return apart.empty() ? 0 : apart[static_cast<std::size_t>(share * static_cast<double>(apart.size() - 1))];
+    };
+    std::printf(
+        "other counts of spikes: %d; furthest two spikes: median %.1f us, 99 %% %.1f us, all %.1f us; chips with other steps: %d, by %ld "
+        "of %ld steps\n",
+        other_counts, at(0.5) * 1e6, at(0.99) * 1e6, at(1) * 1e6, other_steps, steps, of);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) return std::fputs("bench-batch NETLIST|NAME [CHIPS] [LANES] [alone]\n", stderr), 2;
+    const std::int64_t count = argc > 2 ? std::atol(argv[2]) : 100;
+    BatchOptions options;
+    if (argc > 3) options.lanes = static_cast<std::size_t>(std::atol(argv[3]));
+    const auto netlist = open_netlist(argv[1]);
+    if (!netlist) return std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), 1;
+    const auto design = CircuitDesign::of(*netlist);
+    if (!design) return std::fprintf(stderr, "%s\n", design.error().text().c_str()), 1;
+    const auto press = make_stimulus("press", {}, 1 / T, 0);
+    Frames frames(1, 20000);
+    if (!press || !(*press)->read(frames)) return std::fputs("no press\n", stderr), 1;
+    const auto force = std::span<const double>(frames.force[0]).first(frames.count);
+    const Chips chips{static_cast<double>(count), 1};
+    const auto chip = [&](std::int64_t k) { return Chip{k, *design, chips.draw(static_cast<std::uint64_t>(k)), force, T}; };
+
+    Answers lanes, alone;
+    std::int64_t next = 0;
+    double began = seconds();
+    const auto done = run_chips(
+        *design, [&]() -> std::optional<Chip> { return next < count ? std::optional(chip(next++)) : std::nullopt; },
+        [&](const Chip& c, ChipAnswer&& a) { lanes.emplace(c.number, std::move(a)); }, options);
+    if (!done) return std::fprintf(stderr, "%s\n", done.error().text().c_str()), 1;
+    std::printf("on lanes, ");
+    tell(lanes, seconds() - began);
+    if (argc < 5) return 0;
+    began = seconds();
+    for (std::int64_t k = 0; k < count; ++k) alone.emplace(k, run_chip_alone(chip(k), options));
+    std::printf("alone, ");
+    tell(alone, seconds() - began);
+    compare(lanes, alone);
+}
