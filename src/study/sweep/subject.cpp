@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/catalog.hpp"
+#include "circuit/knobs.hpp"
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
