@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "signal/field.hpp"
+#include "signal/quantity.hpp"
+#include "study/sweep/sweep_summary.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Its values in rising order, if they are at most so many.
+std::optional<std::vector<double>> few_values(const std::vector<double>& all, std::size_t most) {
+    std::vector<double> known;
+    for (const double x : all) {
+        if (std::isnan(x)) continue;
+        const auto at = std::lower_bound(known.begin(), known.end(), x);
+        if (at != known.end() && *at == x) continue;
+        if (known.size() == most) return {};
+        known.insert(at, x);
+    }
+    return known;
+}
+
+/// A row's part of an axis: a number from 0, and what each is called.
+struct AxisParts {
+    std::vector<std::size_t> part;
+    std::vector<std::string> labels;
+};
+
+std::string value_label(const SweepColumn& axis, double value) {
+    const bool word = !axis.words.empty() && value >= 0 && value < static_cast<double>(axis.words.size());
+    return word ? axis.words[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
+}
+
+AxisParts points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
+    AxisParts out;
+    for (const double x : all)
+        out.part.push_back(static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
+    for (const double x : values) out.labels.push_back(fmt::format("{} = {}", axis.name, value_label(axis, x)));
+    out.labels.push_back(axis.name + " = none");
+    return out;
+}
+
+AxisParts bands_of(const SweepColumn& axis, const std::vector<double>& all) {
+    auto sorted = all;
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<double> edges;  // the first value of each band but the first
+    for (std::size_t b = 1; b < SweepGroups::bands; ++b) edges.push_back(sorted[b * sorted.size() / SweepGroups::bands]);
+    AxisParts out;
+    for (const double x : all) out.part.push_back(static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin()));
+    for (std::size_t b = 0; b < SweepGroups::bands; ++b)
+        out.labels.push_back(fmt::format("{} {} ... {}", axis.name, format_quantity(b == 0 ? sorted.front() : edges[b - 1], axis.unit),
+                                         format_quantity(b + 1 == SweepGroups::bands ? sorted.back() : edges[b], axis.unit)));
+    return out;
+}
+
+AxisParts parts_of_axis(const SweepTable& table, std::size_t axis) {
+    const auto& all = table.axis_values[axis];
+    const auto values = few_values(all, SweepGroups::most);
+    return values && makes_points(table, axis) ? points_of(table.axes[axis], all, *values) : bands_of(table.axes[axis], all);
+}
+
+}  // namespace
+
+bool makes_points(const SweepTable& table, std::size_t axis) {
+    const auto values = few_values(table.axis_values[axis], SweepGroups::most);
+    return values && (!table.axes[axis].words.empty() || 2 * values->size() <= table.rows());
+}
+
+SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& axes) {
+    SweepGroups out{.axes = axes};
+    if (table.rows() == 0) return out;
+    std::vector<AxisParts> parts;
+    for (const auto a : axes) parts.push_back(parts_of_axis(table, a));
+    std::vector<std::size_t> key(table.rows());
+    for (const auto& p : parts)
+        for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.part[r];
+    std::map<std::size_t, std::size_t> number;  // of each combination that occurs
+    for (const auto k : key) number[k] = 0;
+    for (auto& [k, n] : number) {
+        n = out.groups.size();
+        std::string label;
+        auto rest = k;
+        for (auto p = parts.rbegin(); p != parts.rend(); ++p) {
+            label = p->labels[rest % p->labels.size()] + (label.empty() ? "" : ", ") + label;
+            rest /= p->labels.size();
+        }
+        out.groups.push_back({label, {}});
+    }
+    for (const auto k : key) out.group_of.push_back(number[k]);
+    for (std::size_t r = 0; r < out.group_of.size(); ++r) out.groups[out.group_of[r]].rows.push_back(r);
+    return out;
+}
+
+Result<SweepGroups> grouped(const SweepTable& table, const std::vector<std::string>& by) {
+    std::vector<std::size_t> axes;
+    std::vector<std::string_view> known;
+    for (const auto& a : table.axes) known.push_back(a.name);
+    for (const auto& name : by) {
+        const auto at = std::find(known.begin(), known.end(), name);
+        if (at == known.end())
+            return bad_usage(known.empty() ? fmt::format("--by {}: nothing in this sweep has a value to go by", name)
+                                           : fmt::format("--by {}: no axis is called so{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+        axes.push_back(static_cast<std::size_t>(at - known.begin()));
+    }
+    if (!by.empty()) return grouped_by(table, axes);
+    for (std::size_t a = 0; a < known.size(); ++a)
+        if (makes_points(table, a)) axes.push_back(a);
+    auto out = grouped_by(table, axes);
+    return out.groups.size() <= SweepGroups::most ? out : grouped_by(table, {});
+}
+
+}  // namespace corpuscle
