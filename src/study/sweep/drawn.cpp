@@ -10,15 +10,15 @@
 namespace corpuscle {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using DrawnJson = nlohmann::ordered_json;
 
 constexpr const char* drawn_columns[] = {"name", "number", "type", "W", "L", "m", "stack", "sigma_VT", "sigma_IS"};
 
-Json json_of(const DrawnDevice& d) {
+DrawnJson json_of(const DrawnDevice& d) {
     return {d.name, d.number, d.pmos ? "pmos" : "nmos", d.W, d.L, d.m, d.stack, d.sigma_VT, d.sigma_IS};
 }
 
-DrawnDevice device_from(const Json& row) {
+DrawnDevice device_from(const DrawnJson& row) {
     return {row.at(0), row.at(1), row.at(2) == "pmos", row.at(3), row.at(4), row.at(5), row.at(6), row.at(7), row.at(8)};
 }
 
@@ -47,11 +47,11 @@ std::vector<DrawnDevice> drawn_devices(const circuit::Circuit& circuit) {
 }
 
 std::string text_of(const Drawn& drawn) {
-    Json out = {{"seed", drawn.seed}, {"chips", drawn.chips}};
+    DrawnJson out = {{"seed", drawn.seed}, {"chips", drawn.chips}};
     out["columns"] = drawn_columns;
-    out["subjects"] = Json::array();
+    out["subjects"] = DrawnJson::array();
     for (const auto& s : drawn.subjects) {
-        Json devices = Json::array();
+        DrawnJson devices = DrawnJson::array();
         for (const auto& d : s.devices) devices.push_back(json_of(d));
         out["subjects"].push_back({{"name", s.name}, {"devices", std::move(devices)}});
     }
@@ -60,14 +60,14 @@ std::string text_of(const Drawn& drawn) {
 
 Result<Drawn> drawn_of(const std::string& text) {
     try {
-        const auto in = Json::parse(text);
+        const auto in = DrawnJson::parse(text);
         Drawn out{in.at("seed"), in.at("chips"), {}};
         for (const auto& s : in.at("subjects")) {
             out.subjects.push_back({s.at("name"), {}});
             for (const auto& row : s.at("devices")) out.subjects.back().devices.push_back(device_from(row));
         }
         return out;
-    } catch (const Json::exception& e) {
+    } catch (const DrawnJson::exception& e) {
         return bad_input(fmt::format("what the sweep drew cannot be read: {}", e.what()));
     }
 }

@@ -70,7 +70,8 @@ bool makes_points(const SweepTable& table, std::size_t axis) {
 }
 
 SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& axes) {
-    SweepGroups out{.axes = axes};
+    SweepGroups out;
+    out.axes = axes;
     if (table.rows() == 0) return out;
     std::vector<AxisParts> parts;
     for (const auto a : axes) parts.push_back(parts_of_axis(table, a));

@@ -3,27 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "signal/text.hpp"
+#include "signal/field.hpp"
 #include "study/sweep/sqlite.hpp"
 
 namespace corpuscle {
 namespace {
-
-/// Names of the table's columns for axes, then measures.
-Result<std::vector<std::string>> stored_names(const SweepResults& results) {
-    auto rows = sql::Statement::make(results.handle(), results.path(), "SELECT stored FROM columns ORDER BY position");
-    if (!rows) return rows.error();
-    std::vector<std::string> out;
-    for (;;) {
-        const auto more = rows->step();
-        if (!more) return more.error();
-        if (!*more) break;
-        out.push_back(rows->text(0));
-    }
-    if (out.size() != results.axes().size() + results.measures().size())
-        return bad_input("its table of columns does not fit what it says of its sweep", {results.path()});
-    return out;
-}
 
 Result<std::vector<std::size_t>> measures_called(const SweepResults& results, const std::vector<std::string>& names) {
     std::vector<std::size_t> out;
@@ -62,14 +46,13 @@ bool SweepTable::passes(std::size_t row) const {
 }
 
 Result<SweepTable> read_table(const SweepResults& results, const std::vector<std::string>& measures) {
-    const auto stored = stored_names(results);
-    if (!stored) return stored.error();
     const auto wanted = measures_called(results, measures);
     if (!wanted) return wanted.error();
-    SweepTable out{.units = results.units(), .axes = results.axes()};
+    SweepTable out;
+    out.units = results.units(), out.axes = results.axes();
     std::string asked = "unit, (ended = 'capped') + 2 * (ended = 'lost')";
-    for (std::size_t k = 0; k < results.axes().size(); ++k) asked += ", " + sql::name((*stored)[k]);
-    for (const auto m : *wanted) asked += ", " + sql::name((*stored)[results.axes().size() + m]), out.measures.push_back(results.measures()[m]);
+    for (std::size_t k = 0; k < results.axes().size(); ++k) asked += ", " + sql::name(results.stored()[k]);
+    for (const auto m : *wanted) asked += ", " + sql::name(results.stored()[results.axes().size() + m]), out.measures.push_back(results.measures()[m]);
     const auto works = sql::integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
     if (!works) return works.error();
     if (*works && measures.empty()) {
