@@ -57,6 +57,13 @@ struct ExportWords {
     std::string netlist, target = "ngspice", out;
 };
 
+/// corpuscle sweep show RESULTS
+struct SweepShowWords {
+    std::string results, report_file;
+    std::vector<std::string> by, measures;
+    std::vector<double> quantiles;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
@@ -66,6 +73,7 @@ int compare(const CompareWords&, const Common&);
 int study(const StudyWords&, const Common&);
 int run(const RunWords&, const Common&);
 int export_to(const ExportWords&, const Common&);
+int sweep_show(const SweepShowWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle
