@@ -19,8 +19,6 @@ static_assert(std::endian::native == std::endian::little, "spikes and traces sta
 
 constexpr std::array<std::string_view, 3> ends = {"done", "capped", "lost"};
 
-std::string_view word_of(UnitEnd end) { return ends[static_cast<std::size_t>(end)]; }
-
 UnitEnd end_of(std::string_view word) {
     const auto* at = std::find(ends.begin(), ends.end(), word);
     return at == ends.end() ? UnitEnd::lost : static_cast<UnitEnd>(at - ends.begin());
@@ -65,6 +63,8 @@ Error not_alone(const std::string& path) {
 }
 
 }  // namespace
+
+std::string_view word_of(UnitEnd end) { return ends[static_cast<std::size_t>(end)]; }
 
 Result<void> SweepResults::Held::open_file(int flags) {
     auto opened = sql::open(path, flags);
@@ -119,7 +119,11 @@ Result<void> SweepResults::Held::put(const Sweep& sweep, const UnitOutcome& o) {
     return {};
 }
 
-Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sweep) {
+Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sweep) { return open_as(path, ResultsLayout::of(sweep)); }
+
+Result<SweepResults> SweepResults::open(const std::string& path, const SweepResults& like) { return open_as(path, like.held_->layout); }
+
+Result<SweepResults> SweepResults::open_as(const std::string& path, const ResultsLayout& wanted) {
     auto held = std::make_unique<Held>();
     held->path = path;
     if (auto ok = make_folder(path); !ok) return ok.error();
@@ -127,7 +131,6 @@ Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sw
     if (!lock) return lock.error();
     held->lock = std::move(*lock);
     ::unlink(held->folded().c_str());  // of one that was killed
-    const auto wanted = ResultsLayout::of(sweep);
     if (std::error_code none; !fs::exists(path, none)) {
         held->layout = wanted;
         if (auto ok = held->make(); !ok) return ok.error();
@@ -144,7 +147,6 @@ Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sw
     const auto rows = sql::integer(held->file.get(), path, "SELECT count(*) FROM units");
     if (!rows) return rows.error();
     held->finished = *rows;
-    held->lock->note(held->finished);
     return SweepResults(std::move(held));
 }
 
@@ -195,6 +197,10 @@ Result<void> SweepResults::add(const Sweep& sweep, std::vector<UnitOutcome>&& ou
     const auto size = fs::file_size(held.wal(), none);
     if (!none && static_cast<std::int64_t>(size) > held.next_fold && !held.fold(false)) held.set_next_fold();  // tried again later
     return {};
+}
+
+void SweepResults::note(std::int64_t to_do) const {
+    if (held_->lock) held_->lock->note(finished(), to_do);
 }
 
 const std::string& SweepResults::path() const { return held_->path; }

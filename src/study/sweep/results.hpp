@@ -7,6 +7,11 @@ struct sqlite3;
 
 namespace corpuscle {
 
+struct ResultsLayout;
+
+/// As it stands in the file: "done", "capped", "lost".
+std::string_view word_of(UnitEnd);
+
 /// Tables: about(key, value): what results depend on, nothing of who ran it or when: the facts by their names, and units, facts (their
 /// names in order), trains, traces, trace_times, the last four as JSON; columns(position, kind 'axis' or 'measure', name, unit, sentence,
 /// words as JSON, at_least, at_most, stored: its name in units); units(unit, ended, steps, iterations, alone, why, a column for each axis
@@ -20,6 +25,8 @@ public:
     /// The file of this sweep, made if it is not there; refuses the file of another (the first fact that differs is named) and one that
     /// another process writes.
     static Result<SweepResults> open(const std::string& path, const Sweep&);
+    /// The file of the sweep that another file is of.
+    static Result<SweepResults> open(const std::string& path, const SweepResults& like);
     /// To be looked at: also while somebody writes.
     static Result<SweepResults> look(const std::string& path);
     SweepResults(SweepResults&&) noexcept;
@@ -31,6 +38,10 @@ public:
     /// Makes one file of it, without a -wal beside it. At the end of a run; add() does so, too, when the -wal has become long. If the disk
     /// has no room for that, nothing is lost.
     Result<void> fold();
+    /// All rows of another file of the same sweep; how many were new. Refuses those of a file in which a unit has other results than here.
+    Result<std::int64_t> take(const SweepResults& from);
+    /// Says to those who look how much this run is to do.
+    void note(std::int64_t to_do) const;
 
     const std::string& path() const;
     std::int64_t units() const;     ///< of the whole sweep
@@ -67,6 +78,7 @@ private:
     struct Held;
     std::unique_ptr<Held> held_;
     explicit SweepResults(std::unique_ptr<Held>);
+    static Result<SweepResults> open_as(const std::string& path, const ResultsLayout&);
 };
 
 }  // namespace corpuscle

@@ -24,6 +24,7 @@ Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun
     UnitQueue queue(std::move(*missing), run.shard);
     count = {.to_do = queue.left()};
     if (count.to_do == 0) return {};
+    results.note(count.to_do);
     Crew crew(sweep, run.threads);
     bool stopped = false;
     for (;;) {

@@ -59,9 +59,18 @@ public:
     using Next = std::function<std::optional<std::int64_t>()>;
     using Told = std::function<void(UnitOutcome&&)>;
     virtual Result<void> work(const Next&, const Told&, const std::function<bool()>& stop) const = 0;
+
+    /// How many lanes a circuit's chips run on: 1, 4 or 8; results do not depend on it.
+    virtual void set_lanes(std::size_t) {}
+};
+
+/// What is asked for in place of what the file says.
+struct SweepAsked {
+    std::optional<std::uint64_t> seed = {};
+    std::optional<std::int64_t> units = {};
 };
 
 /// A sweep file (.toml), or a netlist with .mc and .step lines.
-Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path);
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepAsked& asked = {});
 
 }  // namespace corpuscle

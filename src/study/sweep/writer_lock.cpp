@@ -72,17 +72,18 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
         }
         if (still_there(file, path)) {
             lock.path_ = path, lock.file_ = file;
+            lock.note(0, 0);
             return lock;
         }
         ::close(file);
     }
 }
 
-void WriterLock::note(std::int64_t finished) const {
+void WriterLock::note(std::int64_t finished, std::int64_t to_do) const {
     std::array<char, 256> host = {};
     ::gethostname(host.data(), host.size() - 1);
     const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-    const auto text = fmt::format("{} {:.3f} {} {}\n", ::getpid(), now, finished, host[0] ? host.data() : "-");
+    const auto text = fmt::format("{} {:.3f} {} {} {}\n", ::getpid(), now, finished, to_do, host[0] ? host.data() : "-");
     // It is told to people only; on a full disk it is left out.
     if (::ftruncate(file_, 0) == 0) [[maybe_unused]]
         const auto written = ::pwrite(file_, text.data(), text.size(), 0);
@@ -98,7 +99,7 @@ std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results)
     ::close(file);
     if (free) return {};
     Writer out;
-    if (size > 0) std::istringstream(text.data()) >> out.process >> out.since >> out.finished >> out.host;
+    if (size > 0) std::istringstream(text.data()) >> out.process >> out.since >> out.finished >> out.to_do >> out.host;
     return out;
 }
 

@@ -19,8 +19,8 @@ public:
     struct Writer {
         long process = 0;
         std::string host;
-        double since = 0;  ///< s, of the system's clock
-        std::int64_t finished = 0;
+        double since = 0;                      ///< s, of the system's clock
+        std::int64_t finished = 0, to_do = 0;  ///< units, when it began
     };
 
     WriterLock() = default;
@@ -30,8 +30,8 @@ public:
 
     /// Refuses if another has it, and names that.
     static Result<WriterLock> take(const std::string& results);
-    /// How many units had ended when this writer began.
-    void note(std::int64_t finished) const;
+    /// How many units had ended when this writer began, and how many it is to do.
+    void note(std::int64_t finished, std::int64_t to_do) const;
     /// Who has it now, if anybody.
     static std::optional<Writer> holder(const std::string& results);
 };
