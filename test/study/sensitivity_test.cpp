@@ -126,7 +126,7 @@ protected:
 
 TEST_F(Summed, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted) {
     ASSERT_EQ(summary.points.size(), 3U);  // the corner has one value, the process 1000
-    EXPECT_EQ(summary.points[2].label, "temp = 85 C, corner = tt");
+    EXPECT_EQ(summary.points[2].label, "temp = 85 C");
     EXPECT_EQ(summary.all.units, 3000);
     EXPECT_EQ(summary.all.capped, 60);
     EXPECT_EQ(summary.all.lost, 6);
@@ -169,6 +169,8 @@ TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
     const auto& yield = summary.dependences.back();
     EXPECT_EQ(yield.measure, "yield");
     EXPECT_EQ(yield.points.size(), 1U);
+    ASSERT_FALSE(yield.devices.empty());
+    EXPECT_EQ(yield.devices[0].device, 7);
 }
 
 TEST_F(Summed, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameIsMended) {

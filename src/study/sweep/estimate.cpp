@@ -36,6 +36,25 @@ Estimate share_of(std::int64_t some, std::int64_t all) {
 Sorted::Sorted(std::vector<double> values) : values_(std::move(values)) {
     std::erase_if(values_, [](double x) { return std::isnan(x); });
     std::sort(values_.begin(), values_.end());
+    sum_up();
+}
+
+Sorted Sorted::merged(const std::vector<Sorted>& all) {
+    Sorted out;
+    std::vector<std::ptrdiff_t> ends = {0};
+    for (const auto& one : all) {
+        out.values_.insert(out.values_.end(), one.values_.begin(), one.values_.end());
+        ends.push_back(static_cast<std::ptrdiff_t>(out.values_.size()));
+    }
+    const auto begin = out.values_.begin();
+    for (std::size_t width = 1; width < all.size(); width *= 2)  // neighbours, then neighbours of those
+        for (std::size_t k = 0; k + width < all.size(); k += 2 * width)
+            std::inplace_merge(begin + ends[k], begin + ends[k + width], begin + ends[std::min(k + 2 * width, all.size())]);
+    out.sum_up();
+    return out;
+}
+
+void Sorted::sum_up() {
     const auto n = static_cast<double>(values_.size());
     if (values_.empty()) return;
     double sum = 0;

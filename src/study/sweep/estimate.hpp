@@ -24,10 +24,15 @@ Estimate share_of(std::int64_t some, std::int64_t all);
 class Sorted {
     std::vector<double> values_;
     double mean_ = Estimate::none, squares_ = 0, fourths_ = 0;  // sums of the distances' powers; fourths about the trimmed mean
+    void sum_up();
+
+    Sorted() = default;
 
 public:
     /// NaNs are left out.
     explicit Sorted(std::vector<double> values);
+    /// All of several together.
+    static Sorted merged(const std::vector<Sorted>&);
     std::size_t count() const { return values_.size(); }
     const std::vector<double>& values() const { return values_; }
 

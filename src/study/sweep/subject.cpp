@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/catalog.hpp"
+#include "circuit/knobs.hpp"
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"

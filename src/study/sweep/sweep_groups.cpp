@@ -10,19 +10,6 @@
 namespace corpuscle {
 namespace {
 
-/// Its values in rising order, if they are at most so many.
-std::optional<std::vector<double>> few_values(const std::vector<double>& all, std::size_t most) {
-    std::vector<double> known;
-    for (const double x : all) {
-        if (std::isnan(x)) continue;
-        const auto at = std::lower_bound(known.begin(), known.end(), x);
-        if (at != known.end() && *at == x) continue;
-        if (known.size() == most) return {};
-        known.insert(at, x);
-    }
-    return known;
-}
-
 /// A row's part of an axis: a number from 0, and what each is called.
 struct AxisParts {
     std::vector<std::size_t> part;
@@ -36,8 +23,11 @@ std::string value_label(const SweepColumn& axis, double value) {
 
 AxisParts points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
     AxisParts out;
+    out.part.reserve(all.size());
     for (const double x : all)
-        out.part.push_back(static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
+        out.part.push_back(!out.part.empty() && out.part.back() < values.size() && values[out.part.back()] == x
+                               ? out.part.back()
+                               : static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
     for (const double x : values) out.labels.push_back(fmt::format("{} = {}", axis.name, value_label(axis, x)));
     out.labels.push_back(axis.name + " = none");
     return out;
@@ -58,16 +48,10 @@ AxisParts bands_of(const SweepColumn& axis, const std::vector<double>& all) {
 
 AxisParts parts_of_axis(const SweepTable& table, std::size_t axis) {
     const auto& all = table.axis_values[axis];
-    const auto values = few_values(all, SweepGroups::most);
-    return values && makes_points(table, axis) ? points_of(table.axes[axis], all, *values) : bands_of(table.axes[axis], all);
+    return table.makes_points(axis) ? points_of(table.axes[axis], all, table.points[axis]) : bands_of(table.axes[axis], all);
 }
 
 }  // namespace
-
-bool makes_points(const SweepTable& table, std::size_t axis) {
-    const auto values = few_values(table.axis_values[axis], SweepGroups::most);
-    return values && (!table.axes[axis].words.empty() || 2 * values->size() <= table.rows());
-}
 
 SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& axes) {
     SweepGroups out;
@@ -79,7 +63,8 @@ SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& 
     for (const auto& p : parts)
         for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.part[r];
     std::map<std::size_t, std::size_t> number;  // of each combination that occurs
-    for (const auto k : key) number[k] = 0;
+    for (std::size_t r = 0; r < key.size(); ++r)
+        if (r == 0 || key[r] != key[r - 1]) number[key[r]] = 0;
     for (auto& [k, n] : number) {
         n = out.groups.size();
         std::string label;
@@ -90,7 +75,7 @@ SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& 
         }
         out.groups.push_back({label, {}});
     }
-    for (const auto k : key) out.group_of.push_back(number[k]);
+    for (std::size_t r = 0; r < key.size(); ++r) out.group_of.push_back(r > 0 && key[r] == key[r - 1] ? out.group_of.back() : number[key[r]]);
     for (std::size_t r = 0; r < out.group_of.size(); ++r) out.groups[out.group_of[r]].rows.push_back(r);
     return out;
 }
@@ -108,7 +93,7 @@ Result<SweepGroups> grouped(const SweepTable& table, const std::vector<std::stri
     }
     if (!by.empty()) return grouped_by(table, axes);
     for (std::size_t a = 0; a < known.size(); ++a)
-        if (makes_points(table, a)) axes.push_back(a);
+        if (table.points[a].size() > 1) axes.push_back(a);
     auto out = grouped_by(table, axes);
     return out.groups.size() <= SweepGroups::most ? out : grouped_by(table, {});
 }

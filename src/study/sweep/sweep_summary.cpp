@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+
+#include "signal/pool.hpp"
 
 namespace corpuscle {
 namespace {
 
-MeasureSummary measure_summary(const SweepTable& table, std::size_t measure, const std::vector<std::size_t>& rows, const SweepQuestion& question) {
-    std::vector<double> values;
-    std::int64_t kept = 0;
-    for (const auto r : rows) values.push_back(table.measure_values[measure][r]), kept += table.keeps(r, measure);
+MeasureSummary measure_summary(const Sorted& sorted, std::size_t units, const SweepQuestion& question) {
     MeasureSummary out;
-    if (table.has_limits(measure)) out.yield = share_of(kept, static_cast<std::int64_t>(rows.size()));
-    const Sorted sorted(std::move(values));
     out.count = static_cast<std::int64_t>(sorted.count());
-    out.without = static_cast<std::int64_t>(rows.size()) - out.count;
+    out.without = static_cast<std::int64_t>(units) - out.count;
     if (out.count == 0) return out;
     out.least = sorted.values().front(), out.greatest = sorted.values().back();
     out.mean = sorted.mean(), out.sigma = sorted.sigma();
@@ -23,17 +21,43 @@ MeasureSummary measure_summary(const SweepTable& table, std::size_t measure, con
     return out;
 }
 
-PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed, const SweepQuestion& question) {
+/// One measure, at each point and then over all.
+void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
+    std::vector<Sorted> sorted;
+    std::int64_t kept_of_all = 0;
+    const auto put = [&](PointSummary& point, const Sorted& values, std::size_t units, std::int64_t kept) {
+        auto& at = point.measures[measure];
+        at = measure_summary(values, units, out.question);
+        if (table.has_limits(measure)) at.yield = share_of(kept, static_cast<std::int64_t>(units));
+    };
+    for (std::size_t p = 0; p < groups.groups.size(); ++p) {
+        const auto& rows = groups.groups[p].rows;
+        std::vector<double> values;
+        std::int64_t kept = 0;
+        values.reserve(rows.size());
+        for (const auto r : rows) values.push_back(table.measure_values[measure][r]), kept += table.keeps(r, measure);
+        sorted.emplace_back(std::move(values));
+        put(out.points[p], sorted.back(), rows.size(), kept);
+        kept_of_all += kept;
+    }
+    put(out.all, sorted.size() == 1 ? sorted[0] : Sorted::merged(sorted), table.rows(), kept_of_all);
+}
+
+/// How the units of a point ended.
+PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed) {
     PointSummary out;
     out.label = group.label;
-    out.units = static_cast<std::int64_t>(group.rows.size());
     for (const auto r : group.rows) {
         ++(table.end[r] == UnitEnd::done ? out.done : table.end[r] == UnitEnd::capped ? out.capped : out.lost);
         out.passed += passed[r];
     }
-    out.yield = share_of(out.passed, out.units);
-    for (std::size_t m = 0; m < table.measures.size(); ++m) out.measures.push_back(measure_summary(table, m, group.rows, question));
     return out;
+}
+
+void finish(PointSummary& point, std::size_t measures) {
+    point.units = point.done + point.capped + point.lost;
+    point.yield = share_of(point.passed, point.units);
+    point.measures.resize(measures);
 }
 
 /// Less the mean of its group.
@@ -53,7 +77,7 @@ class ChipMeans {
 
 public:
     ChipMeans(const SweepTable& table, std::int64_t draws) {
-        std::map<std::uint64_t, std::size_t> number;
+        std::unordered_map<std::uint64_t, std::size_t> number;
         for (const auto unit : table.unit) {
             const auto chip = static_cast<std::uint64_t>(draws > 0 ? unit % draws : unit);
             const auto known = number.find(chip);
@@ -98,7 +122,7 @@ struct Factors {
 Factors factors_of(const SweepTable& table, const std::optional<Drawn>& drawn, const ChipMeans& means) {
     Factors out;
     for (std::size_t a = 0; a < table.axes.size(); ++a) {
-        if (makes_points(table, a)) continue;
+        if (table.makes_points(a)) continue;
         out.axes.push_back(means.of(table.axis_values[a]));
         out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
     }
@@ -127,7 +151,7 @@ std::vector<DeviceShare> device_shares(const std::vector<NamedInfluence>& influe
         if (i.device < 0 || !(i.found.share.value > 0)) continue;
         auto at = std::find_if(out.begin(), out.end(), [&](const auto& d) { return d.device == i.device && d.subject == i.subject; });
         if (at == out.end()) at = out.insert(at, {i.subject, i.device});
-        (i.part == "V_T" ? at->V_T : at->I_S) += i.found.share.value;
+        (i.part.starts_with("V_T") ? at->V_T : at->I_S) += i.found.share.value;
     }
     std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.share() > b.share(); });
     return out;
@@ -141,6 +165,17 @@ struct Searched {
     ChipMeans means;
     Factors factors;
 };
+
+/// A yield has limits on both sides: what is far off on either lowers it, so it depends on squares, too.
+void add_squares(Factors::OfSubject& own) {
+    const auto count = own.values.size();
+    for (std::size_t f = 0; f < count; ++f) {
+        Factor squares;
+        for (const double x : own.values[f]) squares.push_back(x * x);
+        own.values.push_back(std::move(squares)), own.names.push_back(own.names[f]);
+        own.names.back().part += " squared";
+    }
+}
 
 /// The factors of the axes, and for a while those of the measure's own devices behind them.
 Dependence dependence_of(const std::string& name, const std::vector<double>& values, Searched& in) {
@@ -171,7 +206,7 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
 std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<Drawn>& drawn, const std::vector<char>& passed, std::size_t& chips) {
     std::vector<std::size_t> listed;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
-        if (makes_points(table, a)) listed.push_back(a);
+        if (table.makes_points(a)) listed.push_back(a);
     auto points = grouped_by(table, listed);
     const auto count = static_cast<std::int64_t>(points.groups.size());
     const ChipMeans means(table, drawn ? drawn->chips : count > 0 && table.units % count == 0 ? table.units / count : 0);
@@ -181,6 +216,7 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
         if (auto groups = grouped_by(table, {a}); groups.groups.size() > 1) in.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m) out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], in));
+    for (auto& own : in.factors.subjects) add_squares(own);
     if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, in));
     return out;
 }
@@ -194,10 +230,14 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Dra
     out.question = question, out.by = groups->axes, out.drawn = drawn;
     std::vector<char> passed(table.rows());
     for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
-    for (const auto& g : groups->groups) out.points.push_back(point_summary(table, g, passed, question));
-    SweepGroup all{"", {}};
-    for (std::size_t r = 0; r < table.rows(); ++r) all.rows.push_back(r);
-    out.all = point_summary(table, all, passed, question);
+    for (const auto& g : groups->groups) {
+        auto& point = out.points.emplace_back(point_summary(table, g, passed));
+        out.all.done += point.done, out.all.capped += point.capped, out.all.lost += point.lost, out.all.passed += point.passed;
+        finish(point, table.measures.size());
+    }
+    finish(out.all, table.measures.size());
+    Pool pool(table.rows() > 100000 ? 0 : 1);
+    pool.each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
     out.dependences = dependences_of(table, drawn, passed, out.chips);
     return out;
 }

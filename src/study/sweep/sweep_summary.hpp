@@ -27,8 +27,6 @@ struct SweepGroups {
     std::vector<SweepGroup> groups;
     std::vector<std::size_t> group_of;  ///< each row
 };
-/// Whether an axis takes few values, as one that is listed does, and so makes points.
-bool makes_points(const SweepTable&, std::size_t axis);
 Result<SweepGroups> grouped(const SweepTable&, const std::vector<std::string>& by);
 /// Of an axis that makes points or is cut into bands.
 SweepGroups grouped_by(const SweepTable&, const std::vector<std::size_t>& axes);
@@ -51,7 +49,7 @@ struct PointSummary {
 /// Something drawn that a measure depends on.
 struct NamedInfluence {
     std::string name;     ///< of a device, or of an axis
-    std::string part;     ///< of a device: "V_T" or "I_S"
+    std::string part;     ///< of a device: "V_T" or "I_S"; of the yield also "V_T squared"
     std::ptrdiff_t device = -1, subject = -1;  ///< in Drawn
     std::ptrdiff_t axis = -1;
     Influence found;

@@ -15,11 +15,16 @@ struct SweepTable {
     std::vector<SweepColumn> axes, measures;
     std::vector<std::vector<double>> axis_values, measure_values;  ///< [column][row]
 
+    /// Of each axis that takes few values, as one that is listed does, its values in rising order: they make points. Else empty.
+    std::vector<std::vector<double>> points;
+    static constexpr std::size_t most_points = 64;
+
     std::size_t rows() const { return unit.size(); }
     /// Whether a row ended and keeps a measure's limits; one without the measure does not.
     bool keeps(std::size_t row, std::size_t measure) const;
     bool has_limits(std::size_t measure) const { return measures[measure].at_least || measures[measure].at_most; }
     bool has_limits() const;
+    bool makes_points(std::size_t axis) const { return !points[axis].empty(); }
     /// Whether it ended and keeps all limits.
     bool passes(std::size_t row) const;
 };
