@@ -81,6 +81,16 @@ Examples:
   corpuscle run amplifier.cir -o amplifier.raw
   corpuscle run amplifier.cir -o amplifier.csv --json)";
 
+constexpr const char* sweep_show_examples =
+    R"(Shares and means come with their 95 % confidence intervals: of a yield Clopper and Pearson's, of a mean Student's, of a deviation
+Bonett's (no distribution is assumed), of a quantile from one order statistic to another. doc/sweeps.md tells how they are read.
+
+Examples:
+  corpuscle sweep show chips.sqlite
+  corpuscle sweep show chips.sqlite --by temp --measure spikes --quantile 0.01 --quantile 0.99
+  corpuscle sweep show chips.sqlite --report chips.html
+  corpuscle sweep show chips.sqlite --json)";
+
 constexpr const char* export_examples =
     R"(The deck is flat: subcircuits put in place, every parameter worked out. Transistors become subcircuits of formulas that carry what
 ours carry: currents to 1e-5 of themselves, small signals to 0.1 %; their noise ngspice cannot have. What it has no word for (.step,
@@ -266,6 +276,19 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
     add_common(verb, common);
 }
 
+void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
+    auto& verb = *sweep.add_subcommand("show", "what a file of results says: yields, distributions, which device matters");
+    verb.footer(sweep_show_examples);
+    verb.add_option("RESULTS", w.results, "a file of results, also while it is written")->required();
+    verb.add_option("--by", w.by, "point by point of these axes (default: all that are listed); one that is drawn is cut into five bands")
+        ->allow_extra_args(false)
+        ->type_name("AXIS");
+    verb.add_option("--measure,-m", w.measures, "these measures alone; the limits of others are left aside")->allow_extra_args(false)->type_name("NAME");
+    verb.add_option("--quantile", w.quantiles, "quantiles to be told with their intervals, such as 0.01")->allow_extra_args(false)->type_name("SHARE");
+    verb.add_option("--report", w.report_file, "write a page to look at")->type_name("FILE.html")->group("Output");
+    add_common(verb, common);
+}
+
 void add_export(CLI::App& app, ExportWords& w, Common& common) {
     auto& verb = *app.add_subcommand("export", "a netlist as another simulator's deck, for a second opinion");
     verb.footer(export_examples);
@@ -297,6 +320,7 @@ int main(int argc, char** argv) {
     RunWords run_words;
     ExportWords export_words;
     ListWords list_words;
+    SweepShowWords sweep_show_words;
 
     CLI::App app(about, "corpuscle");
     app.set_version_flag("--version", fmt::format("corpuscle {}", version));
@@ -306,6 +330,8 @@ int main(int argc, char** argv) {
     add_compare(app, compare_words, common);
     add_study(app, study_words, common);
     add_run(app, run_words, common);
+    auto& sweep = *app.add_subcommand("sweep", "what a sweep's results say")->require_subcommand(1);
+    add_sweep_show(sweep, sweep_show_words, common);
     add_export(app, export_words, common);
     add_list(app, list_words, common);
     try {
@@ -320,6 +346,7 @@ int main(int argc, char** argv) {
         return app.got_subcommand("list")      ? list(list_words, common)
                : app.got_subcommand("run")     ? run(run_words, common)
                : app.got_subcommand("export")  ? export_to(export_words, common)
+               : app.got_subcommand("sweep")   ? sweep_show(sweep_show_words, common)
                : app.got_subcommand("study")   ? study(study_words, common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);
