@@ -283,8 +283,12 @@ void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
     verb.add_option("--by", w.by, "point by point of these axes (default: all that are listed); one that is drawn is cut into five bands")
         ->allow_extra_args(false)
         ->type_name("AXIS");
-    verb.add_option("--measure,-m", w.measures, "these measures alone; the limits of others are left aside")->allow_extra_args(false)->type_name("NAME");
-    verb.add_option("--quantile", w.quantiles, "quantiles to be told with their intervals, such as 0.01")->allow_extra_args(false)->type_name("SHARE");
+    verb.add_option("--measure,-m", w.measures, "these measures alone; the limits of others are left aside")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    verb.add_option("--quantile", w.quantiles, "quantiles to be told with their intervals, such as 0.01")
+        ->allow_extra_args(false)
+        ->type_name("SHARE");
     verb.add_option("--report", w.report_file, "write a page to look at")->type_name("FILE.html")->group("Output");
     add_common(verb, common);
 }

@@ -20,7 +20,8 @@ Result<SweepQuestion> question_of(const SweepShowWords& words) {
     out.by = words.by;
     if (words.quantiles.empty()) return out;
     for (const double q : words.quantiles)
-        if (!(q > 0 && q < 1)) return bad_usage(fmt::format("--quantile {:g}: must lie between 0 and 1; 0.05 is the value that 5 % are below", q));
+        if (!(q > 0 && q < 1))
+            return bad_usage(fmt::format("--quantile {:g}: must lie between 0 and 1; 0.05 is the value that 5 % are below", q));
     out.quantiles = words.quantiles;
     std::sort(out.quantiles.begin(), out.quantiles.end());
     out.quantiles.erase(std::unique(out.quantiles.begin(), out.quantiles.end()), out.quantiles.end());

@@ -23,7 +23,8 @@ class Writing {
 
 public:
     Writing(const std::string& unit, const MeasureSummary& m) : unit_(unit) {
-        const double size = std::max(std::abs(m.least), std::abs(m.greatest)), typical = std::abs(m.mean.value) > 0.01 * size ? std::abs(m.mean.value) : size;
+        const double size = std::max(std::abs(m.least), std::abs(m.greatest)),
+                     typical = std::abs(m.mean.value) > 0.01 * size ? std::abs(m.mean.value) : size;
         if (!(typical > 0)) return;
         const auto text = unit.empty() ? "" : format_quantity(typical, unit);
         if (const auto blank = text.find(' '); blank != text.npos) {
@@ -45,7 +46,9 @@ public:
 };
 
 std::string percent(double share) { return std::isnan(share) ? "-" : fmt::format("{:.1f}", 100 * share); }
-std::string percent_interval(const Estimate& e) { return std::isnan(e.low) ? "-" : fmt::format("{:.1f} ... {:.1f}", 100 * e.low, 100 * e.high); }
+std::string percent_interval(const Estimate& e) {
+    return std::isnan(e.low) ? "-" : fmt::format("{:.1f} ... {:.1f}", 100 * e.low, 100 * e.high);
+}
 
 std::string named(const SweepColumn& c, const std::string& unit) { return unit.empty() ? c.name : fmt::format("{} ({})", c.name, unit); }
 
@@ -58,8 +61,9 @@ std::string limits_of(const SweepColumn& c) {
 
 std::string opening(const SweepTable& from, const SweepSummary& s, const std::string& title) {
     const auto finished = static_cast<std::int64_t>(from.rows());
-    std::string text = finished == from.units ? fmt::format("{}: {} units, all finished", title, from.units)
-                                              : fmt::format("{}: {} of {} units are finished, of which this is", title, finished, from.units);
+    std::string text = finished == from.units
+                           ? fmt::format("{}: {} units, all finished", title, from.units)
+                           : fmt::format("{}: {} of {} units are finished, of which this is", title, finished, from.units);
     if (s.all.capped > 0) text += fmt::format("; {} stopped, too costly", s.all.capped);
     if (s.all.lost > 0) text += fmt::format("; {} lost, not converged", s.all.lost);
     return text + ".\n";
@@ -68,7 +72,8 @@ std::string opening(const SweepTable& from, const SweepSummary& s, const std::st
 std::string yields(const SweepTable& from, const SweepSummary& s) {
     Rows rows = {{"yield", "limits", "passed", "of", "%", "95 % confidence"}};
     const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& share) {
-        rows.push_back({name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.units), percent(share.value), percent_interval(share)});
+        rows.push_back(
+            {name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.units), percent(share.value), percent_interval(share)});
     };
     line(from.has_limits() ? "all limits" : "ended", "", s.all.passed, s.all.yield);
     for (std::size_t m = 0; m < from.measures.size(); ++m)
@@ -84,11 +89,12 @@ std::string measures_text(const SweepTable& from, const SweepSummary& s) {
     for (std::size_t m = 0; m < from.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
         const Writing shown(from.measures[m].unit, one);
-        rows.push_back({named(from.measures[m], shown.unit()), fmt::format("{}", one.count), shown(one.mean.value), shown.interval(one.mean),
-                        shown(one.sigma.value), shown.interval(one.sigma), shown(one.least)});
-        for (std::size_t q = 0; q < s.question.quantiles.size(); ++q) rows.back().push_back(q < one.quantiles.size() ? shown(one.quantiles[q].value) : "-");
+        rows.push_back({named(from.measures[m], shown.unit()), fmt::format("{}", one.count), shown(one.mean.value),
+                        shown.interval(one.mean), shown(one.sigma.value), shown.interval(one.sigma), shown(one.least)});
+        for (std::size_t q = 0; q < s.question.quantiles.size(); ++q)
+            rows.back().push_back(q < one.quantiles.size() ? shown(one.quantiles[q].value) : "-");
         rows.back().push_back(shown(one.greatest));
-        rows.back().push_back(std::isnan(one.normality)                 ? "-"
+        rows.back().push_back(std::isnan(one.normality)              ? "-"
                               : one.normality >= one.normality_floor ? fmt::format("{:.4f}, normal", one.normality)
                                                                      : fmt::format("{:.4f}, not normal", one.normality));
     }
@@ -107,8 +113,10 @@ std::string points_text(const SweepTable& from, const SweepSummary& s) {
         rows.push_back({p.label, fmt::format("{}", p.units), percent(p.yield.value), percent_interval(p.yield)});
         for (std::size_t m = 0; m < from.measures.size(); ++m) {
             const auto& one = p.measures[m];
-            rows.back().push_back(one.count == 0 ? "-" : std::isnan(one.sigma.value) ? shown[m](one.mean.value)
-                                                       : fmt::format("{} +- {}", shown[m](one.mean.value), shown[m](one.sigma.value)));
+            rows.back().push_back(one.count == 0 ? "-"
+                                  : std::isnan(one.sigma.value)
+                                      ? shown[m](one.mean.value)
+                                      : fmt::format("{} +- {}", shown[m](one.mean.value), shown[m](one.sigma.value)));
         }
     }
     return fmt::format("\nPoint by point, mean and deviation:\n{}", table(rows));
@@ -132,10 +140,12 @@ void put_dependence(Rows& rows, const SweepTable& from, const SweepSummary& s, c
     for (std::size_t k = 0; k < std::min(d.devices.size(), most_devices); ++k) {
         const auto& share = d.devices[k];
         const auto& device = s.drawn->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
-        line({device.name, array_of(device), fmt::format("{:.4g}", 1e12 * device.area()), percent(share.share()), percent(share.V_T), percent(share.I_S),
+        line({device.name, array_of(device), fmt::format("{:.4g}", 1e12 * device.area()), percent(share.share()), percent(share.V_T),
+              percent(share.I_S),
               d.measure == "yield" ? "" : fmt::format("{:.1f}", 100 * (sigma_with_four_times_the_area(share.share()) - 1))});
     }
-    if (d.devices.size() > most_devices) line({fmt::format("and {} devices more", d.devices.size() - most_devices), "", "", "", "", "", ""});
+    if (d.devices.size() > most_devices)
+        line({fmt::format("and {} devices more", d.devices.size() - most_devices), "", "", "", "", "", ""});
 }
 
 std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
@@ -150,11 +160,14 @@ std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
     }
     std::string text;
     if (rows.size() > 1)
-        text = fmt::format("\nWhat matters, as a share of the variance (of the grid: of all; of what is drawn: between the chips of a point, "
-                           "of {} chips):\n{}",
-                           s.chips, table(rows));
-    if (!bent.empty()) text += fmt::format("Straight lines explain (%): {}; the rest is bent, joint, or too small to tell from chance.\n", bent);
-    if (!nothing.empty() && (s.drawn || !from.axes.empty())) text += fmt::format("Nothing that was varied stands out of chance for: {}.\n", fmt::join(nothing, ", "));
+        text = fmt::format(
+            "\nWhat matters, as a share of the variance (of the grid: of all; of what is drawn: between the chips of a point, "
+            "of {} chips):\n{}",
+            s.chips, table(rows));
+    if (!bent.empty())
+        text += fmt::format("Straight lines explain (%): {}; the rest is bent, joint, or too small to tell from chance.\n", bent);
+    if (!nothing.empty() && (s.drawn || !from.axes.empty()))
+        text += fmt::format("Nothing that was varied stands out of chance for: {}.\n", fmt::join(nothing, ", "));
     return text;
 }
 

@@ -51,7 +51,6 @@ const pointSeries = (size) => Object.fromEntries(groupLabels().map((label, k) =>
 
 function showHistogram(host, measure) {
     const of = data.histograms[measure][state.grouping];
-    showKey();
     if (!of) return;
     const {name, unit} = measures[measure], {from, width, counts, below, above} = of, several = counts.length > 1;
     const sums = counts.map((all) => all.reduce((a, b) => a + b, 0) || 1);

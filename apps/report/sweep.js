@@ -11,7 +11,7 @@ const groupName = (k) => grouping().groups[k];
 const groupColour = (k) => (grouping().groups.length === 1 ? colour(0) : colour(k));
 
 /// Values of a measure or an axis for some rows.
-const measured = (measure, rows) => rows.map((row) => data.rows.measures[measure][rowNumber.get(row)]);
+const measured = (measure, rows) => !measures.length ? rows : rows.map((row) => data.rows.measures[measure][rowNumber.get(row)]);
 const varied = (axis, rows) => rows.map((row) => data.rows.axes[axis][rowNumber.get(row)]);
 const groupsOf = (rows) => rows.map((row) => data.rows.groups[state.grouping][rowNumber.get(row)]);
 
@@ -27,8 +27,8 @@ function draw() {
     charts.splice(0).forEach((chart) => chart.destroy());
     for (const id of ["figures", "rasters", "traces", "extremes"]) document.getElementById(id)?.replaceChildren();
     const plots = element(document.getElementById("figures"), "div", "plots");
-    showHistogram(plots, state.measure);
-    showNormalPlot(plots, state.measure);
+    showKey();
+    if (measures.length) showHistogram(plots, state.measure), showNormalPlot(plots, state.measure);
     for (const factor of data.factors[state.measure] || []) showScatter(plots, state.measure, factor);
     for (const train of data.rasters) showRaster(document.getElementById("rasters"), train);
     for (const trace of data.traces) showEnvelope(document.getElementById("traces"), trace);

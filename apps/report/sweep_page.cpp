@@ -61,7 +61,8 @@ std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
     std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half), rows.end(), less);
     std::vector<std::size_t> out(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half));
     rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half));
-    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(half), rows.end(), [&](auto a, auto b) { return less(b, a); });
+    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(half), rows.end(),
+                      [&](auto a, auto b) { return less(b, a); });
     out.insert(out.end(), rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(half));
     return out;
 }
@@ -89,7 +90,8 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
         if (d.measure == "yield") break;
         out.push_back(Json::array());
         for (const auto& [axis, between] : d.points)
-            out.back().push_back({{"name", table.axes[axis].name}, {"part", ""}, {"share", between.share}, {"axis", axis}, {"unit", table.axes[axis].unit}});
+            out.back().push_back(
+                {{"name", table.axes[axis].name}, {"part", ""}, {"share", between.share}, {"axis", axis}, {"unit", table.axes[axis].unit}});
         for (const auto& i : d.influences)
             if (out.back().size() < most_scatters && i.found.share.value > 0) out.back().push_back(factor_document(table, s, i, points));
     }
@@ -120,7 +122,10 @@ Json sizes_document(const SweepSummary& s) {
 Result<std::string> sweep_page(const SweepResults& results, const SweepTable& table, const SweepSummary& summary, const std::string& title,
                                const std::string& command) {
     const auto groupings = groupings_of(table);
-    Json page = {{"title", title}, {"program", fmt::format("corpuscle {}", version)}, {"command", command}, {"summary", document_of(table, summary, title)}};
+    Json page = {{"title", title},
+                 {"program", fmt::format("corpuscle {}", version)},
+                 {"command", command},
+                 {"summary", document_of(table, summary, title)}};
     page["groupings"] = Json::array();
     for (const auto& g : groupings) {
         Json labels = Json::array();

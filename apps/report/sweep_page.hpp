@@ -8,6 +8,7 @@
 
 namespace corpuscle {
 
-Result<std::string> sweep_page(const SweepResults&, const SweepTable&, const SweepSummary&, const std::string& title, const std::string& command);
+Result<std::string> sweep_page(const SweepResults&, const SweepTable&, const SweepSummary&, const std::string& title,
+                               const std::string& command);
 
 }  // namespace corpuscle

@@ -52,7 +52,8 @@ std::vector<std::size_t> ranks_in_normal_plot(std::size_t count) {
     const double n = static_cast<double>(count), far = normal_quantile((n - 0.375) / (n + 0.25));
     std::vector<std::size_t> out;
     for (std::size_t k = 0; k < most_in_normal_plot; ++k) {
-        const double score = far * (2 * static_cast<double>(k) / (most_in_normal_plot - 1) - 1), share = 0.5 * std::erfc(-score / std::sqrt(2.0));
+        const double score = far * (2 * static_cast<double>(k) / (most_in_normal_plot - 1) - 1),
+                     share = 0.5 * std::erfc(-score / std::sqrt(2.0));
         const auto rank = static_cast<std::size_t>(std::clamp(std::round(share * (n + 0.25) - 0.625), 0.0, n - 1));
         if (out.empty() || rank > out.back()) out.push_back(rank);
     }
@@ -125,7 +126,9 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
             scores.push_back(normal_quantile((static_cast<double>(k) + 1 - 0.375) / (n + 0.25)));
             points.push_back(sorted.values()[k]);
         }
-        out.push_back({{"scores", shown_numbers(scores)}, {"values", shown_numbers(points)}, {"correlation", shown_numbers({sorted.normality()})[0]}});
+        out.push_back({{"scores", shown_numbers(scores)},
+                       {"values", shown_numbers(points)},
+                       {"correlation", shown_numbers({sorted.normality()})[0]}});
     }
     return out;
 }
@@ -160,9 +163,15 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const
         for (std::size_t k = 0; k < g.by.groups.size() && g.by.groups.size() > 1; ++k)
             medians.back().push_back(shown_numbers(over([&](std::size_t r) { return g.by.group_of[r] == k; }).median));
     }
-    return PlotJson{{"name", results.traces()[trace]},      {"times", shown_numbers(times)},        {"every", results.trace_times().size() > most_times},
-                    {"units", rows.size()},                 {"least", shown_numbers(whole.least)},  {"low", shown_numbers(whole.low)},
-                    {"median", shown_numbers(whole.median)}, {"high", shown_numbers(whole.high)}, {"greatest", shown_numbers(whole.greatest)},
+    return PlotJson{{"name", results.traces()[trace]},
+                    {"times", shown_numbers(times)},
+                    {"every", results.trace_times().size() > most_times},
+                    {"units", rows.size()},
+                    {"least", shown_numbers(whole.least)},
+                    {"low", shown_numbers(whole.low)},
+                    {"median", shown_numbers(whole.median)},
+                    {"high", shown_numbers(whole.high)},
+                    {"greatest", shown_numbers(whole.greatest)},
                     {"medians", medians}};
 }
 
@@ -176,7 +185,10 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
         shown.push_back(r), counts.push_back(spikes->size());
         for (const double t : *spikes) times.push_back(static_cast<float>(t));
     }
-    return PlotJson{{"name", results.trains()[train]}, {"rows", shown}, {"counts", counts}, {"times", base64(times.data(), times.size() * sizeof(float))}};
+    return PlotJson{{"name", results.trains()[train]},
+                    {"rows", shown},
+                    {"counts", counts},
+                    {"times", base64(times.data(), times.size() * sizeof(float))}};
 }
 
 }  // namespace corpuscle

@@ -14,21 +14,21 @@ namespace {
 TEST(Probability, DistributionsAreThoseOfScipy) {
     const struct {
         double ours, theirs;
-    } rows[] = {{normal_quantile(0.975), 1.959963984540054},                      // stats.norm.ppf(.975)
-                {normal_quantile(1e-10), -6.361340902404056},                     // stats.norm.ppf(1e-10)
-                {incomplete_beta(2.5, 0.5, 0.3), 0.01892712407194565},            // special.betainc(2.5, .5, .3)
-                {incomplete_beta(500, 501, 0.5), 0.5126125090888417},             // special.betainc(500, 501, .5)
-                {incomplete_beta(1e5, 1e5, 0.501), 0.8144532553270518},           // special.betainc(1e5, 1e5, .501)
-                {beta_quantile(8, 3, 0.025), 0.44390453769235844},                // special.betaincinv(8, 3, .025)
-                {beta_quantile(0.5, 20, 1e-6), 3.976381106974146e-14},            // special.betaincinv(.5, 20, 1e-6)
-                {student_quantile(1, 0.975), 12.706204736432095},                 // stats.t.ppf(.975, 1)
-                {student_quantile(9, 0.975), 2.2621571627409915},                 // stats.t.ppf(.975, 9)
-                {student_quantile(999, 0.001), -3.098410361753265},               // stats.t.ppf(.001, 999)
-                {student_two_sided(20, 3.1), 0.0056448769391241865},              // 2 * stats.t.sf(3.1, 20)
-                {student_two_sided(998, 8), 3.4333447106990414e-15},              // 2 * stats.t.sf(8, 998)
-                {fisher_upper(3, 40, 4.2), 0.011270563257885424},                 // stats.f.sf(4.2, 3, 40)
-                {binomial_up_to(3, 10, 0.4), 0.3822806016},                       // stats.binom.cdf(3, 10, .4)
-                {binomial_up_to(480, 1000, 0.5), 0.10872414660207046}};           // stats.binom.cdf(480, 1000, .5)
+    } rows[] = {{normal_quantile(0.975), 1.959963984540054},             // stats.norm.ppf(.975)
+                {normal_quantile(1e-10), -6.361340902404056},            // stats.norm.ppf(1e-10)
+                {incomplete_beta(2.5, 0.5, 0.3), 0.01892712407194565},   // special.betainc(2.5, .5, .3)
+                {incomplete_beta(500, 501, 0.5), 0.5126125090888417},    // special.betainc(500, 501, .5)
+                {incomplete_beta(1e5, 1e5, 0.501), 0.8144532553270518},  // special.betainc(1e5, 1e5, .501)
+                {beta_quantile(8, 3, 0.025), 0.44390453769235844},       // special.betaincinv(8, 3, .025)
+                {beta_quantile(0.5, 20, 1e-6), 3.976381106974146e-14},   // special.betaincinv(.5, 20, 1e-6)
+                {student_quantile(1, 0.975), 12.706204736432095},        // stats.t.ppf(.975, 1)
+                {student_quantile(9, 0.975), 2.2621571627409915},        // stats.t.ppf(.975, 9)
+                {student_quantile(999, 0.001), -3.098410361753265},      // stats.t.ppf(.001, 999)
+                {student_two_sided(20, 3.1), 0.0056448769391241865},     // 2 * stats.t.sf(3.1, 20)
+                {student_two_sided(998, 8), 3.4333447106990414e-15},     // 2 * stats.t.sf(8, 998)
+                {fisher_upper(3, 40, 4.2), 0.011270563257885424},        // stats.f.sf(4.2, 3, 40)
+                {binomial_up_to(3, 10, 0.4), 0.3822806016},              // stats.binom.cdf(3, 10, .4)
+                {binomial_up_to(480, 1000, 0.5), 0.10872414660207046}};  // stats.binom.cdf(480, 1000, .5)
     for (const auto& r : rows) EXPECT_NEAR(r.ours / r.theirs, 1, 1e-9) << r.theirs;
     EXPECT_NEAR(normal_quantile(0.5), 0, 1e-15);
     EXPECT_EQ(normal_quantile(1), HUGE_VAL);
@@ -38,7 +38,7 @@ TEST(Estimate, AYieldHasTheIntervalOfClopperAndPearson) {
     const struct {
         std::int64_t some, all;
         double low, high;
-    } rows[] = {{0, 20, 0, 0.16843347098308548},                              // stats.binomtest(k, n).proportion_ci(method='exact')
+    } rows[] = {{0, 20, 0, 0.16843347098308548},  // stats.binomtest(k, n).proportion_ci(method='exact')
                 {20, 20, 0.8315665290169145, 1},
                 {7, 10, 0.3475471499399921, 0.9332604888222655},
                 {874, 1000, 0.8518262835291261, 0.893943167737706},
@@ -58,7 +58,7 @@ TEST(Estimate, ASampleOfTenHasTheMeanDeviationAndQuantilesOfScipyAndNumpy) {
     const Sorted sample(ten);
     ASSERT_EQ(sample.count(), 10U);
     EXPECT_NEAR(sample.mean().value, 4.6, 1e-12);
-    EXPECT_NEAR(sample.mean().low, 2.9915512862913634, 1e-9);   // stats.t.interval(.95, 9, mean, stats.sem(x))
+    EXPECT_NEAR(sample.mean().low, 2.9915512862913634, 1e-9);  // stats.t.interval(.95, 9, mean, stats.sem(x))
     EXPECT_NEAR(sample.mean().high, 6.208448713708636, 1e-9);
     EXPECT_NEAR(sample.sigma().value, 2.2484562605386738, 1e-12);
     EXPECT_NEAR(sample.sigma().low, 0.99777219, 1e-7);  // Bonett's formula with stats.trim_mean, worked out in numpy
@@ -90,7 +90,7 @@ TEST(Estimate, AQuantileLiesBetweenTheOrderStatisticsThatTheBinomialDistribution
 }
 
 TEST(Estimate, NoSampleAndOneNumberSayWhatTheyCan) {
-    const Sorted none({}), one({3}), same({2, 2, 2, 2, 2, 2});
+    const Sorted none(std::vector<double>{}), one({3}), same({2, 2, 2, 2, 2, 2});
     EXPECT_TRUE(std::isnan(none.mean().value) && std::isnan(none.sigma().value) && std::isnan(none.quantile(0.5).value));
     EXPECT_EQ(one.mean().value, 3);
     EXPECT_TRUE(std::isnan(one.mean().low) && std::isnan(one.sigma().value));

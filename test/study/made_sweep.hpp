@@ -15,7 +15,8 @@ class MadeSweep final : public Sweep {
     std::int64_t chips_;
     Drawn drawn_;
     std::vector<SweepColumn> axes_{{"temp", "C", "temperature"}, {"corner", "", "", {"tt", "ss"}}, {"process.vt_n", "", "drawn"}};
-    std::vector<SweepColumn> measures_{{"line", "V", "a straight line of what is drawn", {}, -0.5, 0.5}, {"noise", "s", ""}, {"count", "", "", {}, 3.0, {}}};
+    std::vector<SweepColumn> measures_{
+        {"line", "V", "a straight line of what is drawn", {}, -0.5, 0.5}, {"noise", "s", ""}, {"count", "", "", {}, 3.0, {}}};
     std::vector<std::string> trains_{"out"}, traces_{"vf"};
     std::vector<double> times_;
     std::vector<Fact> facts_;
@@ -57,7 +58,8 @@ public:
         out.unit = unit, out.steps = 100 + unit % 7, out.iterations = 300 + unit % 11;
         out.measures = {line, std::exp(normal(8, static_cast<std::uint32_t>(unit), 3, 0)), 4 + static_cast<double>(unit % 3)};
         if (unit % 50 == 9) out.end = UnitEnd::capped, out.why = "more than 1000 iterations by 0.4 s", out.measures[2] = std::nan("");
-        if (unit % 500 == 11) out.end = UnitEnd::lost, out.why = "did not converge at 0.3 s", out.measures = {std::nan(""), std::nan(""), std::nan("")};
+        if (unit % 500 == 11)
+            out.end = UnitEnd::lost, out.why = "did not converge at 0.3 s", out.measures = {std::nan(""), std::nan(""), std::nan("")};
         out.spikes.emplace_back();
         for (int k = 0; k < 5 + unit % 3; ++k) out.spikes[0].push_back(0.1 * k + 0.02 + 0.004 * line);
         out.traces.emplace_back();

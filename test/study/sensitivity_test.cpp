@@ -3,12 +3,15 @@
 #include "study/sweep/sensitivity.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "made_sweep.hpp"
 #include "signal/random.hpp"
+#include "study/sweep/sweep_document.hpp"
 #include "study/sweep/sweep_summary.hpp"
 
 namespace corpuscle {
@@ -171,6 +174,18 @@ TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
     EXPECT_EQ(yield.points.size(), 1U);
     ASSERT_FALSE(yield.devices.empty());
     EXPECT_EQ(yield.devices[0].device, 7);
+}
+
+TEST_F(Summed, TheDocumentSaysTheSameAsTheSummary) {
+    const auto document = document_of(table, summary, "made");
+    EXPECT_EQ(document["finished"], 3000);
+    EXPECT_EQ(document["all"]["passed"], summary.all.passed);
+    EXPECT_EQ(document["points"][1]["measures"][0]["mean"]["low"], summary.points[1].measures[0].mean.low);
+    const auto& device = document["depends_on"][0]["devices"][0];
+    EXPECT_EQ(device["device"], "x1.m7");
+    EXPECT_NEAR(device["area_m2"].get<double>(), 8e-12, 1e-20);
+    const double share = device["share"], left = device["sigma_with_four_times_the_area"];
+    EXPECT_NEAR(left * left, 1 - 0.75 * share, 1e-12);
 }
 
 TEST_F(Summed, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameIsMended) {

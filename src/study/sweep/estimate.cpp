@@ -14,8 +14,9 @@ constexpr std::size_t most_plotted = 1000;
 
 /// How far from 1 normality() is at most in 95 of 100 normal samples of n: drawn 8000 times (numpy; of the largest 600 times); Looney and
 /// Gulledge (1985) print 0.918, 0.951, 0.977 and 0.987 for 10, 20, 50 and 100.
-constexpr std::pair<double, double> off_normal[] = {{5, 0.120},     {10, 0.0827},   {20, 0.0491},    {50, 0.0235},    {100, 0.0128},    {200, 0.00682},
-                                                    {500, 0.00299}, {1000, 0.00153}, {2000, 0.000817}, {5000, 0.000322}, {20000, 8.07e-5}, {100000, 1.46e-5}};
+constexpr std::pair<double, double> off_normal[] = {{5, 0.120},       {10, 0.0827},     {20, 0.0491},     {50, 0.0235},
+                                                    {100, 0.0128},    {200, 0.00682},   {500, 0.00299},   {1000, 0.00153},
+                                                    {2000, 0.000817}, {5000, 0.000322}, {20000, 8.07e-5}, {100000, 1.46e-5}};
 
 /// Without the same number of the least and the greatest.
 double trimmed_mean(const std::vector<double>& sorted, double proportion) {
@@ -98,7 +99,7 @@ Estimate Sorted::quantile(double q) const {
             if (k + step <= n && holds(k + step)) k += step;
         return k;
     };
-    low = largest([&](double k) { return binomial_up_to(k, n, q) <= tail; });                  // at most `low` below: the value of rank low
+    low = largest([&](double k) { return binomial_up_to(k, n, q) <= tail; });  // at most `low` below: the value of rank low
     high = n - largest([&](double k) { return 1 - binomial_up_to(n - k - 1, n, q) <= tail; });  // at least `high` below
     if (low >= 0 && low < n) out.low = rank(low);
     if (high - 1 >= 0 && high - 1 < n) out.high = rank(high - 1);
@@ -121,7 +122,8 @@ double Sorted::normality() const {
 double Sorted::normality_floor() const {
     const auto n = static_cast<double>(count());
     if (n < 5) return Estimate::none;
-    const auto* above = std::upper_bound(std::begin(off_normal), std::end(off_normal), n, [](double x, const auto& row) { return x < row.first; });
+    const auto* above =
+        std::upper_bound(std::begin(off_normal), std::end(off_normal), n, [](double x, const auto& row) { return x < row.first; });
     if (above == std::end(off_normal)) return 1 - above[-1].second * above[-1].first / n;
     const auto& [n0, r0] = above[-1];
     return 1 - r0 * std::pow(above->second / r0, std::log(n / n0) / std::log(above->first / n0));

@@ -39,7 +39,8 @@ public:
     /// Student's interval.
     Estimate mean() const;
     /// Of a sample, n - 1. The interval of Bonett (2006) goes by the sample's own kurtosis: chi-squared's, which is the normal
-    /// distribution's alone, is far too narrow for what has long tails, as a chip's spike count has; and a bootstrap is 1000 times the work.
+    /// distribution's alone, is far too narrow for what has long tails, as a chip's spike count has; and a bootstrap is 1000 times the
+    /// work.
     Estimate sigma() const;
     /// Between order statistics, as R's and numpy's by default; its interval is from one order statistic to another, by the binomial
     /// distribution alone, whatever the sample is from; none where the sample is too small to have one.

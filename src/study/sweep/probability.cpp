@@ -15,7 +15,8 @@ double beta_fraction(double a, double b, double x) {
     const auto kept = [](double v) { return std::abs(v) < least ? least : v; };
     double c = 1, d = 1 / kept(1 - (a + b) * x / (a + 1)), h = d;
     for (int m = 1; m < 100000; ++m) {
-        for (const double e : {m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)), -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))}) {
+        for (const double e :
+             {m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)), -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))}) {
             d = 1 / kept(1 + e * d), c = kept(1 + e / c);
             h *= c * d;
         }

@@ -160,7 +160,8 @@ Result<SweepResults> SweepResults::look(const std::string& path) {
     if (!there && (sqlite3_errcode(held->file.get()) & 0xff) == SQLITE_CANTOPEN) {
         // It wants a file beside it, which there is no making here: needless, if nobody has left rows there.
         if (fs::exists(held->wal(), none) && fs::file_size(held->wal(), none) > 0) return not_alone(path);
-        auto opened = sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX);
+        auto opened =
+            sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX);
         if (!opened) return opened.error();
         held->file = std::move(*opened);
         there = ResultsLayout::read(held->file.get(), path);

@@ -24,7 +24,9 @@ std::vector<double> standardised(std::span<const double> all, const std::vector<
     return out;
 }
 
-double product(const std::vector<double>& a, const std::vector<double>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
 
 /// A x = b and the inverse's diagonal, A symmetric and positive; false if it is not.
 bool solve(std::vector<std::vector<double>> A, std::vector<double>& b, std::vector<double>& diagonal) {
@@ -86,7 +88,8 @@ struct Candidate {
 
 /// Those that Benjamini and Hochberg's procedure takes, the surest first.
 void keep_discoveries(std::vector<Candidate>& all, std::size_t tried) {
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return std::pair(a.chance, a.factor) < std::pair(b.chance, b.factor); });
+    std::sort(all.begin(), all.end(),
+              [](const auto& a, const auto& b) { return std::pair(a.chance, a.factor) < std::pair(b.chance, b.factor); });
     std::size_t kept = 0;
     for (std::size_t k = 0; k < all.size(); ++k)
         if (all[k].chance <= false_discoveries * static_cast<double>(k + 1) / static_cast<double>(tried)) kept = k + 1;
@@ -156,7 +159,8 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Fact
         out.influences.push_back(one);
     }
     out.explained = plane.taken.empty() ? 0 : std::max(1 - noise * (n - 1), 0.0);
-    std::stable_sort(out.influences.begin(), out.influences.end(), [](const auto& a, const auto& b) { return a.share.value > b.share.value; });
+    std::stable_sort(out.influences.begin(), out.influences.end(),
+                     [](const auto& a, const auto& b) { return a.share.value > b.share.value; });
     return out;
 }
 

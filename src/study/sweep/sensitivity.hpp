@@ -16,9 +16,9 @@ using Factor = std::vector<double>;
 /// A factor that is found to matter.
 struct Influence {
     std::size_t factor = 0;
-    double slope = 0;         ///< of the measure, for one deviation of the factor
-    Estimate share;           ///< of the measure's variance; less what chance alone would bring
-    double chance = 1;        ///< how often a factor that does nothing would look as strong
+    double slope = 0;   ///< of the measure, for one deviation of the factor
+    Estimate share;     ///< of the measure's variance; less what chance alone would bring
+    double chance = 1;  ///< how often a factor that does nothing would look as strong
 };
 
 struct Sensitivity {

@@ -12,7 +12,9 @@ using SummaryJson = nlohmann::ordered_json;
 SummaryJson optional_json(const std::optional<double>& x) { return x ? json_number(*x) : SummaryJson(nullptr); }
 
 /// value, and where the truth lies.
-SummaryJson estimate_json(const Estimate& e) { return {{"value", json_number(e.value)}, {"low", json_number(e.low)}, {"high", json_number(e.high)}}; }
+SummaryJson estimate_json(const Estimate& e) {
+    return {{"value", json_number(e.value)}, {"low", json_number(e.low)}, {"high", json_number(e.high)}};
+}
 
 SummaryJson column_json(const SweepColumn& c) {
     SummaryJson out = {{"name", c.name}, {"unit", c.unit}, {"sentence", c.sentence}};
@@ -35,14 +37,21 @@ SummaryJson measure_json(const SweepColumn& c, const MeasureSummary& m) {
 SummaryJson point_json(const SweepTable& table, const PointSummary& p) {
     SummaryJson measures = SummaryJson::array();
     for (std::size_t m = 0; m < p.measures.size(); ++m) measures.push_back(measure_json(table.measures[m], p.measures[m]));
-    return {{"point", p.label}, {"units", p.units},   {"done", p.done},                 {"capped", p.capped},
-            {"lost", p.lost},   {"passed", p.passed}, {"yield", estimate_json(p.yield)}, {"measures", std::move(measures)}};
+    return {{"point", p.label},
+            {"units", p.units},
+            {"done", p.done},
+            {"capped", p.capped},
+            {"lost", p.lost},
+            {"passed", p.passed},
+            {"yield", estimate_json(p.yield)},
+            {"measures", std::move(measures)}};
 }
 
 SummaryJson influence_json(const NamedInfluence& i) {
     SummaryJson out = {{i.device >= 0 ? "device" : "axis", i.name}};
     if (i.device >= 0) out["part"] = i.part;
-    out["share"] = estimate_json(i.found.share), out["slope_for_one_sigma"] = json_number(i.found.slope), out["chance"] = json_number(i.found.chance);
+    out["share"] = estimate_json(i.found.share), out["slope_for_one_sigma"] = json_number(i.found.slope),
+    out["chance"] = json_number(i.found.chance);
     return out;
 }
 
@@ -67,7 +76,7 @@ SummaryJson dependence_json(const SweepTable& table, const SweepSummary& summary
         points.push_back({{"axis", table.axes[axis].name}, {"share", json_number(between.share)}, {"chance", json_number(between.chance)}});
     for (const auto& i : d.influences) influences.push_back(influence_json(i));
     for (const auto& s : d.devices) devices.push_back(device_json(*summary.drawn, s));
-    return {{"measure", d.measure},         {"between_points", points},     {"chips", d.all.units}, {"factors", d.all.factors},
+    return {{"measure", d.measure},         {"between_points", points}, {"chips", d.all.units}, {"factors", d.all.factors},
             {"explained", d.all.explained}, {"influences", influences}, {"devices", devices}};
 }
 

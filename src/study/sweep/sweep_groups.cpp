@@ -25,9 +25,9 @@ AxisParts points_of(const SweepColumn& axis, const std::vector<double>& all, con
     AxisParts out;
     out.part.reserve(all.size());
     for (const double x : all)
-        out.part.push_back(!out.part.empty() && out.part.back() < values.size() && values[out.part.back()] == x
-                               ? out.part.back()
-                               : static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
+        out.part.push_back(!out.part.empty() && out.part.back() < values.size() && values[out.part.back()] == x ? out.part.back()
+                           : std::isnan(x)                                                                      ? values.size()
+                                           : static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
     for (const double x : values) out.labels.push_back(fmt::format("{} = {}", axis.name, value_label(axis, x)));
     out.labels.push_back(axis.name + " = none");
     return out;
@@ -35,11 +35,14 @@ AxisParts points_of(const SweepColumn& axis, const std::vector<double>& all, con
 
 AxisParts bands_of(const SweepColumn& axis, const std::vector<double>& all) {
     auto sorted = all;
+    std::erase_if(sorted, [](double x) { return std::isnan(x); });
+    if (sorted.empty()) return {std::vector<std::size_t>(all.size()), {axis.name + " = none"}};
     std::sort(sorted.begin(), sorted.end());
     std::vector<double> edges;  // the first value of each band but the first
     for (std::size_t b = 1; b < SweepGroups::bands; ++b) edges.push_back(sorted[b * sorted.size() / SweepGroups::bands]);
     AxisParts out;
-    for (const double x : all) out.part.push_back(static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin()));
+    for (const double x : all)
+        out.part.push_back(static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin()));
     for (std::size_t b = 0; b < SweepGroups::bands; ++b)
         out.labels.push_back(fmt::format("{} {} ... {}", axis.name, format_quantity(b == 0 ? sorted.front() : edges[b - 1], axis.unit),
                                          format_quantity(b + 1 == SweepGroups::bands ? sorted.back() : edges[b], axis.unit)));
@@ -75,7 +78,8 @@ SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& 
         }
         out.groups.push_back({label, {}});
     }
-    for (std::size_t r = 0; r < key.size(); ++r) out.group_of.push_back(r > 0 && key[r] == key[r - 1] ? out.group_of.back() : number[key[r]]);
+    for (std::size_t r = 0; r < key.size(); ++r)
+        out.group_of.push_back(r > 0 && key[r] == key[r - 1] ? out.group_of.back() : number[key[r]]);
     for (std::size_t r = 0; r < out.group_of.size(); ++r) out.groups[out.group_of[r]].rows.push_back(r);
     return out;
 }
@@ -88,7 +92,8 @@ Result<SweepGroups> grouped(const SweepTable& table, const std::vector<std::stri
         const auto at = std::find(known.begin(), known.end(), name);
         if (at == known.end())
             return bad_usage(known.empty() ? fmt::format("--by {}: nothing in this sweep has a value to go by", name)
-                                           : fmt::format("--by {}: no axis is called so{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+                                           : fmt::format("--by {}: no axis is called so{}; there are {}", name, did_you_mean(name, known),
+                                                         fmt::join(known, ", ")));
         axes.push_back(static_cast<std::size_t>(at - known.begin()));
     }
     if (!by.empty()) return grouped_by(table, axes);

@@ -203,7 +203,8 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     return out;
 }
 
-std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<Drawn>& drawn, const std::vector<char>& passed, std::size_t& chips) {
+std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<Drawn>& drawn, const std::vector<char>& passed,
+                                       std::size_t& chips) {
     std::vector<std::size_t> listed;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
         if (table.makes_points(a)) listed.push_back(a);
@@ -215,7 +216,8 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     for (const auto a : listed)
         if (auto groups = grouped_by(table, {a}); groups.groups.size() > 1) in.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;
-    for (std::size_t m = 0; m < table.measures.size(); ++m) out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], in));
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], in));
     for (auto& own : in.factors.subjects) add_squares(own);
     if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, in));
     return out;

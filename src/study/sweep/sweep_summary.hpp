@@ -20,7 +20,8 @@ struct SweepGroup {
     std::string label;  ///< "temp = 85 C, corner = ss"
     std::vector<std::size_t> rows;
 };
-/// How a table's rows fall into groups: by the values of an axis that takes few, by five bands as full as each other of one that takes many.
+/// How a table's rows fall into groups: by the values of an axis that takes few, by five bands as full as each other of one that takes
+/// many.
 struct SweepGroups {
     static constexpr std::size_t most = 64, bands = 5;
     std::vector<std::size_t> axes;  ///< by which
@@ -48,8 +49,8 @@ struct PointSummary {
 
 /// Something drawn that a measure depends on.
 struct NamedInfluence {
-    std::string name;     ///< of a device, or of an axis
-    std::string part;     ///< of a device: "V_T" or "I_S"; of the yield also "V_T squared"
+    std::string name;                          ///< of a device, or of an axis
+    std::string part;                          ///< of a device: "V_T" or "I_S"; of the yield also "V_T squared"
     std::ptrdiff_t device = -1, subject = -1;  ///< in Drawn
     std::ptrdiff_t axis = -1;
     Influence found;
@@ -63,8 +64,8 @@ struct DeviceShare {
 struct Dependence {
     std::string measure;  ///< "yield": whether a unit passes
     Sensitivity all;
-    std::vector<NamedInfluence> influences;  ///< the strongest first
-    std::vector<DeviceShare> devices;        ///< of those that have a share, the largest first
+    std::vector<NamedInfluence> influences;               ///< the strongest first
+    std::vector<DeviceShare> devices;                     ///< of those that have a share, the largest first
     std::vector<std::pair<std::size_t, Between>> points;  ///< axes that make points, and what lies between them
 };
 
@@ -74,7 +75,7 @@ struct SweepSummary {
     std::vector<PointSummary> points;
     PointSummary all;
     std::optional<Drawn> drawn;
-    std::size_t chips = 0;  ///< that what depends on what was looked for in
+    std::size_t chips = 0;                ///< that what depends on what was looked for in
     std::vector<Dependence> dependences;  ///< each measure that varies, then the yield, if there are limits
 };
 

@@ -20,8 +20,10 @@ Result<std::vector<std::size_t>> measures_called(const SweepResults& results, co
     for (const auto& name : names) {
         const auto at = std::find(known.begin(), known.end(), name);
         if (at == known.end())
-            return bad_usage(fmt::format("--measure {}: there is no such measure{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
-        if (const auto k = static_cast<std::size_t>(at - known.begin()); std::find(out.begin(), out.end(), k) == out.end()) out.push_back(k);
+            return bad_usage(fmt::format("--measure {}: there is no such measure{}; there are {}", name, did_you_mean(name, known),
+                                         fmt::join(known, ", ")));
+        if (const auto k = static_cast<std::size_t>(at - known.begin()); std::find(out.begin(), out.end(), k) == out.end())
+            out.push_back(k);
     }
     return out;
 }
@@ -50,8 +52,9 @@ struct ReadPart {
 
 /// The rows of units [from, to).
 Result<ReadPart> read_part(const SweepResults& results, const std::string& asked, std::size_t columns, std::int64_t from, std::int64_t to) {
-    auto rows = sql::Statement::make(results.handle(), results.path(),
-                                     fmt::format("SELECT unit, ended, {} FROM units WHERE unit >= {} AND unit < {} ORDER BY unit", asked, from, to));
+    auto rows = sql::Statement::make(
+        results.handle(), results.path(),
+        fmt::format("SELECT unit, ended, {} FROM units WHERE unit >= {} AND unit < {} ORDER BY unit", asked, from, to));
     if (!rows) return rows.error();
     ReadPart out;
     out.columns.resize(columns);
@@ -73,7 +76,9 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
     std::vector<ReadPart> out(parts);
     std::vector<std::optional<Error>> errors(parts);
     Pool(parts == 1 ? 1 : 0).each(parts, [&](std::size_t k, unsigned) {
-        const auto at = [&](std::size_t part) { return part == parts ? std::numeric_limits<std::int64_t>::max() : results.units() / 4 * static_cast<std::int64_t>(part); };
+        const auto at = [&](std::size_t part) {
+            return part == parts ? std::numeric_limits<std::int64_t>::max() : results.units() / 4 * static_cast<std::int64_t>(part);
+        };
         const auto own = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::look(results.path());
         if (parts > 1 && !own) return void(errors[k] = own.error());
         auto read = read_part(parts == 1 ? results : *own, asked, columns, at(k), at(k + 1));
@@ -113,7 +118,8 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     out.units = results.units(), out.axes = results.axes();
     std::vector<std::string> asked;
     for (std::size_t k = 0; k < results.axes().size(); ++k) asked.push_back(sql::name(results.stored()[k]));
-    for (const auto m : *wanted) asked.push_back(sql::name(results.stored()[results.axes().size() + m])), out.measures.push_back(results.measures()[m]);
+    for (const auto m : *wanted)
+        asked.push_back(sql::name(results.stored()[results.axes().size() + m])), out.measures.push_back(results.measures()[m]);
     const auto works = sql::integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
     if (!works) return works.error();
     if (*works && measures.empty()) {
@@ -123,7 +129,9 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     auto parts = read_parts(results, fmt::format("{}", fmt::join(asked, ", ")), asked.size());
     if (!parts) return parts.error();
     out.axis_values.resize(out.axes.size()), out.measure_values.resize(out.measures.size());
-    const auto put = [](auto& all, auto& part) { all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end())); };
+    const auto put = [](auto& all, auto& part) {
+        all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end()));
+    };
     for (auto& part : *parts) {
         put(out.unit, part.unit), put(out.end, part.end);
         for (std::size_t k = 0; k < asked.size(); ++k) {
