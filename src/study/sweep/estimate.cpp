@@ -47,10 +47,13 @@ Sorted Sorted::merged(const std::vector<Sorted>& all) {
         out.values_.insert(out.values_.end(), one.values_.begin(), one.values_.end());
         ends.push_back(static_cast<std::ptrdiff_t>(out.values_.size()));
     }
-    const auto begin = out.values_.begin();
-    for (std::size_t width = 1; width < all.size(); width *= 2)  // neighbours, then neighbours of those
-        for (std::size_t k = 0; k + width < all.size(); k += 2 * width)
-            std::inplace_merge(begin + ends[k], begin + ends[k + width], begin + ends[std::min(k + 2 * width, all.size())]);
+    std::vector<double> wider(out.values_.size());
+    for (std::size_t width = 1; width < all.size(); width *= 2) {  // neighbours, then neighbours of those
+        const auto at = [&](std::size_t k) { return out.values_.begin() + ends[std::min(k, all.size())]; };
+        for (std::size_t k = 0; k < all.size(); k += 2 * width)
+            std::merge(at(k), at(k + width), at(k + width), at(k + 2 * width), wider.begin() + ends[k]);
+        out.values_.swap(wider);
+    }
     out.sum_up();
     return out;
 }

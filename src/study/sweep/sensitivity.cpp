@@ -159,8 +159,8 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Fact
         out.influences.push_back(one);
     }
     out.explained = plane.taken.empty() ? 0 : std::max(1 - noise * (n - 1), 0.0);
-    std::stable_sort(out.influences.begin(), out.influences.end(),
-                     [](const auto& a, const auto& b) { return a.share.value > b.share.value; });
+    std::sort(out.influences.begin(), out.influences.end(),
+              [](const auto& a, const auto& b) { return std::pair(-a.share.value, a.factor) < std::pair(-b.share.value, b.factor); });
     return out;
 }
 

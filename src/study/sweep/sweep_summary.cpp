@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <unordered_map>
 
 #include "signal/pool.hpp"
@@ -153,7 +154,8 @@ std::vector<DeviceShare> device_shares(const std::vector<NamedInfluence>& influe
         if (at == out.end()) at = out.insert(at, {i.subject, i.device});
         (i.part.starts_with("V_T") ? at->V_T : at->I_S) += i.found.share.value;
     }
-    std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.share() > b.share(); });
+    std::sort(out.begin(), out.end(),
+              [](const auto& a, const auto& b) { return std::tuple(-a.share(), a.subject, a.device) < std::tuple(-b.share(), b.subject, b.device); });
     return out;
 }
 
@@ -184,7 +186,8 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
         const auto between = between_groups(values, groups.group_of, groups.groups.size());
         if (between.chance <= false_discoveries && between.share > 0) out.points.emplace_back(axis, between);
     }
-    std::stable_sort(out.points.begin(), out.points.end(), [](const auto& a, const auto& b) { return a.second.share > b.second.share; });
+    std::sort(out.points.begin(), out.points.end(),
+              [](const auto& a, const auto& b) { return std::pair(-a.second.share, a.first) < std::pair(-b.second.share, b.first); });
     auto& all = in.factors.axes;
     const auto axes = all.size();
     const auto subject = in.drawn ? subject_of(name, *in.drawn) : -1;
