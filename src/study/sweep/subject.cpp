@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "circuit/knobs.hpp"
 #include "model/catalog.hpp"
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"

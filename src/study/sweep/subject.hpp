@@ -1,6 +1,7 @@
 #pragma once
 // What the subjects of sweeps have in common: a plan, columns, what is kept, and the facts.
 
+#include "signal/afferent.hpp"
 #include "study/sweep/measured.hpp"
 #include "study/sweep/text.hpp"
 
