@@ -33,7 +33,6 @@ class Leading {
     SweepCount& count_;
     RanksLost& lost_;
     UnitQueue queue_;
-    std::vector<bool> is_missing_;  // of each unit: nobody has done it yet
     std::vector<Follower> others_;  // by rank; 0 is not used
     std::vector<UnitOutcome> unwritten_;
     const std::uint64_t facts_;
@@ -49,13 +48,9 @@ class Leading {
         others_[rank].told = now_;
     }
 
-    void take(std::vector<UnitOutcome>&& outcomes) {
-        for (auto& o : outcomes) {
-            if (o.unit < 0 || o.unit >= results_.units() || !is_missing_[static_cast<std::size_t>(o.unit)]) continue;
-            is_missing_[static_cast<std::size_t>(o.unit)] = false;
-            count_.count(o);
-            unwritten_.push_back(std::move(o));
-        }
+    void take(UnitOutcome&& o) {
+        count_.count(o);
+        unwritten_.push_back(std::move(o));
     }
 
     void hear_hello(std::size_t rank, Message& m) {
@@ -76,10 +71,10 @@ class Leading {
         Error error;
         if (word == RankWord::hello) hear_hello(rank, m);
         if (word == RankWord::ask && m.get(number)) other.wants = static_cast<std::int64_t>(number);
-        if (word == RankWord::outcomes && get(m, outcomes)) {
-            for (const auto& o : outcomes) other.has.erase(o.unit);
-            take(std::move(outcomes));
-        }
+        // What it no longer has was given to others when it was taken for dead.
+        if (word == RankWord::outcomes && get(m, outcomes))
+            for (auto& o : outcomes)
+                if (other.has.erase(o.unit) > 0) take(std::move(o));
         if (word == RankWord::fault && get(m, error) && fault_)
             fault_ = Error{error.code, fmt::format("rank {} on {}: {}", rank, other.hello.host, error.sentence)};
     }
@@ -139,7 +134,7 @@ class Leading {
             hand_out();
             auto own = crew_.collect(0);
             pace_.ended(own.size(), now_);
-            take(std::move(own));
+            for (auto& o : own) take(std::move(o));
             if (auto ok = write(); !ok) return ok;
             if (auto ok = crew_.fault(); !ok && fault_) fault_ = ok;
             if (!fault_) break;
@@ -154,11 +149,8 @@ class Leading {
 public:
     Leading(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRun& run, SweepCount& count, RanksLost& lost,
             std::vector<UnitQueue::Range> missing)
-        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), lost_(lost), queue_(missing, run.shard),
-          is_missing_(static_cast<std::size_t>(results.units())), others_(static_cast<std::size_t>(ranks.size())),
+        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), lost_(lost), queue_(std::move(missing), run.shard), others_(static_cast<std::size_t>(ranks.size())),
           facts_(RankHello::mine(&sweep).facts), threads_(std::max(1U, run.threads)), crew_(sweep, threads_) {
-        for (const auto& [from, to] : missing)
-            std::fill(is_missing_.begin() + static_cast<std::ptrdiff_t>(from), is_missing_.begin() + static_cast<std::ptrdiff_t>(to), true);
         count_ = {.to_do = queue_.left()};
         results_.note(count_.to_do);
         for (std::size_t rank = 1; rank < others_.size(); ++rank) {

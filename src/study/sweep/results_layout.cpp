@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "signal/version.hpp"
 
 namespace corpuscle {
 namespace {
@@ -132,8 +131,6 @@ ResultsLayout ResultsLayout::of(const Sweep& sweep) {
         out.facts.push_back(fact.name);
         out.about[fact.name] = fact.text;
     }
-    out.facts.emplace_back("corpuscle");
-    out.about["corpuscle"] = version;
     return out;
 }
 

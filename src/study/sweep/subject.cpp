@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "circuit/knobs.hpp"
 #include "model/catalog.hpp"
 #include "circuit/knobs.hpp"
 #include "signal/field.hpp"
