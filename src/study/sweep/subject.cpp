@@ -6,7 +6,6 @@
 
 #include "circuit/knobs.hpp"
 #include "model/catalog.hpp"
-#include "circuit/knobs.hpp"
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
