@@ -689,6 +689,64 @@ class Studies(unittest.TestCase):
             self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
             self.assertGreater(min(points), 2)
 
+
+class Sweeps(unittest.TestCase):
+    """The page of a sweep's results: 60 chips of the bias generator at two temperatures."""
+
+    def test_yields_pictures_and_devices_are_there_and_follow_the_choosers(self):
+        sweep, results, path = OUT / "chips.toml", OUT / "chips.sqlite", OUT / "chips.html"
+        sweep.write_text(SWEEP)
+        results.unlink(missing_ok=True)
+        subprocess.run([CORPUSCLE, "sweep", str(sweep), "--out", str(results), "--quiet"], check=True, cwd=ROOT)
+        subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--report", str(path), "--quiet"], check=True)
+        data = data_of(path)
+        told = subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--by", "temp"], check=True, capture_output=True, text=True).stdout
+        self.assertLess(told.index("all limits"), told.index("v(q) (mV)"))
+        self.assertIn("temp = 85 C", told)
+        wrong = subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--by", "tmp"], capture_output=True, text=True)
+        self.assertEqual((wrong.returncode, wrong.stderr.strip()), (2, "corpuscle: --by tmp: no axis is called so; did you mean 'temp'?; there are temp"))
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+            options = webdriver.ChromeOptions()
+            options.binary_location = shutil.which("chromium")
+            for flag in [*FLAGS, "--user-data-dir=" + profile]:
+                options.add_argument(flag)
+            browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+            self.addCleanup(browser.quit)
+            browser.get(path.as_uri())
+            summary = data["summary"]
+            first = browser.find_elements(By.CSS_SELECTOR, "#yields tbody tr")[0].text
+            self.assertIn(f'{summary["all"]["passed"]} of 120', first)
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#points tbody tr")), 2)
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#measures tbody tr")), len(summary["measures"]))
+            found = [one["device"] for one in summary["depends_on"][0]["devices"]]
+            self.assertIn(found[0], browser.find_element(By.ID, "matters").text)
+            counted = "return charts[0].rawData_.reduce((sum, row) => sum + row[1], 0)"  # of the histogram
+            self.assertEqual(browser.execute_script(counted), 120)
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#figures figure")), 2 + len(data["factors"][0]))
+            Select(browser.find_element(By.ID, "grouping")).select_by_visible_text("temp")
+            self.assertAlmostEqual(browser.execute_script(counted), 100, places=6)  # per cent of each
+            self.assertIn("temp = 85", browser.find_element(By.ID, "key").text)
+            Select(browser.find_element(By.ID, "measure")).select_by_visible_text("i(vis)")
+            self.assertIn("i(vis)", browser.find_element(By.CSS_SELECTOR, "#figures figcaption").text)
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#failed tbody tr")), 120 - summary["all"]["passed"])
+            self.assertEqual(browser.get_log("browser"), [])
+
+
+SWEEP = """
+netlist = "circuits/bias.cir"
+units = 60
+measures = ["v(q)", "i(vis)"]
+[set]
+corner = "mc"
+[[vary]]
+what = "mismatch"
+[[vary]]
+what = "temp"
+list = [27, 85]
+[limits]
+"v(q)" = ["347mV", "353mV"]
+"""
+
 if __name__ == "__main__":
     CORPUSCLE, OUT = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
     OUT.mkdir(parents=True, exist_ok=True)

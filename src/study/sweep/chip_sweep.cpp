@@ -25,7 +25,7 @@ class ChipSweep final : public PlannedSweep {
     ForceMaker force_;
     DesignPointer nominal_;
     std::unique_ptr<AfferentMeasures> measured_;
-    std::size_t every_ = 0;
+    std::size_t every_ = 0, lanes_ = circuit::BatchOptions{}.lanes;
     long most_ = 0;  // iterations that the file allows; 0: it says nothing
 
     mutable std::mutex guard_;
@@ -50,6 +50,7 @@ class ChipSweep final : public PlannedSweep {
 
 public:
     static Result<std::unique_ptr<Sweep>> make(const SweepText&, const std::string& folder);
+    void set_lanes(std::size_t lanes) override { lanes_ = lanes; }
     Result<void> work(const Next&, const Told&, const std::function<bool()>& stop) const override;
 };
 
@@ -218,7 +219,7 @@ UnitOutcome ChipSweep::outcome(std::int64_t unit, const AtWork& at, ChipAnswer&&
 
 Result<void> ChipSweep::work(const Next& next, const Told& told, const std::function<bool()>& stop) const {
     circuit::BatchOptions options;
-    options.stop = stop, options.show_every = every_;
+    options.stop = stop, options.show_every = every_, options.lanes = lanes_;
     options.most_iterations = most_iterations(stop);
     std::map<std::int64_t, AtWork> at_work;
     std::optional<Error> fault;

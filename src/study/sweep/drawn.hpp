@@ -24,7 +24,8 @@ struct DrawnDevice {
     double area() const { return W * L * m * stack; }
 };
 
-/// The transistors that differ from chip to chip (what all of a chip share, the process, has axes of its own). Device `number` of chip c: normals(seed, number, ..., c), as mismatch() in circuit/device/uicm_card.hpp has them.
+/// The transistors that differ from chip to chip (what all of a chip share, the process, has axes of its own). Device `number` of chip c:
+/// normals(seed, number, ..., c), as mismatch() in circuit/device/uicm_card.hpp has them.
 struct Drawn {
     std::uint64_t seed = 0;
     std::int64_t chips = 0;  ///< unit u is chip u % chips; 0: chip u

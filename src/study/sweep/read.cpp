@@ -13,6 +13,7 @@ namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
+using sweeps::MaybeSaid;
 using sweeps::Said;
 using sweeps::SweepText;
 
@@ -48,14 +49,28 @@ Result<std::unique_ptr<Sweep>> of_subject(const SweepText& said, const std::stri
     return names_netlist(said.afferent->text) ? sweeps::chips_sweep(said, folder) : sweeps::equations_sweep(said, folder);
 }
 
+/// What is asked for on the command line, in the place of what the file says.
+void put(MaybeSaid& into, std::string_view key, const std::optional<std::string>& asked, SweepText& said) {
+    if (!asked || (into && into->text == *asked)) return;
+    into = Said{*asked, {}};
+    said.canonical += fmt::format("--{} {}\n", key, *asked);
+}
+
+template <class N>
+std::optional<std::string> text_of(const std::optional<N>& number) {
+    return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
+}
+
 }  // namespace
 
-Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path) {
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepAsked& asked) {
     const fs::path file = path;
     const auto folder = file.parent_path().string();
     const bool is_netlist = file.extension() != ".toml";
-    const auto said = is_netlist ? Result<SweepText>(of_netlist(file)) : text_at(file);
+    auto said = is_netlist ? Result<SweepText>(of_netlist(file)) : text_at(file);
     if (!said) return said.error();
+    put(said->seed, "seed", text_of(asked.seed), *said);
+    put(said->units, "units", text_of(asked.units), *said);
     auto sweep = of_subject(*said, folder);
     if (sweep) return sweep;
     auto error = sweep.error();  // netlists and what they include are called as seen from the folder

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "circuit/knobs.hpp"
+#include "model/catalog.hpp"
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"

@@ -1,0 +1,74 @@
+// corpuscle sweep show: what a file of results says.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/output.hpp"
+#include "report/sweep_page.hpp"
+#include "study/sweep/sweep_document.hpp"
+#include "sweep_tables.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+namespace {
+
+Result<SweepQuestion> question_of(const SweepShowWords& words) {
+    SweepQuestion out;
+    out.by = words.by;
+    if (words.quantiles.empty()) return out;
+    for (const double q : words.quantiles)
+        if (!(q > 0 && q < 1))
+            return bad_usage(fmt::format("--quantile {:g}: must lie between 0 and 1; 0.05 is the value that 5 % are below", q));
+    out.quantiles = words.quantiles;
+    std::sort(out.quantiles.begin(), out.quantiles.end());
+    out.quantiles.erase(std::unique(out.quantiles.begin(), out.quantiles.end()), out.quantiles.end());
+    return out;
+}
+
+Result<void> write_page(const std::string& path, const std::string& text) {
+    auto file = OutputFile::create(path);
+    if (!file) return file.error();
+    if (auto ok = file->write(text); !ok) return ok;
+    return file->commit();
+}
+
+Result<void> run(const SweepShowWords& words, const Common& common) {
+    const auto question = question_of(words);
+    if (!question) return question.error();
+    const auto results = SweepResults::look(words.results);
+    if (!results) return results.error();
+    const auto table = read_table(*results, words.measures);
+    if (!table) return table.error();
+    std::optional<Drawn> drawn;
+    if (const auto text = results->about(drawn_fact); !text.empty()) {
+        auto read = drawn_of(text);
+        if (!read) return bad_input(read.error().sentence, {words.results});
+        drawn = std::move(*read);
+    }
+    const auto summary = summary_of(*table, drawn, *question);
+    if (!summary) return summary.error();
+    const auto said = results->about("title");
+    const auto title = said.empty() ? std::filesystem::path(words.results).stem().string() : said;
+    if (!words.report_file.empty()) {
+        const auto page = sweep_page(*results, *table, *summary, title, common.command);
+        if (!page) return page.error();
+        if (auto ok = write_page(words.report_file, *page); !ok) return ok;
+    }
+    if (common.json)
+        fmt::print("{}\n", document_of(*table, *summary, title).dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    else if (!common.quiet)
+        fmt::print("{}", sweep_tables(*table, *summary, title, !words.quantiles.empty()));
+    return {};
+}
+
+}  // namespace
+
+int sweep_show(const SweepShowWords& words, const Common& common) {
+    const auto done = run(words, common);
+    return done ? 0 : fail(done.error());
+}
+
+}  // namespace corpuscle

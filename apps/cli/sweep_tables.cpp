@@ -1,0 +1,199 @@
+#include "sweep_tables.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "signal/quantity.hpp"
+#include "terminal.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+constexpr std::size_t most_devices = 5;
+
+/// How the numbers of one measure are written: all with the same prefix, as finely as its deviation asks for.
+class Writing {
+    double factor_ = 1;
+    int decimals_ = 4;
+    bool far_ = false;  // from 1, without a unit that could take a prefix
+    std::string unit_;
+
+public:
+    Writing(const std::string& unit, const MeasureSummary& m) : unit_(unit) {
+        const double size = std::max(std::abs(m.least), std::abs(m.greatest)),
+                     typical = std::abs(m.mean.value) > 0.01 * size ? std::abs(m.mean.value) : size;
+        if (!(typical > 0)) return;
+        const auto text = unit.empty() ? "" : format_quantity(typical, unit);
+        if (const auto blank = text.find(' '); blank != text.npos) {
+            const auto with = parse_unit(text.substr(blank + 1)), without = parse_unit(unit);
+            if (with && without) unit_ = text.substr(blank + 1), factor_ = without->factor / with->factor;
+        }
+        const double fine = m.sigma.value > 0 ? m.sigma.value : typical;
+        decimals_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(fine * factor_))), 0, 12);
+        far_ = typical * factor_ >= 1e7 || typical * factor_ < 1e-4;
+    }
+    const std::string& unit() const { return unit_; }
+    std::string operator()(double x) const {
+        if (std::isnan(x)) return "-";
+        return far_ ? fmt::format("{:.4g}", x * factor_) : fmt::format("{:.{}f}", x * factor_, decimals_);
+    }
+    std::string interval(const Estimate& e) const {
+        return std::isnan(e.low) && std::isnan(e.high) ? "-" : fmt::format("{} ... {}", (*this)(e.low), (*this)(e.high));
+    }
+};
+
+std::string percent(double share) { return std::isnan(share) ? "-" : fmt::format("{:.1f}", 100 * share); }
+std::string percent_interval(const Estimate& e) {
+    return std::isnan(e.low) ? "-" : fmt::format("{:.1f} ... {:.1f}", 100 * e.low, 100 * e.high);
+}
+
+std::string named(const SweepColumn& c, const std::string& unit) { return unit.empty() ? c.name : fmt::format("{} ({})", c.name, unit); }
+
+std::string limits_of(const SweepColumn& c) {
+    const auto shown = [&](double x) { return format_quantity(x, c.unit); };
+    return c.at_least && c.at_most ? fmt::format("{} ... {}", shown(*c.at_least), shown(*c.at_most))
+           : c.at_least            ? "at least " + shown(*c.at_least)
+                                   : "at most " + shown(*c.at_most);
+}
+
+std::string opening(const SweepTable& from, const SweepSummary& s, const std::string& title) {
+    const auto finished = static_cast<std::int64_t>(from.rows());
+    std::string text = finished == from.units
+                           ? fmt::format("{}: {} units, all finished", title, from.units)
+                           : fmt::format("{}: {} of {} units are finished, of which this is", title, finished, from.units);
+    if (s.all.capped > 0) text += fmt::format("; {} stopped, too costly", s.all.capped);
+    if (s.all.lost > 0) text += fmt::format("; {} lost, not converged", s.all.lost);
+    return text + ".\n";
+}
+
+std::string yields(const SweepTable& from, const SweepSummary& s) {
+    Rows rows = {{"yield", "limits", "passed", "of", "%", "95 % confidence"}};
+    const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& share) {
+        rows.push_back(
+            {name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.units), percent(share.value), percent_interval(share)});
+    };
+    line(from.has_limits() ? "all limits" : "ended", "", s.all.passed, s.all.yield);
+    for (std::size_t m = 0; m < from.measures.size(); ++m)
+        if (const auto& own = s.all.measures[m].yield)
+            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.units)), *own);
+    return "\n" + table(rows);
+}
+
+std::string measures_text(const SweepTable& from, const SweepSummary& s) {
+    Rows rows = {{"measure", "units", "mean", "95 %", "sigma", "95 %", "least"}};
+    for (const double q : s.question.quantiles) rows[0].push_back(q == 0.5 ? "median" : fmt::format("{:g} %", 100 * q));
+    for (const char* last : {"most", "normal plot"}) rows[0].emplace_back(last);
+    for (std::size_t m = 0; m < from.measures.size(); ++m) {
+        const auto& one = s.all.measures[m];
+        const Writing shown(from.measures[m].unit, one);
+        rows.push_back({named(from.measures[m], shown.unit()), fmt::format("{}", one.count), shown(one.mean.value),
+                        shown.interval(one.mean), shown(one.sigma.value), shown.interval(one.sigma), shown(one.least)});
+        for (std::size_t q = 0; q < s.question.quantiles.size(); ++q)
+            rows.back().push_back(q < one.quantiles.size() ? shown(one.quantiles[q].value) : "-");
+        rows.back().push_back(shown(one.greatest));
+        rows.back().push_back(std::isnan(one.normality)              ? "-"
+                              : one.normality >= one.normality_floor ? fmt::format("{:.4f}, normal", one.normality)
+                                                                     : fmt::format("{:.4f}, not normal", one.normality));
+    }
+    return "\n" + table(rows);
+}
+
+std::string points_text(const SweepTable& from, const SweepSummary& s) {
+    if (s.points.size() < 2) return "";
+    Rows rows = {{"point", "units", "yield %", "95 %"}};
+    std::vector<Writing> shown;
+    for (std::size_t m = 0; m < from.measures.size(); ++m) {
+        shown.emplace_back(from.measures[m].unit, s.all.measures[m]);
+        rows[0].push_back(named(from.measures[m], shown.back().unit()));
+    }
+    for (const auto& p : s.points) {
+        rows.push_back({p.label, fmt::format("{}", p.units), percent(p.yield.value), percent_interval(p.yield)});
+        for (std::size_t m = 0; m < from.measures.size(); ++m) {
+            const auto& one = p.measures[m];
+            rows.back().push_back(one.count == 0 ? "-"
+                                  : std::isnan(one.sigma.value)
+                                      ? shown[m](one.mean.value)
+                                      : fmt::format("{} +- {}", shown[m](one.mean.value), shown[m](one.sigma.value)));
+        }
+    }
+    return fmt::format("\nPoint by point, mean and deviation:\n{}", table(rows));
+}
+
+/// "4x2 of 2 x 0.5 um".
+std::string array_of(const DrawnDevice& d) {
+    const auto size = fmt::format("{:.4g} x {:.4g} um", 1e6 * d.W, 1e6 * d.L);
+    return d.m == 1 && d.stack == 1 ? size : fmt::format("{:g}x{:g} of {}", d.m, d.stack, size);
+}
+
+void put_dependence(Rows& rows, const SweepTable& from, const SweepSummary& s, const Dependence& d) {
+    auto name = d.measure;
+    const auto line = [&](std::vector<std::string> cells) {
+        rows.push_back({name}), name.clear();
+        for (auto& c : cells) rows.back().push_back(std::move(c));
+    };
+    for (const auto& [axis, between] : d.points) line({from.axes[axis].name, "point of the grid", "", percent(between.share), "", "", ""});
+    for (const auto& i : d.influences)
+        if (i.device < 0 && i.found.share.value > 0) line({i.name, "drawn", "", percent(i.found.share.value), "", "", ""});
+    for (std::size_t k = 0; k < std::min(d.devices.size(), most_devices); ++k) {
+        const auto& share = d.devices[k];
+        const auto& device = s.drawn->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
+        line({device.name, array_of(device), fmt::format("{:.4g}", 1e12 * device.area()), percent(share.share()), percent(share.V_T),
+              percent(share.I_S),
+              d.measure == "yield" ? "" : fmt::format("{:.1f}", 100 * (sigma_with_four_times_the_area(share.share()) - 1))});
+    }
+    if (d.devices.size() > most_devices)
+        line({fmt::format("and {} devices more", d.devices.size() - most_devices), "", "", "", "", "", ""});
+}
+
+std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
+    Rows rows = {{"measure", "depends on", "size", "area (um^2)", "share (%)", "of V_T", "of I_S", "sigma with 4x the area (%)"}};
+    std::vector<std::string> nothing;
+    std::string bent;
+    for (const auto& d : s.dependences) {
+        const auto before = rows.size();
+        put_dependence(rows, from, s, d);
+        if (rows.size() == before) nothing.push_back(d.measure);
+        if (!d.influences.empty()) bent += fmt::format("{}{} {}", bent.empty() ? "" : ", ", d.measure, percent(d.all.explained));
+    }
+    std::string text;
+    if (rows.size() > 1)
+        text = fmt::format(
+            "\nWhat matters, as a share of the variance (of the grid: of all; of what is drawn: between the chips of a point, "
+            "of {} chips):\n{}",
+            s.chips, table(rows));
+    if (!bent.empty())
+        text += fmt::format("Straight lines explain (%): {}; the rest is bent, joint, or too small to tell from chance.\n", bent);
+    if (!nothing.empty() && (s.drawn || !from.axes.empty()))
+        text += fmt::format("Nothing that was varied stands out of chance for: {}.\n", fmt::join(nothing, ", "));
+    return text;
+}
+
+/// The quantiles that were asked for, with their intervals.
+std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
+    Rows rows = {{"quantile"}};
+    for (std::size_t m = 0; m < from.measures.size(); ++m) {
+        const Writing shown(from.measures[m].unit, s.all.measures[m]);
+        rows[0].push_back(named(from.measures[m], shown.unit())), rows[0].push_back("95 %");
+        for (std::size_t q = 0; q < s.question.quantiles.size(); ++q) {
+            if (m == 0) rows.push_back({fmt::format("{:g} %", 100 * s.question.quantiles[q])});
+            const auto& all = s.all.measures[m].quantiles;
+            rows[q + 1].push_back(q < all.size() ? shown(all[q].value) : "-");
+            rows[q + 1].push_back(q < all.size() ? shown.interval(all[q]) : "-");
+        }
+    }
+    return "\n" + table(rows);
+}
+
+}  // namespace
+
+std::string sweep_tables(const SweepTable& from, const SweepSummary& s, const std::string& title, bool quantiles) {
+    if (from.rows() == 0) return fmt::format("{}: none of {} units is finished yet.\n", title, from.units);
+    auto text = opening(from, s, title) + yields(from, s);
+    if (!from.measures.empty()) text += measures_text(from, s) + (quantiles ? quantiles_text(from, s) : "");
+    return text + points_text(from, s) + dependences_text(from, s);
+}
+
+}  // namespace corpuscle

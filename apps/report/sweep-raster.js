@@ -1,0 +1,58 @@
+"use strict";
+// The spikes of many units under each other, those with the least of the chosen measure at the bottom.
+
+const RASTER = {left: 66, right: 8, top: 4, bottom: 34};
+
+/// Units in order of the measure; each with its spikes.
+function rasterLanes({rows, counts, times}) {
+    const bytes = Uint8Array.from(atob(times), (c) => c.charCodeAt(0)), all = new Float32Array(bytes.buffer), values = measured(state.measure, rows), groups = groupsOf(rows);
+    let from = 0;
+    const lanes = rows.map((row, k) => ({row, value: values[k], group: groups[k], spikes: all.subarray(from, (from += counts[k]))}));
+    return lanes.sort((a, b) => (b.value ?? -Infinity) - (a.value ?? -Infinity) || b.row - a.row);
+}
+
+function showRaster(host, train) {
+    const lanes = rasterLanes(train), end = lanes.reduce((most, {spikes}) => Math.max(most, ...spikes.slice(-1)), 0) * 1.02 || 1;
+    const thinned = train.rows.length < table.finished ? `${train.rows.length} of ${table.finished} units, ` : "";
+    const made = element(host, "figure", "raster");
+    const caption = element(made, "figcaption", "", `${escaped(train.name)} <span class="unit">${thinned}sorted by ${escaped(measures[state.measure]?.name ?? "unit")}, the least at the bottom; those that did not pass are marked on the left</span>`);
+    const readout = element(caption, "span", "readout");
+    const canvas = element(made, "canvas");
+    canvas.setAttribute("aria-label", `spikes of ${train.rows.length} units`);
+    const tall = Math.max(80, Math.min(420, 8 * lanes.length));
+    const paint = () => paintRaster(canvas, lanes, end, tall);
+    new ResizeObserver(paint).observe(made);
+    canvas.addEventListener("mousemove", (event) => {
+        const lane = lanes[Math.floor((event.offsetY - RASTER.top) / tall * lanes.length)];
+        readout.textContent = lane ? ` unit ${data.rows.unit[rowNumber.get(lane.row)]}, ${measures[state.measure]?.name ?? ""} ${quantity(lane.value, measures[state.measure]?.unit ?? "", true)}, ${lane.spikes.length} spikes` : "";
+    });
+}
+
+function paintRaster(canvas, lanes, end, tall) {
+    const wide = canvas.parentElement.clientWidth, scale = devicePixelRatio || 1, context = canvas.getContext("2d");
+    [canvas.width, canvas.height] = [wide * scale, (tall + RASTER.top + RASTER.bottom) * scale];
+    canvas.style.height = `${tall + RASTER.top + RASTER.bottom}px`;
+    context.scale(scale, scale);
+    const width = wide - RASTER.left - RASTER.right, lane = tall / lanes.length, x = (t) => RASTER.left + t / end * width;
+    paintAxis(context, x, end, tall, width);
+    lanes.forEach(({row, group, spikes}, k) => {
+        const y = RASTER.top + k * lane;
+        context.fillStyle = groupColour(group);
+        for (const t of spikes) context.fillRect(x(t) - 0.6, y, 1.2, Math.max(lane * 0.9, 0.6));
+        if (data.rows.passes[rowNumber.get(row)]) return;
+        context.fillStyle = colour(1);
+        context.fillRect(RASTER.left - 8, y, 5, Math.max(lane, 0.6));
+    });
+}
+
+function paintAxis(context, x, end, tall, width) {
+    const bottom = RASTER.top + tall;
+    context.font = "11px system-ui, sans-serif", context.textAlign = "center", context.fillStyle = ink("faint"), context.strokeStyle = ink("grid");
+    for (const t of roundTicks(0, end, width / 90).values) {
+        context.beginPath(), context.moveTo(x(t), RASTER.top), context.lineTo(x(t), bottom + 4), context.stroke();
+        context.fillText(quantity(t, "s", true), x(t), bottom + 16);
+    }
+    context.strokeStyle = ink("axis");
+    context.beginPath(), context.moveTo(x(0), bottom), context.lineTo(x(end), bottom), context.stroke();
+    context.fillText("time", x(end / 2), bottom + 30);
+}

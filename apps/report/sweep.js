@@ -1,0 +1,69 @@
+"use strict";
+// A page of a sweep's results: yields, measures, what they depend on; pictures of the measure that is chosen; units that stand out.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const table = data.summary, measures = table.measures;
+const rowNumber = new Map(data.rows.row.map((row, k) => [row, k]));
+const state = {measure: 0, grouping: 0};
+
+const grouping = () => data.groupings[state.grouping];
+const groupName = (k) => grouping().groups[k];
+const groupColour = (k) => (grouping().groups.length === 1 ? colour(0) : colour(k));
+
+/// Values of a measure or an axis for some rows.
+const measured = (measure, rows) => !measures.length ? rows : rows.map((row) => data.rows.measures[measure][rowNumber.get(row)]);
+const varied = (axis, rows) => rows.map((row) => data.rows.axes[axis][rowNumber.get(row)]);
+const groupsOf = (rows) => rows.map((row) => data.rows.groups[state.grouping][rowNumber.get(row)]);
+
+function section(host, id, title, note = "") {
+    const made = element(host, "section");
+    made.id = id;
+    element(made, "h2", "", `${escaped(title)} <small>${escaped(note)}</small>`);
+    return made;
+}
+
+/// What is drawn anew for another measure or grouping.
+function draw() {
+    charts.splice(0).forEach((chart) => chart.destroy());
+    for (const id of ["figures", "rasters", "traces", "extremes"]) document.getElementById(id)?.replaceChildren();
+    const plots = element(document.getElementById("figures"), "div", "plots");
+    showKey();
+    if (measures.length) showHistogram(plots, state.measure), showNormalPlot(plots, state.measure);
+    for (const factor of data.factors[state.measure] || []) showScatter(plots, state.measure, factor);
+    for (const train of data.rasters) showRaster(document.getElementById("rasters"), train);
+    for (const trace of data.traces) showEnvelope(document.getElementById("traces"), trace);
+    showExtremes(document.getElementById("extremes"), state.measure);
+}
+
+function chooser(host, id, name, options, chosen) {
+    const label = element(host, "label", "", `${escaped(name)} `);
+    const select = element(label, "select", "", options.map((text, k) => `<option value="${k}">${escaped(text)}</option>`).join(""));
+    select.id = id;
+    select.addEventListener("change", () => { chosen(Number(select.value)); draw(); });
+}
+
+function start(host) {
+    document.getElementById("title").textContent = data.title;
+    document.getElementById("program").textContent = data.program;
+    document.getElementById("command").textContent = data.command;
+    showYields(section(host, "yields", "Yield", openingText()));
+    if (!table.finished) return;
+    showMeasures(section(host, "measures", "Measures", "with the interval in which the truth lies with 95 % confidence"));
+    showPoints(host);
+    showDependences(host);
+    const bar = element(host, "div");
+    bar.id = "toolbar";
+    if (measures.length) chooser(bar, "measure", "measure", measures.map(({name}) => name), (k) => (state.measure = k));
+    if (data.groupings.length > 1) chooser(bar, "grouping", "colour by", data.groupings.map(({name}) => name), (k) => (state.grouping = k));
+    const key = element(bar, "span", "key");
+    key.id = "key";
+    element(host, "div").id = "figures";
+    if (data.rasters.length) element(host, "section").id = "rasters";
+    if (data.traces.length) element(host, "section").id = "traces";
+    element(host, "section").id = "extremes";
+    showFailed(host);
+    draw();
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+}
+
+start(document.getElementById("sweep"));

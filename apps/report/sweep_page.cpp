@@ -1,0 +1,172 @@
+#include "report/sweep_page.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "report/sweep_plots.hpp"
+#include "report/template.hpp"
+#include "signal/version.hpp"
+#include "study/sweep/sweep_document.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_points = 1500, most_rasters = 800, most_traced = 1000, most_failed = 200, most_extremes = 8, most_scatters = 4;
+
+/// Of some rows, what all pictures and tables of them need: each row once.
+class ShownRows {
+    const SweepTable& table_;
+    std::map<std::size_t, std::size_t> number_;
+
+public:
+    explicit ShownRows(const SweepTable& table) : table_(table) {}
+    void take(const std::vector<std::size_t>& rows) {
+        for (const auto r : rows) number_.emplace(r, 0);
+    }
+    Json document(const std::vector<Grouping>& groupings) {
+        std::size_t count = 0;
+        for (auto& [row, n] : number_) n = count++;
+        Json out = {{"row", Json::array()}, {"unit", Json::array()}, {"end", Json::array()}, {"passes", Json::array()}};
+        const auto column = [&](const std::vector<double>& all) {
+            std::vector<double> some;
+            for (const auto& [row, n] : number_) some.push_back(all[row]);
+            return shown_numbers(some);
+        };
+        for (const auto& [row, n] : number_) {
+            out["row"].push_back(row), out["unit"].push_back(table_.unit[row]), out["end"].push_back(static_cast<int>(table_.end[row]));
+            out["passes"].push_back(table_.passes(row) ? 1 : 0);
+        }
+        out["axes"] = Json::array(), out["measures"] = Json::array(), out["groups"] = Json::array();
+        for (const auto& a : table_.axis_values) out["axes"].push_back(column(a));
+        for (const auto& m : table_.measure_values) out["measures"].push_back(column(m));
+        for (const auto& g : groupings) {
+            out["groups"].push_back(Json::array());
+            for (const auto& [row, n] : number_) out["groups"].back().push_back(g.by.group_of[row]);
+        }
+        return out;
+    }
+};
+
+/// The rows of least and of greatest values of a measure.
+std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
+    std::vector<std::size_t> rows;
+    for (std::size_t r = 0; r < values.size(); ++r)
+        if (std::isfinite(values[r])) rows.push_back(r);
+    const auto some = std::min(rows.size(), 2 * most_extremes), half = some / 2;
+    const auto less = [&](std::size_t a, std::size_t b) { return std::pair(values[a], a) < std::pair(values[b], b); };
+    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half), rows.end(), less);
+    std::vector<std::size_t> out(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half));
+    rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half));
+    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(half), rows.end(),
+                      [&](auto a, auto b) { return less(b, a); });
+    out.insert(out.end(), rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(half));
+    return out;
+}
+
+/// A factor to draw a measure over: of an axis its number, of a device its deviates for the points' rows.
+Json factor_document(const SweepTable& table, const SweepSummary& s, const NamedInfluence& i, const std::vector<std::size_t>& rows) {
+    Json out = {{"name", i.name}, {"part", i.part}, {"share", i.found.share.value}};
+    if (i.device < 0) {
+        out["axis"] = i.axis, out["unit"] = table.axes[static_cast<std::size_t>(i.axis)].unit;
+        return out;
+    }
+    const auto& device = s.drawn->subjects[static_cast<std::size_t>(i.subject)].devices[static_cast<std::size_t>(i.device)];
+    std::vector<std::uint64_t> chips;
+    for (const auto r : rows) chips.push_back(s.drawn->chip(table.unit[r]));
+    auto own = deviates_of(device, s.drawn->seed, chips);
+    auto& values = i.part == "V_T" ? own.V_T : own.I_S;
+    for (auto& x : values) x *= i.part == "V_T" ? device.sigma_VT : 100 * device.sigma_IS;
+    out["unit"] = i.part == "V_T" ? "V" : "%", out["values"] = shown_numbers(values);
+    return out;
+}
+
+Json factors_document(const SweepTable& table, const SweepSummary& s, const std::vector<std::size_t>& points) {
+    Json out = Json::array();
+    for (const auto& d : s.dependences) {
+        if (d.measure == "yield") break;
+        out.push_back(Json::array());
+        for (const auto& [axis, between] : d.points)
+            out.back().push_back(
+                {{"name", table.axes[axis].name}, {"part", ""}, {"share", between.share}, {"axis", axis}, {"unit", table.axes[axis].unit}});
+        for (const auto& i : d.influences)
+            if (out.back().size() < most_scatters && i.found.share.value > 0) out.back().push_back(factor_document(table, s, i, points));
+    }
+    return out;
+}
+
+std::vector<std::size_t> failed_rows(const SweepTable& table) {
+    std::vector<std::size_t> out;
+    for (std::size_t r = 0; r < table.rows() && out.size() < most_failed; ++r)
+        if (!table.passes(r)) out.push_back(r);
+    return out;
+}
+
+/// How a device reads in a table.
+Json sizes_document(const SweepSummary& s) {
+    Json out = Json::object();
+    if (!s.drawn) return out;
+    for (const auto& d : s.dependences)
+        for (const auto& share : d.devices) {
+            const auto& device = s.drawn->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
+            out[device.name] = fmt::format("{:g}x{:g} of {:.4g} x {:.4g} um", device.m, device.stack, 1e6 * device.W, 1e6 * device.L);
+        }
+    return out;
+}
+
+}  // namespace
+
+Result<std::string> sweep_page(const SweepResults& results, const SweepTable& table, const SweepSummary& summary, const std::string& title,
+                               const std::string& command) {
+    const auto groupings = groupings_of(table);
+    Json page = {{"title", title},
+                 {"program", fmt::format("corpuscle {}", version)},
+                 {"command", command},
+                 {"summary", document_of(table, summary, title)}};
+    page["groupings"] = Json::array();
+    for (const auto& g : groupings) {
+        Json labels = Json::array();
+        for (const auto& one : g.by.groups) labels.push_back(one.label.empty() ? "all units" : one.label);
+        page["groupings"].push_back({{"name", g.name}, {"groups", labels}});
+    }
+    page["histograms"] = Json::array(), page["normal_plots"] = Json::array(), page["extremes"] = Json::array();
+    ShownRows shown(table);
+    for (const auto& values : table.measure_values) {
+        page["histograms"].push_back(Json::array()), page["normal_plots"].push_back(Json::array());
+        for (const auto& g : groupings) {
+            page["histograms"].back().push_back(histograms(values, g.by));
+            page["normal_plots"].back().push_back(normal_plots(values, g.by));
+        }
+        const auto extremes = extremes_of(values);
+        page["extremes"].push_back(extremes);
+        shown.take(extremes);
+    }
+    const auto points = thinned_rows(table.rows(), most_points), chips = thinned_rows(table.rows(), most_rasters);
+    const auto traced = thinned_rows(table.rows(), most_traced), failed = failed_rows(table);
+    page["rasters"] = Json::array(), page["traces"] = Json::array();
+    for (std::size_t t = 0; t < std::min<std::size_t>(results.trains().size(), 4); ++t) {
+        auto raster = rasters(results, t, table, chips);
+        if (!raster) return raster.error();
+        page["rasters"].push_back(std::move(*raster));
+    }
+    for (std::size_t t = 0; t < std::min<std::size_t>(results.traces().size(), 8); ++t) {
+        auto one = envelopes(results, t, table, traced, groupings);
+        if (!one) return one.error();
+        page["traces"].push_back(std::move(*one));
+    }
+    const auto lost = lost_units(results, most_failed);
+    if (!lost) return lost.error();
+    page["why"] = Json::object();
+    for (const auto& l : *lost) page["why"][fmt::format("{}", l.unit)] = l.why;
+    for (const auto* rows : {&points, &chips, &failed}) shown.take(*rows);
+    page["points"] = points, page["failed"] = failed;
+    page["factors"] = factors_document(table, summary, points);
+    page["sizes"] = sizes_document(summary);
+    page["rows"] = shown.document(groupings);
+    return filled(asset("sweep.html"), escaped(title), safe_json(page));
+}
+
+}  // namespace corpuscle

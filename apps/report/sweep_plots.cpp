@@ -1,0 +1,194 @@
+#include "report/sweep_plots.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "report/envelope.hpp"
+#include "study/sweep/probability.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t most_bins = 60, most_in_normal_plot = 200, most_times = 500, most_spikes = 200000;
+
+double shortened(double x) { return std::isfinite(x) ? std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr) : x; }
+
+std::vector<double> finite_of(const std::vector<double>& values) {
+    std::vector<double> out;
+    for (const double x : values)
+        if (std::isfinite(x)) out.push_back(x);
+    return out;
+}
+
+double nth(std::vector<double>& values, double q) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+/// Where the bins begin, how wide each is, how many.
+struct Bins {
+    double from = 0, width = 1;
+    std::size_t count = 1;
+};
+Bins bins_for(std::vector<double> values) {
+    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+    double low = *least, high = *greatest;
+    const bool whole = high - low < 1000 && std::all_of(values.begin(), values.end(), [](double x) { return x == std::round(x); });
+    if (whole) {
+        const double each = std::ceil((high - low + 1) / most_bins);
+        return {low - 0.5, each, static_cast<std::size_t>(std::ceil((high - low + 1) / each))};
+    }
+    if (low == high) return {low - 0.5, 1, 1};
+    const double a = nth(values, 0.005), b = nth(values, 0.995), margin = 0.5 * (b - a);
+    if (b > a) low = std::max(low, a - margin), high = std::min(high, b + margin);  // one that lies far out would make all others a line
+    return {low, (high - low) / most_bins, most_bins};
+}
+
+/// As many as are drawn, evenly along the scale of a normal plot: the tails whole, the middle thinned.
+std::vector<std::size_t> ranks_in_normal_plot(std::size_t count) {
+    if (count <= most_in_normal_plot) return thinned_rows(count, count);
+    const double n = static_cast<double>(count), far = normal_quantile((n - 0.375) / (n + 0.25));
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < most_in_normal_plot; ++k) {
+        const double score = far * (2 * static_cast<double>(k) / (most_in_normal_plot - 1) - 1),
+                     share = 0.5 * std::erfc(-score / std::sqrt(2.0));
+        const auto rank = static_cast<std::size_t>(std::clamp(std::round(share * (n + 0.25) - 0.625), 0.0, n - 1));
+        if (out.empty() || rank > out.back()) out.push_back(rank);
+    }
+    return out;
+}
+
+/// The numbers of one time over rows, as five of them.
+struct Five {
+    std::vector<double> least, low, median, high, greatest;
+    void add(std::vector<double>& at) {
+        if (at.empty()) at.push_back(std::nan(""));
+        low.push_back(nth(at, 0.05)), median.push_back(nth(at, 0.5)), high.push_back(nth(at, 0.95));
+        least.push_back(*std::min_element(at.begin(), at.end())), greatest.push_back(*std::max_element(at.begin(), at.end()));
+    }
+};
+
+}  // namespace
+
+PlotJson shown_numbers(const std::vector<double>& values) {
+    PlotJson out = PlotJson::array();
+    for (const double x : values) out.push_back(std::isfinite(x) ? PlotJson(shortened(x)) : PlotJson(nullptr));
+    return out;
+}
+
+std::vector<Grouping> groupings_of(const SweepTable& table) {
+    std::vector<Grouping> out = {{"all together", grouped_by(table, {})}};
+    for (std::size_t a = 0; a < table.axes.size() && out.size() < 12; ++a) {
+        auto groups = grouped_by(table, {a});
+        if (groups.groups.size() > 1 && groups.groups.size() <= most_groups_drawn) out.push_back({table.axes[a].name, std::move(groups)});
+    }
+    return out;
+}
+
+std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t most) {
+    std::vector<std::size_t> out;
+    const auto count = std::min(rows, most);
+    for (std::size_t k = 0; k < count; ++k) out.push_back(count == 1 ? 0 : k * (rows - 1) / (count - 1));
+    return out;
+}
+
+PlotJson histograms(const std::vector<double>& values, const SweepGroups& groups) {
+    auto known = finite_of(values);
+    if (known.empty()) return nullptr;
+    const Bins bins = bins_for(std::move(known));
+    PlotJson counts = PlotJson::array();
+    std::size_t below = 0, above = 0;
+    for (const auto& g : groups.groups) {
+        std::vector<std::size_t> in(bins.count);
+        for (const auto r : g.rows) {
+            if (!std::isfinite(values[r])) continue;
+            const double at = std::floor((values[r] - bins.from) / bins.width);
+            const bool last = values[r] <= bins.from + bins.width * static_cast<double>(bins.count) * (1 + 1e-12);
+            if (at < 0) ++below;
+            if (at >= static_cast<double>(bins.count) && !last) ++above;
+            ++in[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(bins.count - 1)))];
+        }
+        counts.push_back(in);
+    }
+    return {{"from", bins.from}, {"width", bins.width}, {"counts", counts}, {"below", below}, {"above", above}};
+}
+
+PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& groups) {
+    PlotJson out = PlotJson::array();
+    for (const auto& g : groups.groups) {
+        std::vector<double> of, scores, points;
+        for (const auto r : g.rows) of.push_back(values[r]);
+        const Sorted sorted(std::move(of));
+        const auto n = static_cast<double>(sorted.count());
+        for (const auto k : ranks_in_normal_plot(sorted.count())) {
+            scores.push_back(normal_quantile((static_cast<double>(k) + 1 - 0.375) / (n + 0.25)));
+            points.push_back(sorted.values()[k]);
+        }
+        out.push_back({{"scores", shown_numbers(scores)},
+                       {"values", shown_numbers(points)},
+                       {"correlation", shown_numbers({sorted.normality()})[0]}});
+    }
+    return out;
+}
+
+Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const SweepTable& table, const std::vector<std::size_t>& rows,
+                           const std::vector<Grouping>& groupings) {
+    const auto shown = thinned_rows(results.trace_times().size(), most_times);
+    std::vector<std::vector<float>> all;  // of each row
+    for (const auto r : rows) {
+        const auto samples = results.trace(table.unit[r], trace);
+        if (!samples) return samples.error();
+        all.emplace_back();
+        for (const auto k : shown) all.back().push_back(k < samples->size() ? (*samples)[k] : std::nanf(""));
+    }
+    const auto over = [&](auto&& wanted) {
+        Five five;
+        std::vector<double> at;
+        for (std::size_t k = 0; k < shown.size(); ++k) {
+            at.clear();
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                if (wanted(rows[i]) && std::isfinite(all[i][k])) at.push_back(all[i][k]);
+            five.add(at);
+        }
+        return five;
+    };
+    std::vector<double> times;
+    for (const auto k : shown) times.push_back(results.trace_times()[k]);
+    const auto whole = over([](std::size_t) { return true; });
+    PlotJson medians = PlotJson::array();
+    for (const auto& g : groupings) {
+        medians.push_back(PlotJson::array());
+        for (std::size_t k = 0; k < g.by.groups.size() && g.by.groups.size() > 1; ++k)
+            medians.back().push_back(shown_numbers(over([&](std::size_t r) { return g.by.group_of[r] == k; }).median));
+    }
+    return PlotJson{{"name", results.traces()[trace]},
+                    {"times", shown_numbers(times)},
+                    {"every", results.trace_times().size() > most_times},
+                    {"units", rows.size()},
+                    {"least", shown_numbers(whole.least)},
+                    {"low", shown_numbers(whole.low)},
+                    {"median", shown_numbers(whole.median)},
+                    {"high", shown_numbers(whole.high)},
+                    {"greatest", shown_numbers(whole.greatest)},
+                    {"medians", medians}};
+}
+
+Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const SweepTable& table, const std::vector<std::size_t>& rows) {
+    PlotJson shown = PlotJson::array(), counts = PlotJson::array();
+    std::vector<float> times;
+    for (const auto r : rows) {
+        const auto spikes = results.spikes(table.unit[r], train);
+        if (!spikes) return spikes.error();
+        if (times.size() + spikes->size() > most_spikes) break;
+        shown.push_back(r), counts.push_back(spikes->size());
+        for (const double t : *spikes) times.push_back(static_cast<float>(t));
+    }
+    return PlotJson{{"name", results.trains()[train]},
+                    {"rows", shown},
+                    {"counts", counts},
+                    {"times", base64(times.data(), times.size() * sizeof(float))}};
+}
+
+}  // namespace corpuscle

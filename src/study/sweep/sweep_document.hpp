@@ -1,0 +1,12 @@
+#pragma once
+// What a sweep's results say, for programs: `corpuscle sweep show --json`.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "study/sweep/sweep_summary.hpp"
+
+namespace corpuscle {
+
+nlohmann::ordered_json document_of(const SweepTable&, const SweepSummary&, const std::string& title);
+
+}  // namespace corpuscle

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "signal/field.hpp"
+#include "signal/quantity.hpp"
+#include "study/sweep/sweep_summary.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// A row's part of an axis: a number from 0, and what each is called.
+struct AxisParts {
+    std::vector<std::size_t> part;
+    std::vector<std::string> labels;
+};
+
+std::string value_label(const SweepColumn& axis, double value) {
+    const bool word = !axis.words.empty() && value >= 0 && value < static_cast<double>(axis.words.size());
+    return word ? axis.words[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
+}
+
+AxisParts points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
+    AxisParts out;
+    out.part.reserve(all.size());
+    for (const double x : all)
+        out.part.push_back(!out.part.empty() && out.part.back() < values.size() && values[out.part.back()] == x ? out.part.back()
+                           : std::isnan(x)                                                                      ? values.size()
+                                           : static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
+    for (const double x : values) out.labels.push_back(fmt::format("{} = {}", axis.name, value_label(axis, x)));
+    out.labels.push_back(axis.name + " = none");
+    return out;
+}
+
+AxisParts bands_of(const SweepColumn& axis, const std::vector<double>& all) {
+    auto sorted = all;
+    std::erase_if(sorted, [](double x) { return std::isnan(x); });
+    if (sorted.empty()) return {std::vector<std::size_t>(all.size()), {axis.name + " = none"}};
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<double> edges;  // the first value of each band but the first
+    for (std::size_t b = 1; b < SweepGroups::bands; ++b) edges.push_back(sorted[b * sorted.size() / SweepGroups::bands]);
+    AxisParts out;
+    for (const double x : all)
+        out.part.push_back(static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin()));
+    for (std::size_t b = 0; b < SweepGroups::bands; ++b)
+        out.labels.push_back(fmt::format("{} {} ... {}", axis.name, format_quantity(b == 0 ? sorted.front() : edges[b - 1], axis.unit),
+                                         format_quantity(b + 1 == SweepGroups::bands ? sorted.back() : edges[b], axis.unit)));
+    return out;
+}
+
+AxisParts parts_of_axis(const SweepTable& table, std::size_t axis) {
+    const auto& all = table.axis_values[axis];
+    return table.makes_points(axis) ? points_of(table.axes[axis], all, table.points[axis]) : bands_of(table.axes[axis], all);
+}
+
+}  // namespace
+
+SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& axes) {
+    SweepGroups out;
+    out.axes = axes;
+    if (table.rows() == 0) return out;
+    std::vector<AxisParts> parts;
+    for (const auto a : axes) parts.push_back(parts_of_axis(table, a));
+    std::vector<std::size_t> key(table.rows());
+    for (const auto& p : parts)
+        for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.part[r];
+    std::map<std::size_t, std::size_t> number;  // of each combination that occurs
+    for (std::size_t r = 0; r < key.size(); ++r)
+        if (r == 0 || key[r] != key[r - 1]) number[key[r]] = 0;
+    for (auto& [k, n] : number) {
+        n = out.groups.size();
+        std::string label;
+        auto rest = k;
+        for (auto p = parts.rbegin(); p != parts.rend(); ++p) {
+            label = p->labels[rest % p->labels.size()] + (label.empty() ? "" : ", ") + label;
+            rest /= p->labels.size();
+        }
+        out.groups.push_back({label, {}});
+    }
+    for (std::size_t r = 0; r < key.size(); ++r)
+        out.group_of.push_back(r > 0 && key[r] == key[r - 1] ? out.group_of.back() : number[key[r]]);
+    for (std::size_t r = 0; r < out.group_of.size(); ++r) out.groups[out.group_of[r]].rows.push_back(r);
+    return out;
+}
+
+Result<SweepGroups> grouped(const SweepTable& table, const std::vector<std::string>& by) {
+    std::vector<std::size_t> axes;
+    std::vector<std::string_view> known;
+    for (const auto& a : table.axes) known.push_back(a.name);
+    for (const auto& name : by) {
+        const auto at = std::find(known.begin(), known.end(), name);
+        if (at == known.end())
+            return bad_usage(known.empty() ? fmt::format("--by {}: nothing in this sweep has a value to go by", name)
+                                           : fmt::format("--by {}: no axis is called so{}; there are {}", name, did_you_mean(name, known),
+                                                         fmt::join(known, ", ")));
+        axes.push_back(static_cast<std::size_t>(at - known.begin()));
+    }
+    if (!by.empty()) return grouped_by(table, axes);
+    for (std::size_t a = 0; a < known.size(); ++a)
+        if (table.points[a].size() > 1) axes.push_back(a);
+    auto out = grouped_by(table, axes);
+    return out.groups.size() <= SweepGroups::most ? out : grouped_by(table, {});
+}
+
+}  // namespace corpuscle

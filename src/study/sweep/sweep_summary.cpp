@@ -1,0 +1,250 @@
+#include "study/sweep/sweep_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+
+#include "signal/pool.hpp"
+
+namespace corpuscle {
+namespace {
+
+MeasureSummary measure_summary(const Sorted& sorted, std::size_t units, const SweepQuestion& question) {
+    MeasureSummary out;
+    out.count = static_cast<std::int64_t>(sorted.count());
+    out.without = static_cast<std::int64_t>(units) - out.count;
+    if (out.count == 0) return out;
+    out.least = sorted.values().front(), out.greatest = sorted.values().back();
+    out.mean = sorted.mean(), out.sigma = sorted.sigma();
+    for (const double q : question.quantiles) out.quantiles.push_back(sorted.quantile(q));
+    out.normality = sorted.normality(), out.normality_floor = sorted.normality_floor();
+    return out;
+}
+
+/// One measure, at each point and then over all.
+void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
+    std::vector<Sorted> sorted;
+    std::int64_t kept_of_all = 0;
+    const auto put = [&](PointSummary& point, const Sorted& values, std::size_t units, std::int64_t kept) {
+        auto& at = point.measures[measure];
+        at = measure_summary(values, units, out.question);
+        if (table.has_limits(measure)) at.yield = share_of(kept, static_cast<std::int64_t>(units));
+    };
+    for (std::size_t p = 0; p < groups.groups.size(); ++p) {
+        const auto& rows = groups.groups[p].rows;
+        std::vector<double> values;
+        std::int64_t kept = 0;
+        values.reserve(rows.size());
+        for (const auto r : rows) values.push_back(table.measure_values[measure][r]), kept += table.keeps(r, measure);
+        sorted.emplace_back(std::move(values));
+        put(out.points[p], sorted.back(), rows.size(), kept);
+        kept_of_all += kept;
+    }
+    put(out.all, sorted.size() == 1 ? sorted[0] : Sorted::merged(sorted), table.rows(), kept_of_all);
+}
+
+/// How the units of a point ended.
+PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed) {
+    PointSummary out;
+    out.label = group.label;
+    for (const auto r : group.rows) {
+        ++(table.end[r] == UnitEnd::done ? out.done : table.end[r] == UnitEnd::capped ? out.capped : out.lost);
+        out.passed += passed[r];
+    }
+    return out;
+}
+
+void finish(PointSummary& point, std::size_t measures) {
+    point.units = point.done + point.capped + point.lost;
+    point.yield = share_of(point.passed, point.units);
+    point.measures.resize(measures);
+}
+
+/// Less the mean of its group.
+std::vector<double> inside_groups(const std::vector<double>& values, const SweepGroups& points) {
+    std::vector<double> sums(points.groups.size()), counts(points.groups.size()), out(values.size());
+    for (std::size_t r = 0; r < values.size(); ++r)
+        if (std::isfinite(values[r])) sums[points.group_of[r]] += values[r], ++counts[points.group_of[r]];
+    for (std::size_t r = 0; r < values.size(); ++r) out[r] = values[r] - sums[points.group_of[r]] / counts[points.group_of[r]];
+    return out;
+}
+
+/// The chips of a sweep, and of each its mean over the points: the same chip at several points says what it draws once, not several times.
+class ChipMeans {
+    std::vector<std::size_t> chip_of_;  // each row, or none
+    std::vector<std::uint64_t> chips_;
+    static constexpr auto none = static_cast<std::size_t>(-1);
+
+public:
+    ChipMeans(const SweepTable& table, std::int64_t draws) {
+        std::unordered_map<std::uint64_t, std::size_t> number;
+        for (const auto unit : table.unit) {
+            const auto chip = static_cast<std::uint64_t>(draws > 0 ? unit % draws : unit);
+            const auto known = number.find(chip);
+            if (known == number.end() && chips_.size() == most_chips_searched) {
+                chip_of_.push_back(none);
+                continue;
+            }
+            if (known == number.end()) number[chip] = chips_.size(), chips_.push_back(chip);
+            chip_of_.push_back(number[chip]);
+        }
+    }
+    const std::vector<std::uint64_t>& chips() const { return chips_; }
+
+    std::vector<double> of(const std::vector<double>& values) const {
+        std::vector<double> out(chips_.size()), counts(chips_.size());
+        for (std::size_t r = 0; r < values.size(); ++r)
+            if (chip_of_[r] != none && std::isfinite(values[r])) out[chip_of_[r]] += values[r], ++counts[chip_of_[r]];
+        for (std::size_t c = 0; c < out.size(); ++c) out[c] = counts[c] > 0 ? out[c] / counts[c] : Estimate::none;
+        return out;
+    }
+};
+
+/// Whom a measure is of: NAME.MEASURE; the only subject, whatever it is called; or nobody.
+std::ptrdiff_t subject_of(const std::string& measure, const Drawn& drawn) {
+    if (drawn.subjects.size() == 1) return 0;
+    for (std::size_t s = 0; s < drawn.subjects.size(); ++s)
+        if (measure.starts_with(drawn.subjects[s].name + ".")) return static_cast<std::ptrdiff_t>(s);
+    return -1;
+}
+
+/// All that may matter, as factors; those of axes for every measure, those of devices for measures of their own netlist.
+struct Factors {
+    std::vector<Factor> axes;
+    std::vector<NamedInfluence> axis_names;
+    struct OfSubject {
+        std::vector<Factor> values;
+        std::vector<NamedInfluence> names;
+    };
+    std::vector<OfSubject> subjects;
+};
+
+Factors factors_of(const SweepTable& table, const std::optional<Drawn>& drawn, const ChipMeans& means) {
+    Factors out;
+    for (std::size_t a = 0; a < table.axes.size(); ++a) {
+        if (table.makes_points(a)) continue;
+        out.axes.push_back(means.of(table.axis_values[a]));
+        out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
+    }
+    if (!drawn) return out;
+    for (std::size_t s = 0; s < drawn->subjects.size(); ++s) {
+        auto& of = out.subjects.emplace_back();
+        const auto& devices = drawn->subjects[s].devices;
+        for (std::size_t d = 0; d < devices.size(); ++d) {
+            if (devices[d].sigma_VT == 0 && devices[d].sigma_IS == 0) continue;
+            auto own = deviates_of(devices[d], drawn->seed, means.chips());
+            const NamedInfluence name{devices[d].name, "", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
+            const auto add = [&](double sigma, const char* part, Factor& values) {
+                if (sigma == 0) return;
+                of.values.push_back(std::move(values)), of.names.push_back(name);
+                of.names.back().part = part;
+            };
+            add(devices[d].sigma_VT, "V_T", own.V_T), add(devices[d].sigma_IS, "I_S", own.I_S);
+        }
+    }
+    return out;
+}
+
+std::vector<DeviceShare> device_shares(const std::vector<NamedInfluence>& influences) {
+    std::vector<DeviceShare> out;
+    for (const auto& i : influences) {
+        if (i.device < 0 || !(i.found.share.value > 0)) continue;
+        auto at = std::find_if(out.begin(), out.end(), [&](const auto& d) { return d.device == i.device && d.subject == i.subject; });
+        if (at == out.end()) at = out.insert(at, {i.subject, i.device});
+        (i.part.starts_with("V_T") ? at->V_T : at->I_S) += i.found.share.value;
+    }
+    std::sort(out.begin(), out.end(),
+              [](const auto& a, const auto& b) { return std::tuple(-a.share(), a.subject, a.device) < std::tuple(-b.share(), b.subject, b.device); });
+    return out;
+}
+
+struct Searched {
+    const SweepTable& table;
+    const std::optional<Drawn>& drawn;
+    SweepGroups points;
+    std::vector<std::pair<std::size_t, SweepGroups>> by_axis;
+    ChipMeans means;
+    Factors factors;
+};
+
+/// A yield has limits on both sides: what is far off on either lowers it, so it depends on squares, too.
+void add_squares(Factors::OfSubject& own) {
+    const auto count = own.values.size();
+    for (std::size_t f = 0; f < count; ++f) {
+        Factor squares;
+        for (const double x : own.values[f]) squares.push_back(x * x);
+        own.values.push_back(std::move(squares)), own.names.push_back(own.names[f]);
+        own.names.back().part += " squared";
+    }
+}
+
+/// The factors of the axes, and for a while those of the measure's own devices behind them.
+Dependence dependence_of(const std::string& name, const std::vector<double>& values, Searched& in) {
+    Dependence out{name, {}, {}, {}, {}};
+    for (const auto& [axis, groups] : in.by_axis) {
+        const auto between = between_groups(values, groups.group_of, groups.groups.size());
+        if (between.chance <= false_discoveries && between.share > 0) out.points.emplace_back(axis, between);
+    }
+    std::sort(out.points.begin(), out.points.end(),
+              [](const auto& a, const auto& b) { return std::pair(-a.second.share, a.first) < std::pair(-b.second.share, b.first); });
+    auto& all = in.factors.axes;
+    const auto axes = all.size();
+    const auto subject = in.drawn ? subject_of(name, *in.drawn) : -1;
+    auto* own = subject >= 0 ? &in.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
+    if (own)
+        for (auto& f : own->values) all.push_back(std::move(f));
+    out.all = sensitivity_of(in.means.of(inside_groups(values, in.points)), all);
+    for (const auto& i : out.all.influences) {
+        out.influences.push_back(i.factor < axes ? in.factors.axis_names[i.factor] : own->names[i.factor - axes]);
+        out.influences.back().found = i;
+    }
+    if (own)
+        for (std::size_t f = 0; f < own->values.size(); ++f) own->values[f] = std::move(all[axes + f]);
+    all.resize(axes);
+    out.devices = device_shares(out.influences);
+    return out;
+}
+
+std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<Drawn>& drawn, const std::vector<char>& passed,
+                                       std::size_t& chips) {
+    std::vector<std::size_t> listed;
+    for (std::size_t a = 0; a < table.axes.size(); ++a)
+        if (table.makes_points(a)) listed.push_back(a);
+    auto points = grouped_by(table, listed);
+    const auto count = static_cast<std::int64_t>(points.groups.size());
+    const ChipMeans means(table, drawn ? drawn->chips : count > 0 && table.units % count == 0 ? table.units / count : 0);
+    chips = means.chips().size();
+    Searched in{table, drawn, std::move(points), {}, means, factors_of(table, drawn, means)};
+    for (const auto a : listed)
+        if (auto groups = grouped_by(table, {a}); groups.groups.size() > 1) in.by_axis.emplace_back(a, std::move(groups));
+    std::vector<Dependence> out;
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], in));
+    for (auto& own : in.factors.subjects) add_squares(own);
+    if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, in));
+    return out;
+}
+
+}  // namespace
+
+Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Drawn>& drawn, const SweepQuestion& question) {
+    const auto groups = grouped(table, question.by);
+    if (!groups) return groups.error();
+    SweepSummary out;
+    out.question = question, out.by = groups->axes, out.drawn = drawn;
+    std::vector<char> passed(table.rows());
+    for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
+    for (const auto& g : groups->groups) {
+        auto& point = out.points.emplace_back(point_summary(table, g, passed));
+        out.all.done += point.done, out.all.capped += point.capped, out.all.lost += point.lost, out.all.passed += point.passed;
+        finish(point, table.measures.size());
+    }
+    finish(out.all, table.measures.size());
+    Pool pool(table.rows() > 100000 ? 0 : 1);
+    pool.each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
+    out.dependences = dependences_of(table, drawn, passed, out.chips);
+    return out;
+}
+
+}  // namespace corpuscle

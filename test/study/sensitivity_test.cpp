@@ -1,0 +1,201 @@
+// Which device matters: what is known to matter is found, with its share, and noise is not.
+
+#include "study/sweep/sensitivity.hpp"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "circuit/device/uicm_card.hpp"
+#include "circuit/netlist/netlist.hpp"
+#include "made_sweep.hpp"
+#include "signal/random.hpp"
+#include "study/sweep/sweep_document.hpp"
+#include "study/sweep/sweep_summary.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder, test::MadeSweep, test::sure;
+
+std::vector<Factor> noise_factors(std::uint64_t seed, std::size_t units, std::size_t factors) {
+    std::vector<Factor> out(factors);
+    for (std::size_t f = 0; f < factors; ++f)
+        for (std::size_t k = 0; k < units; ++k) out[f].push_back(normal(seed, static_cast<std::uint32_t>(f), 1, k));
+    return out;
+}
+
+TEST(Sensitivity, NoiseIsNotSoldAsSignal) {
+    int found = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        const auto factors = noise_factors(seed, 200, 100);
+        std::vector<double> measure;
+        for (std::uint64_t k = 0; k < 200; ++k) measure.push_back(std::exp(2 * normal(1000 + seed, 0, 2, k)));  // with long tails
+        found += !sensitivity_of(measure, factors).influences.empty();
+    }
+    EXPECT_LE(found, 2);  // 0.3 are awaited; more than 2, once in 300 times
+}
+
+TEST(Sensitivity, SharesAreTheSquaresOfTheSlopesAndTheirIntervalsHoldThem) {
+    const double slopes[] = {0.6, -0.3, 0.1};
+    double variance = 0.25;
+    for (const double s : slopes) variance += s * s;
+    int all_found = 0, inside = 0;
+    for (std::uint64_t seed = 0; seed < 16; ++seed) {
+        const auto factors = noise_factors(seed, 1000, 60);
+        std::vector<double> measure;
+        for (std::size_t k = 0; k < 1000; ++k) {
+            measure.push_back(0.5 * normal(2000 + seed, 0, 2, k) + 7);
+            for (std::size_t f = 0; f < 3; ++f) measure.back() += slopes[f] * factors[f][k];
+        }
+        const auto s = sensitivity_of(measure, factors);
+        if (s.influences.size() < 3) continue;
+        ++all_found;
+        EXPECT_EQ(s.influences[0].factor, 0U);
+        EXPECT_EQ(s.influences[1].factor, 1U);
+        EXPECT_NEAR(s.influences[0].slope, 0.6, 0.06);
+        EXPECT_NEAR(s.influences[1].slope, -0.3, 0.06);
+        EXPECT_NEAR(s.explained, 1 - 0.25 / variance, 0.05);
+        const auto& first = s.influences[0].share;
+        inside += first.low <= 0.36 / variance && 0.36 / variance <= first.high;
+    }
+    EXPECT_GE(all_found, 13);
+    EXPECT_GE(inside, all_found * 9 / 10 - 2);
+}
+
+TEST(Sensitivity, AFactorThatIsMadeOfOthersOrNeverChangesDoesNoHarm) {
+    auto factors = noise_factors(1, 200, 3);
+    factors.push_back(factors[0]);
+    factors.emplace_back(200, 4.0);
+    std::vector<double> measure(200);
+    for (std::size_t k = 0; k < 200; ++k) measure[k] = factors[0][k];
+    measure[5] = std::nan("");
+    const auto s = sensitivity_of(measure, factors);
+    EXPECT_EQ(s.units, 199U);
+    ASSERT_EQ(s.influences.size(), 1U);
+    EXPECT_NEAR(s.influences[0].share.value, 1, 1e-9);
+    EXPECT_NEAR(s.explained, 1, 1e-9);
+    EXPECT_TRUE(sensitivity_of(std::vector<double>(200, 3.0), factors).influences.empty());
+    EXPECT_TRUE(sensitivity_of(std::vector<double>{1, 2}, std::vector<Factor>{{1, 2}}).influences.empty());
+}
+
+TEST(Sensitivity, FourTimesTheAreaHalvesWhatADeviceBrings) {
+    EXPECT_DOUBLE_EQ(sigma_with_four_times_the_area(1), 0.5);
+    EXPECT_DOUBLE_EQ(sigma_with_four_times_the_area(0), 1);
+    EXPECT_DOUBLE_EQ(sigma_with_four_times_the_area(0.64), std::sqrt(0.36 + 0.16));
+}
+
+TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfTheChip) {
+    const auto netlist = sure(circuit::Netlist::parse(
+        "t\n.model nch nmos (level=80 avt=3e-9 ais=1e-8)\n.model pch pmos (level=80)\nv1 d 0 1\nm1 d d 0 0 nch w=2u l=0.5u m=3 stack=2\n"
+        ".subckt s a\nm2 a a 0 0 pch w=1u l=1u\n.ends\nx1 d s\nr1 d 0 1k\nm3 d d 0 0 nch\n.end\n",
+        "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); }));
+    const auto circuit = sure(netlist.elaborate());
+    Drawn drawn{9, 0, {{"t", drawn_devices(circuit)}}};
+    drawn = sure(drawn_of(text_of(drawn)));
+    const auto& devices = drawn.subjects[0].devices;
+    ASSERT_EQ(devices.size(), 3U);
+    EXPECT_EQ(devices[0].name, "m1");
+    EXPECT_EQ(devices[1].name, "x1.m2");
+    EXPECT_TRUE(devices[1].pmos);
+    EXPECT_EQ(devices[1].sigma_VT, 0);
+    EXPECT_NEAR(devices[0].area(), 6e-12, 1e-24);
+    const circuit::UicmCard card{.A_VT = 3e-9, .A_IS = 1e-8};
+    const circuit::UicmInstance size{.W = 2e-6, .L = 0.5e-6, .m = 3, .stack = 2};
+    const auto own = deviates_of(devices[0], drawn.seed, {0, 41});
+    const auto shift = circuit::mismatch(card, size, 9, 0, 41);
+    EXPECT_NEAR(own.V_T[1] * devices[0].sigma_VT, shift.V_T, 1e-12);
+    EXPECT_NEAR(own.I_S[1] * devices[0].sigma_IS, std::log(shift.factor), 1e-12);
+    EXPECT_FALSE(drawn_of("{\"seed\":1"));
+    EXPECT_FALSE(drawn_of("{\"seed\":1,\"chips\":0,\"subjects\":[{\"name\":\"a\",\"devices\":[[1]]}]}"));
+}
+
+class Summed : public testing::Test {
+protected:
+    static inline SweepSummary summary;
+    static inline SweepTable table;
+    static inline std::unique_ptr<MadeSweep> sweep;
+    void SetUp() override {
+        if (sweep) return;
+        const Folder folder;
+        sweep = std::make_unique<MadeSweep>(1000);
+        const auto results = test::made_results(folder / "made.sqlite", *sweep);
+        table = sure(read_table(results, {}));
+        summary = sure(summary_of(table, sure(drawn_of(results.about(drawn_fact))), {}));
+    }
+    static void TearDownTestSuite() { sweep.reset(), table = {}, summary = {}; }
+};
+
+TEST_F(Summed, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted) {
+    ASSERT_EQ(summary.points.size(), 3U);  // the corner has one value, the process 1000
+    EXPECT_EQ(summary.points[2].label, "temp = 85 C");
+    EXPECT_EQ(summary.all.units, 3000);
+    EXPECT_EQ(summary.all.capped, 60);
+    EXPECT_EQ(summary.all.lost, 6);
+    std::int64_t passed = 0, line = 0, count = 0;
+    for (std::int64_t unit = 0; unit < sweep->units(); ++unit) {
+        const auto o = sweep->outcome(unit);
+        const bool done = o.end == UnitEnd::done, in_line = done && std::abs(o.measures[0]) <= 0.5, counts = done && o.measures[2] >= 3;
+        passed += in_line && counts, line += in_line, count += counts;
+    }
+    EXPECT_EQ(summary.all.passed, passed);
+    EXPECT_EQ(summary.all.measures[0].yield->value, static_cast<double>(line) / 3000);
+    EXPECT_EQ(summary.all.measures[2].yield->value, static_cast<double>(count) / 3000);
+    EXPECT_FALSE(summary.all.measures[1].yield);
+    EXPECT_EQ(summary.all.measures[0].without, 6);
+    EXPECT_EQ(table.measures.back().name, "iterations");
+    EXPECT_EQ(summary.all.measures.back().least, 300);
+}
+
+TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
+    const auto& line = summary.dependences[0];
+    ASSERT_EQ(line.devices.size(), 3U);
+    EXPECT_EQ(line.devices[0].device, 7);
+    EXPECT_EQ(line.devices[1].device, 20);
+    EXPECT_EQ(line.devices[2].device, 3);
+    EXPECT_EQ(line.devices[0].I_S, 0);
+    EXPECT_EQ(line.devices[1].V_T, 0);
+    // The noise is of a unit, the rest of a chip: over three temperatures a third of its variance is left.
+    const double variance = 0.09 + 0.04 + 0.01 + 0.01 + 0.0225 / 3;
+    EXPECT_NEAR(line.devices[0].share(), 0.09 / variance, 0.05);
+    EXPECT_NEAR(line.devices[1].share(), 0.04 / variance, 0.04);
+    EXPECT_NEAR(line.devices[2].share(), 0.01 / variance, 0.02);
+    ASSERT_EQ(line.influences.size(), 4U);
+    EXPECT_EQ(std::count_if(line.influences.begin(), line.influences.end(), [](const auto& i) { return i.name == "process.vt_n"; }), 1);
+    EXPECT_NEAR(line.all.explained, 1 - 0.0075 / variance, 0.02);
+    ASSERT_EQ(line.points.size(), 1U);
+    const double between = 2.0 / 9;  // of 0, 0, 1 V
+    EXPECT_NEAR(line.points[0].second.share, between / (between + variance + 0.015), 0.03);
+    EXPECT_TRUE(summary.dependences[1].influences.empty()) << "noise";
+    EXPECT_TRUE(summary.dependences[3].influences.empty()) << "iterations";
+    const auto& yield = summary.dependences.back();
+    EXPECT_EQ(yield.measure, "yield");
+    EXPECT_EQ(yield.points.size(), 1U);
+    ASSERT_FALSE(yield.devices.empty());
+    EXPECT_EQ(yield.devices[0].device, 7);
+}
+
+TEST_F(Summed, TheDocumentSaysTheSameAsTheSummary) {
+    const auto document = document_of(table, summary, "made");
+    EXPECT_EQ(document["finished"], 3000);
+    EXPECT_EQ(document["all"]["passed"], summary.all.passed);
+    EXPECT_EQ(document["points"][1]["measures"][0]["mean"]["low"], summary.points[1].measures[0].mean.low);
+    const auto& device = document["depends_on"][0]["devices"][0];
+    EXPECT_EQ(device["device"], "x1.m7");
+    EXPECT_NEAR(device["area_m2"].get<double>(), 8e-12, 1e-20);
+    const double share = device["share"], left = device["sigma_with_four_times_the_area"];
+    EXPECT_NEAR(left * left, 1 - 0.75 * share, 1e-12);
+}
+
+TEST_F(Summed, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameIsMended) {
+    const auto bands = sure(grouped(table, {"process.vt_n"}));
+    ASSERT_EQ(bands.groups.size(), SweepGroups::bands);
+    for (const auto& g : bands.groups) EXPECT_NEAR(static_cast<double>(g.rows.size()), 600, 10);
+    const auto wrong = grouped(table, {"tmep"});
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().sentence, "--by tmep: no axis is called so; did you mean 'temp'?; there are temp, corner, process.vt_n");
+}
+
+}  // namespace
+}  // namespace corpuscle
