@@ -57,7 +57,7 @@ Result<void> run_units(const Self& self, const Sweep& sweep, SweepResults& resul
     RanksLost lost;
     auto ok = lead(*self.ranks, sweep, results, run, count, lost);
     if (lost.dead > 0)
-        fmt::print(stderr, "corpuscle: warning: {} rank{} died or fell silent; {} units of theirs were done by others\n", lost.dead,
+        fmt::print(stderr, "corpuscle: warning: {} rank{} died or fell silent; the {} units that were there went to others\n", lost.dead,
                    lost.dead == 1 ? "" : "s", lost.units);
     return ok;
 }

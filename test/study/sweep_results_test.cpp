@@ -2,9 +2,15 @@
 
 #include "study/sweep/results.hpp"
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <csignal>
 #include <filesystem>
 #include <random>
+#include <thread>
 
+#include "study/sweep/dump.hpp"
 #include "study/sweep/run_sweep.hpp"
 #include "support/plain_sweep.hpp"
 #include "support/support.hpp"
@@ -19,17 +25,8 @@ using test::sure;
 /// All that a file says, in order.
 std::string all_of(const SweepResults& results) {
     std::string out;
-    const auto ok = results.each([&](const SweepResults::Row& row) {
-        out += fmt::format("{} {} {} {} {} {}", row.unit, static_cast<int>(row.end), row.steps, row.iterations, row.alone, row.why);
-        for (const auto* numbers : {&row.axes, &row.measures})
-            for (const double x : *numbers) out += fmt::format(" {}", x);
-        for (std::size_t t = 0; t < results.trains().size(); ++t)
-            out += fmt::format(" [{}]", fmt::join(sure(results.spikes(row.unit, t)), " "));
-        out += fmt::format(" ({})\n", fmt::join(sure(results.trace(row.unit, 0)), " "));
-        return true;
-    });
-    if (!ok) throw std::runtime_error(ok.error().text());
-    return out;
+    const auto ok = dump_results(results, [&](const std::string& text) { return out += text, true; });
+    return ok ? out : throw std::runtime_error(ok.error().text());
 }
 
 std::string all_of(const std::string& path) { return all_of(sure(SweepResults::look(path))); }
@@ -74,6 +71,263 @@ TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
     EXPECT_TRUE(ok);
     EXPECT_EQ(unit, 400) << "stopped where it was told to";
     EXPECT_EQ(sure(results.ended(UnitEnd::lost)), 11);
+}
+
+namespace fs = std::filesystem;
+
+constexpr double soon = 1e-4, pause = 1e-4;  // s
+
+/// What happens to this is a child process, which does `work` and leaves.
+pid_t child(const std::function<void()>& work) {
+    const auto id = ::fork();
+    if (id > 0) return id;
+    try {
+        work();
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        ::_exit(1);
+    }
+    ::_exit(0);
+}
+
+int end_of(pid_t id) {
+    int status = 0;
+    ::waitpid(id, &status, 0);
+    return status;
+}
+
+void copy(const std::string& from, const std::string& to) {
+    std::error_code none;  // it may be gone by now, or be replaced while it is copied
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing, none);
+}
+
+/// So many rows, of the first units, and each as it must be; of a sweep of one thread.
+std::int64_t prefix_of(const std::string& path, const std::string& whole) {
+    const auto results = sure(SweepResults::look(path));
+    const auto text = all_of(results);
+    EXPECT_EQ(text, whole.substr(0, text.size()));
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), results.finished() + 1);
+    return results.finished();
+}
+
+TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameCommand) {
+    const Folder folder;
+    const PlainSweep sweep(300, "x", pause);
+    const SweepRun how{.threads = 2, .between_writes = soon};
+    const auto begun = std::chrono::steady_clock::now();
+    run(sweep, folder / "whole.sqlite", how);
+    const std::chrono::duration<double> length = std::chrono::steady_clock::now() - begun;
+    const auto whole = all_of(folder / "whole.sqlite");
+    std::mt19937 random(1);
+    std::uniform_real_distribution<> moment(0, 1.2);
+    const auto path = folder / "r.sqlite";
+    int between = 0;
+    for (int k = 0; k < 50; ++k) {
+        const auto id = child([&] { run(sweep, path, how); });
+        std::this_thread::sleep_for(moment(random) * length);
+        ::kill(id, SIGKILL);
+        end_of(id);
+        if (!fs::exists(path)) continue;
+        std::int64_t rows = 0;
+        {
+            const auto results = sure(SweepResults::look(path));
+            rows = results.finished();
+            std::int64_t before = -1;
+            const auto ok = results.each([&](const SweepResults::Row& row) {
+                EXPECT_GT(row.unit, before);
+                before = row.unit;
+                const auto o = sweep.outcome(row.unit);
+                EXPECT_EQ(row.steps, o.steps);
+                EXPECT_EQ(row.end, o.end);
+                EXPECT_EQ(sure(results.spikes(row.unit, 0)), o.spikes.empty() ? std::vector<double>{} : o.spikes[0]);
+                return true;
+            });
+            EXPECT_TRUE(ok);
+        }
+        between += rows > 0 && rows < 300;
+        if (k % 3 == 0) continue;  // the next one goes on
+        run(sweep, path, {.threads = 2});
+        EXPECT_EQ(all_of(path), whole) << "killed after " << rows << " rows";
+        EXPECT_FALSE(fs::exists(path + "-wal"));
+        fs::remove(path);
+    }
+    EXPECT_GT(between, 5) << "some were killed on the way";
+}
+
+TEST(SweepResults, CopiesTakenAtAnyMomentAreWhole) {
+    const Folder folder;
+    const PlainSweep sweep(800, "x", pause);
+    run(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
+    const auto whole = all_of(folder / "whole.sqlite");
+    const auto path = folder / "r.sqlite";
+    const auto id = child([&] { run(sweep, path, {.threads = 1, .between_writes = soon}); });
+    while (!fs::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::mt19937 random(2);
+    std::vector<std::pair<std::string, bool>> copies;
+    for (int k = 0; ::waitpid(id, nullptr, WNOHANG) == 0; ++k) {
+        copies.emplace_back(folder / fmt::format("copy{}.sqlite", k), k % 2 == 0);
+        copy(path, copies.back().first);
+        if (k % 2 == 0) copy(path + "-wal", copies.back().first + "-wal");
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));
+    }
+    ASSERT_GT(copies.size(), 10u);
+    std::int64_t most = 0;
+    for (const auto& [copied, with_wal] : copies) most = std::max(most, prefix_of(copied, whole));
+    EXPECT_GT(most, 200);
+    EXPECT_EQ(all_of(path), whole);
+}
+
+TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
+    const Folder folder;
+    const PlainSweep sweep(300);
+    const auto path = folder / "r.sqlite";
+    auto results = sure(SweepResults::open(path, sweep));
+    SweepCount count;
+    ASSERT_TRUE(run_sweep(sweep, results, {.shard = {0, 2}}, count));
+    ASSERT_TRUE(results.fold());
+    EXPECT_FALSE(fs::exists(path + "-wal"));
+    const auto half = all_of(path);
+    ASSERT_TRUE(run_sweep(sweep, results, {}, count));
+    EXPECT_EQ(count.to_do, 150);
+    copy(path, folder / "old.sqlite");
+    copy(path + "-wal", folder / "new.sqlite-wal");
+    ASSERT_TRUE(results.fold());
+    copy(path, folder / "new.sqlite");
+    EXPECT_EQ(all_of(folder / "old.sqlite"), half) << "without its rows";
+    EXPECT_EQ(all_of(folder / "new.sqlite"), all_of(path)) << "as if killed between the two steps";
+    EXPECT_EQ(sure(SweepResults::look(folder / "new.sqlite")).finished(), 300);
+}
+
+TEST(SweepResults, OnAFullDiskKeepWhatWasWrittenAndSayWhatToDo) {
+    const Folder folder;
+    const PlainSweep sweep(20'000);
+    const auto path = folder / "r.sqlite";
+    const auto id = child([&] {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{400'000, 400'000};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        auto results = sure(SweepResults::open(path, sweep));
+        SweepCount count;
+        const auto ok = run_sweep(sweep, results, {.between_writes = 0.02}, count);
+        if (ok || ok.error().text().find("the disk is full; all that was written before is kept: make room") == std::string::npos)
+            throw std::runtime_error(ok ? "all of it fitted" : ok.error().text());
+        const rlimit less{40'000, 40'000};
+        ::setrlimit(RLIMIT_FSIZE, &less);
+        if (results.fold()) throw std::runtime_error("a file larger than the limit was made");
+    });
+    ASSERT_EQ(end_of(id), 0);
+    EXPECT_GT(sure(SweepResults::look(path)).finished(), 0);
+    EXPECT_FALSE(fs::exists(path + "-fold"));
+    run(sweep, path, {});
+    run(sweep, folder / "whole.sqlite", {.threads = 1});
+    EXPECT_EQ(all_of(path), all_of(folder / "whole.sqlite"));
+}
+
+TEST(SweepResults, InAFolderThatCannotBeWrittenAreReadAndNotBegun) {
+    const Folder folder;
+    const PlainSweep sweep(50);
+    run(sweep, folder / "r.sqlite", {});
+    fs::permissions(folder.path(), fs::perms(0555));
+    const auto id = child([&] {
+        if (::geteuid() == 0 && ::seteuid(65534) != 0) throw std::runtime_error("root writes everywhere");
+        if (sure(SweepResults::look(folder / "r.sqlite")).finished() != 50) throw std::runtime_error("rows are missing");
+        for (const char* name : {"r.sqlite", "new.sqlite"}) {
+            const auto results = SweepResults::open(folder / name, sweep);
+            if (results || results.error().text().find("give a place that can be written to with --out") == std::string::npos)
+                throw std::runtime_error(results ? "opened" : results.error().text());
+        }
+    });
+    EXPECT_EQ(end_of(id), 0);
+    fs::permissions(folder.path(), fs::perms(0755));
+}
+
+std::string refusal(const std::string& path, const Sweep& sweep) {
+    const auto results = SweepResults::open(path, sweep);
+    return results ? "" : results.error().text();
+}
+
+TEST(SweepResults, RefuseTheFileOfAnotherSweepAndSayWhatHasChanged) {
+    const Folder folder;
+    const auto path = folder / "r.sqlite";
+    run(PlainSweep(20), path, {});
+    EXPECT_EQ(refusal(path, PlainSweep(20)), "");
+    EXPECT_EQ(refusal(path, PlainSweep(20, "a\nB\nc\n")),
+              path +
+                  ": holds results of another sweep: netlist circuits/sa1.cir has changed since, in line 2. Give another file with --out, "
+                  "or put back what has changed, or remove this one");
+    EXPECT_NE(refusal(path, PlainSweep(30)).find("the number of units was 20 and is 30 now"), std::string::npos);
+    PlainSweep more(20);
+    more.facts_.insert(more.facts_.begin(), {"card process/x.lib", "y"});
+    EXPECT_NE(refusal(path, more).find("of 'card process/x.lib' it knows nothing"), std::string::npos);
+}
+
+TEST(SweepResults, RefuseWhatIsNoSuchFile) {
+    const Folder folder;
+    EXPECT_NE(refusal(folder.write("text", std::string(5000, 'x')), PlainSweep(2)).find("is no SQLite file"), std::string::npos);
+    EXPECT_NE(refusal(folder.write("empty", ""), PlainSweep(2)).find("holds no results of a sweep"), std::string::npos);
+    EXPECT_NE(SweepResults::look(folder / "none").error().text().find("is not there"), std::string::npos);
+    run(PlainSweep(2), folder / "r.sqlite", {});
+    const int file = ::open((folder / "r.sqlite").c_str(), O_RDWR);
+    ASSERT_EQ(::pwrite(file, "\0\0\0\7", 4, 60), 4) << "SQLite's user version";
+    ::close(file);
+    EXPECT_NE(refusal(folder / "r.sqlite", PlainSweep(2)).find("was written by a later corpuscle (its format is 7"), std::string::npos);
+}
+
+TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
+    const Folder folder;
+    const PlainSweep sweep(20);
+    const auto path = folder / "r.sqlite";
+    {
+        auto first = sure(SweepResults::open(path, sweep));
+        ASSERT_TRUE(first.add(sweep, {sweep.outcome(3)}));
+        EXPECT_NE(refusal(path, sweep).find(fmt::format("is being written by process {} on ", ::getpid())), std::string::npos);
+        ASSERT_TRUE(first.add(sweep, {sweep.outcome(4), sweep.outcome(3)}));
+        EXPECT_EQ(sure(SweepResults::look(path)).finished(), 2) << "a row a unit";
+        EXPECT_EQ(first.finished(), 2);
+    }
+    EXPECT_EQ(refusal(path, sweep), "") << "the lock is gone with its owner";
+    EXPECT_FALSE(fs::exists(path + "-writer"));
+}
+
+/// One unit that somebody has changed.
+struct Changed : PlainSweep {
+    using PlainSweep::PlainSweep;
+    UnitOutcome outcome(std::int64_t unit) const override {
+        auto o = PlainSweep::outcome(unit);
+        if (unit == 7) o.spikes[0].back() += 1e-9;
+        return o;
+    }
+};
+
+TEST(SweepResults, ShardsMergeIntoTheWholeAndNothingIsCountedTwice) {
+    const Folder folder;
+    const PlainSweep sweep(1001);
+    run(sweep, folder / "whole.sqlite", {.threads = 1});
+    for (std::int64_t k = 0; k < 3; ++k) run(sweep, folder / fmt::format("{}", k), {.threads = 2, .shard = {k, 3}});
+    auto all = sure(SweepResults::open(folder / "all.sqlite", sweep));
+    for (const auto& [shard, rows] : {std::pair{"2", 333}, {"0", 334}, {"2", 0}, {"1", 334}})
+        EXPECT_EQ(sure(all.take(sure(SweepResults::look(folder / shard)))), rows);
+    EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
+    run(Changed(1001), folder / "changed", {.shard = {1, 3}});
+    const auto taken = all.take(sure(SweepResults::look(folder / "changed")));
+    ASSERT_FALSE(taken);
+    EXPECT_NE(taken.error().text().find("changed: of unit 7 it has other results than"), std::string::npos) << taken.error().text();
+    run(PlainSweep(1001, "other"), folder / "other", {});
+    EXPECT_NE(all.take(sure(SweepResults::look(folder / "other"))).error().text().find("is of another sweep than"), std::string::npos);
+    EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
+}
+
+TEST(SweepResults, ThreadsThatAreStoppedLeaveWhatHadEnded) {
+    const Folder folder;
+    const PlainSweep sweep(100'000, "x", pause);
+    auto results = sure(SweepResults::open(folder / "r.sqlite", sweep));
+    SweepCount count;
+    const auto ok =
+        run_sweep(sweep, results, {.threads = 2, .between_writes = 0.01, .stop = [&] { return results.finished() > 100; }}, count);
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().code, Code::interrupted);
+    EXPECT_EQ(count.ended(), results.finished());
+    EXPECT_LT(results.finished(), 5000);
 }
 
 }  // namespace

@@ -22,9 +22,8 @@ struct Follower {
 };
 
 class Leading {
-    static constexpr double between_writes = 0.2;  // s
-    static constexpr double last_words = 0.5;      // s, for what others have ready when all is stopped
-    static constexpr std::size_t much = 4096;      // outcomes
+    static constexpr double last_words = 0.5;  // s, for what others have ready when all is stopped
+    static constexpr std::size_t much = 4096;  // outcomes
 
     Ranks& ranks_;
     const Sweep& sweep_;
@@ -113,7 +112,7 @@ class Leading {
     }
 
     Result<void> write() {
-        if (unwritten_.size() < much && seconds_between(written_, now_) < between_writes) return {};
+        if (unwritten_.size() < much && seconds_between(written_, now_) < run_.between_writes) return {};
         auto ok = results_.add(sweep_, std::exchange(unwritten_, {}));
         written_ = now_ = rank_time();
         run_.seen(count_);
@@ -149,8 +148,9 @@ class Leading {
 public:
     Leading(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRun& run, SweepCount& count, RanksLost& lost,
             std::vector<UnitQueue::Range> missing)
-        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), lost_(lost), queue_(std::move(missing), run.shard), others_(static_cast<std::size_t>(ranks.size())),
-          facts_(RankHello::mine(&sweep).facts), threads_(std::max(1U, run.threads)), crew_(sweep, threads_) {
+        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), lost_(lost), queue_(std::move(missing), run.shard),
+          others_(static_cast<std::size_t>(ranks.size())), facts_(RankHello::mine(&sweep).facts), threads_(std::max(1U, run.threads)),
+          crew_(sweep, threads_) {
         count_ = {.to_do = queue_.left()};
         results_.note(count_.to_do);
         for (std::size_t rank = 1; rank < others_.size(); ++rank) {

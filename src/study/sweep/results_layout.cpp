@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-
 namespace corpuscle {
 namespace {
 

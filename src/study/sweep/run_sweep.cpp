@@ -7,7 +7,6 @@
 namespace corpuscle {
 namespace {
 
-constexpr double between_writes = 0.2;  // s: what a killed program has lost at the most, beside the units at work
 constexpr std::size_t ahead = 1 << 14;  // units given to the crew before they are needed
 
 }  // namespace
@@ -29,7 +28,7 @@ Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun
     bool stopped = false;
     for (;;) {
         if (!stopped && crew.waiting() < ahead / 2) crew.give(queue.take(ahead));
-        auto outcomes = crew.collect(between_writes);
+        auto outcomes = crew.collect(run.between_writes);
         for (const auto& o : outcomes) count.count(o);
         if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
         run.seen(count);

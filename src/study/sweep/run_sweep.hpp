@@ -19,6 +19,7 @@ struct SweepCount {
 struct SweepRun {
     unsigned threads = 0;  ///< 0: as many as there are cores
     Shard shard = {};
+    double between_writes = 0.2;  ///< s: of what had ended, a program that is killed has lost what ended since
     std::function<bool()> stop = [] { return false; };
     std::function<void(const SweepCount&)> seen = [](const SweepCount&) {};  ///< several times a second
 };

@@ -11,25 +11,30 @@ namespace {
 
 constexpr int wait_ms = 10'000;  // for another program's short hold on the file
 
+/// What the system said; of a -wal that cannot be written SQLite does not keep it.
+int cause_of(sqlite3* file) {
+    const int cause = sqlite3_system_errno(file);
+    return cause == 0 && sqlite3_extended_errcode(file) == SQLITE_IOERR_WRITE ? errno : cause;
+}
+
 std::string reason(sqlite3* file) {
-    const int cause = file ? sqlite3_system_errno(file) : errno;
-    return cause ? std::strerror(cause) : file ? sqlite3_errmsg(file) : "no memory";
+    const int cause = cause_of(file);
+    return cause ? std::strerror(cause) : sqlite3_errmsg(file);
 }
 
 /// Too large for the file system, for a quota, or for `ulimit -f`.
 bool is_full(sqlite3* file) {
-    const int cause = sqlite3_system_errno(file);
+    const int cause = cause_of(file);
     return sqlite3_errcode(file) == SQLITE_FULL || cause == ENOSPC || cause == EDQUOT || cause == EFBIG;
 }
 
 }  // namespace
 
 Error failed(sqlite3* file, const std::string& path) {
-    const int code = file ? sqlite3_errcode(file) : SQLITE_NOMEM;
     const auto say = [&](const std::string& sentence) { return bad_input(sentence, {path}); };
-    if (file && is_full(file))
-        return say("the disk is full; all that was written before is kept: make room there and give the same command again");
-    switch (code & 0xff) {
+    if (!file) return say("there is no memory to open it");
+    if (is_full(file)) return say("the disk is full; all that was written before is kept: make room there and give the same command again");
+    switch (sqlite3_errcode(file) & 0xff) {
         case SQLITE_NOTADB:
             return say("is no SQLite file, so no results of a sweep; give another with --out");
         case SQLITE_CORRUPT:
@@ -48,7 +53,7 @@ Error failed(sqlite3* file, const std::string& path) {
                             "command again",
                             reason(file)));
         default:
-            return say(fmt::format("SQLite: {}", file ? sqlite3_errmsg(file) : "no memory"));
+            return say(fmt::format("SQLite: {}", sqlite3_errmsg(file)));
     }
 }
 

@@ -1,0 +1,154 @@
+// What do rank 0's parts of a sweep cost: a row written, an outcome in a message, a message, a block? And what is a file of 1e6 rows like?
+//   bench-sweep [UNITS]                 rows: 1e6 units, 6 axes, 10 measures, a train of 15 spikes; random numbers
+//   mpirun -n 2 bench-sweep             messages between two ranks (what -n 2 binds to different cores)
+// Rows go through SweepResults::add in batches of 8192, each a transaction on disk; then the file is folded, and asked. One run; times of
+// the wall, and of the processor, which is what rank 0 has to give: others at work on the machine change it less. Messages: the mean of
+// 20,000, one after another; of rank 0 the processor's time in the calls that send one and that find one.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+#include "study/sweep/rank_words.hpp"
+#include "study/sweep/ranks.hpp"
+#include "study/sweep/results.hpp"
+#include "study/sweep/sqlite.hpp"
+
+namespace {
+
+using namespace corpuscle;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
+double processor() {
+    timespec t = {};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+double memory_MB() {
+    rusage use = {};
+    ::getrusage(RUSAGE_SELF, &use);
+    return static_cast<double>(use.ru_maxrss) / 1024;
+}
+
+class Drawn final : public Sweep {
+    std::int64_t units_;
+    std::vector<SweepColumn> axes_, measures_;
+    std::vector<std::string> trains_ = {"sa1"}, traces_;
+    std::vector<double> times_;
+    std::vector<Fact> facts_ = {{"title", "bench"}};
+
+public:
+    explicit Drawn(std::int64_t units) : units_(units) {
+        for (int k = 0; k < 6; ++k) axes_.push_back({fmt::format("axis{}", k), ""});
+        for (int k = 0; k < 10; ++k) measures_.push_back({fmt::format("measure{}", k), ""});
+    }
+    std::int64_t units() const override { return units_; }
+    const std::vector<SweepColumn>& axes() const override { return axes_; }
+    const std::vector<SweepColumn>& measures() const override { return measures_; }
+    const std::vector<std::string>& trains() const override { return trains_; }
+    const std::vector<std::string>& traces() const override { return traces_; }
+    const std::vector<double>& trace_times() const override { return times_; }
+    const std::vector<Fact>& facts() const override { return facts_; }
+    std::vector<double> values(std::int64_t unit) const override {
+        std::vector<double> out(axes_.size());
+        for (std::size_t k = 0; k < out.size(); ++k) out[k] = 1 / static_cast<double>(3 + unit + static_cast<std::int64_t>(k));
+        return out;
+    }
+    Result<void> work(const Next&, const Told&, const std::function<bool()>&) const override { return {}; }
+
+    UnitOutcome outcome(std::int64_t unit, std::mt19937& random) const {
+        std::uniform_real_distribution<> number;
+        UnitOutcome o{unit};
+        for (std::size_t k = 0; k < measures_.size(); ++k) o.measures.push_back(number(random));
+        o.spikes.resize(1);
+        for (int k = 0; k < 15; ++k) o.spikes[0].push_back(number(random));
+        return o;
+    }
+};
+
+void ask(const SweepResults& results, const char* query) {
+    const auto begun = Clock::now();
+    const auto answer = sql::integer(results.handle(), results.path(), query);
+    fmt::print("  {:.3f} s  {}  ({})\n", since(begun), query, answer ? *answer : -1);
+}
+
+int rows(std::int64_t units) {
+    const std::string path = "bench-sweep.sqlite";
+    std::filesystem::remove(path);
+    const Drawn sweep(units);
+    auto results = SweepResults::open(path, sweep);
+    if (!results) return fmt::print("{}\n", results.error().text()), 1;
+    constexpr std::int64_t batch = 8192;
+    std::mt19937 random(1);
+    double writing = 0, writing_wall = 0, packing = 0, unpacking = 0, at_tenth = 0;
+    for (std::int64_t from = 0; from < units; from += batch) {
+        std::vector<UnitOutcome> outcomes, back;
+        for (std::int64_t k = from; k < std::min(units, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
+        auto begun = processor();
+        auto packed = message(outcomes);
+        packing += processor() - begun, begun = processor();
+        (void)word_of(packed), (void)get(packed, back);
+        unpacking += processor() - begun, begun = processor();
+        const auto wall = Clock::now();
+        if (auto ok = results->add(sweep, std::move(back)); !ok) return fmt::print("{}\n", ok.error().text()), 1;
+        writing += processor() - begun, writing_wall += since(wall);
+        if (at_tenth == 0 && from >= units / 10) at_tenth = memory_MB();
+    }
+    const auto begun = Clock::now();
+    const auto folded = results->fold();
+    const auto n = static_cast<double>(units);
+    fmt::print("{} rows: {:.2f} us a row ({:.0f} a second); to pack an outcome {:.2f} us, to unpack it {:.2f} us\n", units,
+               writing / n * 1e6, n / writing, packing / n * 1e6, unpacking / n * 1e6);
+    fmt::print("folded in {:.2f} s{}: {:.0f} MB, {:.0f} bytes a row; memory {:.0f} MB after a tenth, {:.0f} MB in the end\n", since(begun),
+               folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
+               static_cast<double>(std::filesystem::file_size(path)) / n, at_tenth, memory_MB());
+    ask(*results, "SELECT count(*) FROM units");
+    ask(*results, "SELECT avg(measure3) * 1e6 FROM units");
+    ask(*results, "SELECT count(*) FROM units WHERE measure0 < 0.5 AND measure9 > 0.1 AND ended = 'done'");
+    ask(*results, "SELECT length(times) FROM spikes WHERE unit = 77777 AND train = 0");
+    std::filesystem::remove(path);
+    return 0;
+}
+
+int messages() {
+    auto joined = Ranks::join();
+    if (!joined) return fmt::print("{}\n", joined.error().text()), 1;
+    auto& ranks = **joined;
+    const bool first = ranks.rank() == 0;
+    for (const std::size_t size : {16UL, 4096UL, 131072UL}) {
+        constexpr int count = 20'000;
+        const std::string text(size, 'x');
+        const auto begun = Clock::now();
+        double at_work = 0;
+        const auto send = [&] {
+            const auto before = processor();
+            ranks.send(first ? 1 : 0, text);
+            (void)ranks.unsent();
+            at_work += processor() - before;
+        };
+        if (first) send();
+        for (int k = 0; k < count; ++k) {
+            for (bool found = false; !found; (void)ranks.unsent()) {
+                const auto before = processor();
+                found = ranks.receive().has_value();
+                if (found) at_work += processor() - before;
+            }
+            if (!first || k + 1 < count) send();
+        }
+        while (ranks.unsent() > 0) {
+        }
+        if (first)
+            fmt::print("a message of {} bytes: {:.2f} us there, {:.2f} us of rank 0 to receive one and send one\n", size,
+                       since(begun) / count / 2 * 1e6, at_work / count * 1e6);
+    }
+    ranks.leave(true);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return Ranks::are_started() ? messages() : rows(argc > 1 ? std::atoll(argv[1]) : 1'000'000); }

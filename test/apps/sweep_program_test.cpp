@@ -1,0 +1,130 @@
+// corpuscle sweep as people use it: alone, in shards, interrupted, and on ranks that die.
+
+#include <nlohmann/json.hpp>
+
+#include "support/places.hpp"
+#include "support/program.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using Json = nlohmann::json;
+using test::run;
+
+/// SA-I's model, so many times at each of two forces.
+std::string sweep_of(int units) {
+    return "afferent = \"sa1\"\nunits = " + std::to_string(units) +
+           "\nmeasures = [\"spikes\", \"first_spike\"]\n[[vary]]\nwhat = \"press.F_max\"\nlist = [\"1N\", \"2N\"]\n"
+           "[[vary]]\nwhat = \"f_B\"\nsigma = \"5%\"\n";
+}
+
+std::string dump(const Folder& folder, const std::string& results) {
+    const auto ran = run(folder, "sweep dump " + results);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return ran.out;
+}
+
+TEST(SweepProgram, SaysWhatItHasDoneAndGoesOnWhereItStopped) {
+    const Folder folder;
+    folder.write("a.toml", sweep_of(50));
+    EXPECT_NE(run(folder, "sweep a.toml --status").err.find("a.sqlite: is not there"), std::string::npos);
+    ASSERT_EQ(run(folder, "sweep a.toml --shard 1/4 -o a.sqlite --quiet").status, 0);
+    const auto status = Json::parse(run(folder, "sweep a.toml --status --json").out);
+    EXPECT_EQ(status["ended"], 25);
+    EXPECT_EQ(status["missing"], 75);
+    const auto ran = run(folder, "sweep a.toml -j 2");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("  100    100   75        0   100       0     0"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("corpuscle sweep show a.sqlite"), std::string::npos);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.sqlite", "a.toml"}));
+    ASSERT_EQ(run(folder, "sweep a.toml -j 1 --lanes 1 -o b.sqlite").status, 0);
+    EXPECT_EQ(dump(folder, "a.sqlite"), dump(folder, "b.sqlite"));
+    for (const std::string k : {"1", "2", "3"}) ASSERT_EQ(run(folder, "sweep a.toml --shard " + k + "/3").status, 0);
+    EXPECT_NE(
+        run(folder, "sweep merge c.sqlite a-1of3.sqlite a-3of3.sqlite a-2of3.sqlite").out.find("a-3of3.sqlite: 33 units, 33 of them new"),
+        std::string::npos);
+    EXPECT_EQ(dump(folder, "a.sqlite"), dump(folder, "c.sqlite"));
+    const auto other = run(folder, "sweep a.toml --seed 7");
+    EXPECT_EQ(other.status, 1);
+    EXPECT_NE(other.err.find("a.sqlite: holds results of another sweep: sweep file"), std::string::npos) << other.err;
+    EXPECT_EQ(run(folder, "sweep a.toml --shard 4/3").status, 2);
+    EXPECT_EQ(run(folder, "sweep").status, 2);
+}
+
+TEST(SweepProgram, InterruptedKeepsWhatHadEnded) {
+    const Folder folder;
+    folder.write("a.toml", sweep_of(500'000));
+    const auto command =
+        "cd '" + folder.path() + "' && timeout -s INT 1 '" + test::program() + "' sweep a.toml --quiet 2>err; echo $? >status";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_NE(test::read_file(folder / "err").find("units have ended and are in a.sqlite: the same command goes on from there"),
+              std::string::npos)
+        << test::read_file(folder / "err");
+    const auto status = Json::parse(run(folder, "sweep a.toml --status --json").out);
+    EXPECT_GT(status["ended"], 0);
+    EXPECT_GT(status["missing"], 0);
+    EXPECT_FALSE(status.contains("writer"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.sqlite-wal")) << "one file";
+}
+
+struct RanRanks {
+    int status;
+    std::string said;
+};
+
+/// Under mpirun; rank `victim` (none: -1) is killed when rows are in the file `out`.
+RanRanks run_ranks(const Folder& folder, int ranks, const std::string& out, const std::string& options = "", int victim = -1) {
+    folder.write("rank.sh", "if [ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(victim) + " ]; then (until [ \"$(stat -c %s " + out +
+                                "-wal 2>/dev/null || echo 0)\" -gt 50000 ]; do sleep 0.02; done; kill -9 $$) & fi\nexec '" +
+                                test::program() + "' sweep a.toml --quiet -o " + out + "\n");
+    const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
+    const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe " + options + " -n " +
+                         std::to_string(ranks) + " sh rank.sh >said 2>&1";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), test::read_file(folder / "said")};
+}
+
+TEST(SweepRanks, GiveWhatOneThreadGives) {
+    const Folder folder;
+    folder.write("a.toml", sweep_of(300));
+    ASSERT_EQ(run(folder, "sweep a.toml -j 1 -o alone").status, 0);
+    const auto alone = dump(folder, "alone");
+    for (const int ranks : {1, 2, 3, 4}) {
+        const auto out = "r" + std::to_string(ranks);
+        const auto ran = run_ranks(folder, ranks, out);
+        ASSERT_EQ(ran.status, 0) << ran.said;
+        EXPECT_EQ(dump(folder, out), alone) << ranks;
+    }
+}
+
+TEST(SweepRanks, OneThatDiesCostsItsBlockOnly) {
+    const Folder folder;
+    folder.write("a.toml", sweep_of(30'000));
+    ASSERT_EQ(run(folder, "sweep a.toml -o alone").status, 0);
+    const auto alone = dump(folder, "alone");
+    const auto ran = run_ranks(folder, 3, "r", "--enable-recovery", 1);
+    EXPECT_EQ(ran.status, 0) << ran.said;
+    EXPECT_NE(ran.said.find("1 rank died or fell silent; the "), std::string::npos) << ran.said;
+    EXPECT_EQ(dump(folder, "r"), alone) << "all of it, in one run";
+    // Without rank 0 the others end, and the same command goes on.
+    const auto headless = run_ranks(folder, 3, "h", "--enable-recovery", 0);
+    EXPECT_NE(headless.said.find("rank 0, which writes the results, is gone; what it wrote is kept"), std::string::npos) << headless.said;
+    ASSERT_EQ(run(folder, "sweep a.toml -o h").status, 0);
+    EXPECT_EQ(dump(folder, "h"), alone);
+}
+
+TEST(SweepRanks, WithoutRecoveryNothingThatHadEndedIsLost) {
+    const Folder folder;
+    folder.write("a.toml", sweep_of(30'000));
+    const auto ran = run_ranks(folder, 3, "r", "", 2);
+    EXPECT_NE(ran.status, 0) << "mpirun ends them all\n" << ran.said;
+    const auto ended = Json::parse(run(folder, "sweep a.toml -o r --status --json").out)["ended"].get<int>();
+    EXPECT_GT(ended, 0);
+    const auto rest = Json::parse(run(folder, "sweep a.toml -o r --json").out);
+    EXPECT_EQ(rest["now"], 60'000 - ended);
+    EXPECT_EQ(rest["missing"], 0);
+}
+
+}  // namespace
+}  // namespace corpuscle
