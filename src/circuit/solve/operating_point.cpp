@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <utility>
 
 #include "circuit/device/values.hpp"
 
@@ -16,6 +19,7 @@ class Search {
     std::vector<double> start_, last_;  // last: where plain Newton gave up
     std::size_t nodes_;
     Springs held_;  // to the end
+    const Descent* descent_;
 
     /// A spring at every node; those that are held have their own.
     Springs all(double g, const std::vector<double>& to) const {
@@ -28,6 +32,35 @@ class Search {
     bool plain(std::vector<double>& x) {
         newton_.memory = system_.fresh_memory();
         return newton_.run(x, held_);
+    }
+
+    bool from_designed(std::vector<double>& x) {
+        x = descent_->designed;
+        return plain(x);
+    }
+
+    /// The chip grows out of the circuit as designed, and its answer with it.
+    bool by_chip(std::vector<double>& x) {
+        x = descent_->designed;
+        auto before = x;
+        double reached = 0, step = 0.5, last = 0;
+        newton_.memory = system_.fresh_memory();
+        while (reached < 1 && step > 1e-3) {
+            const double share = std::min(1.0, reached + step);
+            auto next = x;
+            if (last > 0)  // on the straight line so far
+                for (std::size_t n = 0; n < x.size(); ++n) next[n] += (x[n] - before[n]) * (share - reached) / last;
+            const auto memory = newton_.memory;
+            descent_->go(share);
+            if (newton_.run(next, held_, 20)) {
+                last = share - reached, reached = share, step *= 2;
+                before = std::exchange(x, std::move(next));
+            } else {
+                newton_.memory = memory, step /= 4;
+            }
+        }
+        descent_->go(1);
+        return reached >= 1;
     }
 
     /// Every node hangs at ground by a conductance that is taken away, decade by decade.
@@ -104,32 +137,40 @@ class Search {
     }
 
 public:
-    Search(Newton& newton, std::vector<double> start, Springs held)
+    Search(Newton& newton, std::vector<double> start, Springs held, const Descent* descent = nullptr)
         : newton_(newton), system_(newton.system), start_(std::move(start)), nodes_(static_cast<std::size_t>(system_.nodes())),
-          held_(std::move(held)) {
+          held_(std::move(held)), descent_(descent) {
         start_.resize(static_cast<std::size_t>(system_.size()));
         newton_.iterations = 0;
     }
 
     Result<OperatingPoint> run() {
+        if (descent_ != nullptr)
+            if (auto found = by({{"newton", &Search::from_designed}, {"chip", &Search::by_chip}})) return std::move(*found);
         hold(start_);
-        struct Way {
-            std::string_view name;
-            bool (Search::*go)(std::vector<double>&);
-        };
-        for (const Way& way : {Way{"newton", &Search::plain},
-                               {"gmin", &Search::by_gmin},
-                               {"source", &Search::by_sources},
-                               {"pseudo-transient", &Search::by_time}}) {
+        if (auto found = by({{"newton", &Search::plain},
+                             {"gmin", &Search::by_gmin},
+                             {"source", &Search::by_sources},
+                             {"pseudo-transient", &Search::by_time}}))
+            return std::move(*found);
+        return failure();
+    }
+
+private:
+    struct Way {
+        std::string_view name;
+        bool (Search::*go)(std::vector<double>&);
+    };
+    std::optional<OperatingPoint> by(std::initializer_list<Way> ways) {
+        for (const Way& way : ways) {
             auto x = start_;
             if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
             if (last_.empty()) last_ = std::move(x);
             if (system_.linear()) break;
         }
-        return failure();
+        return {};
     }
 
-private:
     Error failure() {
         const auto& c = system_.circuit();
         if (system_.linear() && newton_.singular >= 0)
@@ -167,6 +208,10 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
 
 Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start, Springs held) {
     return Search(newton, std::move(start), std::move(held)).run();
+}
+
+Result<OperatingPoint> operating_point(Newton& newton, const Descent& descent, Springs held) {
+    return Search(newton, {}, std::move(held), &descent).run();
 }
 
 }  // namespace corpuscle::circuit
