@@ -27,24 +27,14 @@ Springs TestBench::held() const {
     return out;
 }
 
-Result<OperatingPoint> TestBench::search(const std::vector<double>& designed, Springs held) {
-    if (!drawn_ || designed.empty()) return operating_point(newton, designed, std::move(held));
-    const auto go = [this](double share) {
-        Draw part = *drawn_;
-        part.share *= share;
-        system.draw(&part);
-    };
-    return operating_point(newton, Descent{designed, go}, std::move(held));
-}
-
 Result<OperatingPoint> TestBench::rest() {
     if (rest_) return *rest_;
-    auto found = search(designed_, {});
+    auto found = operating_point(newton, designed_);
     if (found) rest_ = *found;
     return found;
 }
 
-Result<OperatingPoint> TestBench::rest_held() { return circuit->ic.empty() ? rest() : search(begun_, held()); }
+Result<OperatingPoint> TestBench::rest_held() { return circuit->ic.empty() ? rest() : operating_point(newton, begun_, held()); }
 
 /// Chips are solved from where the circuit rests as designed, along the pivots of its matrix there.
 void TestBench::prepare() {

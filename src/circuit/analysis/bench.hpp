@@ -30,7 +30,6 @@ class TestBench {
 
     TestBench(std::shared_ptr<const Circuit>, System, const Tolerances&);
     void prepare();
-    Result<OperatingPoint> search(const std::vector<double>& designed, Springs held);
 
 public:
     std::shared_ptr<const Circuit> circuit;

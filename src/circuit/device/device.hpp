@@ -52,7 +52,6 @@ struct Draw {
     std::uint64_t seed = 0, chip = 0;
     bool mismatch = true;    ///< whether each device draws its own
     double process[4] = {};  ///< what all share, as normal deviates: V_T0 of NMOS and PMOS, then I_SQ of both
-    double share = 1;        ///< of all deviates: less than 1 on the way from the circuit as designed to this chip
 };
 
 class Device {

@@ -41,11 +41,10 @@ public:
     }
 
     bool draw(const Draw* chip, std::uint32_t number) override {
-        if (chip == nullptr) return constants_ = designed_, true;
-        double all[4];
-        for (std::size_t k = 0; k < 4; ++k) all[k] = chip->process[k] * chip->share;
-        constants_ = shifted(designed_, chip->mismatch ? mismatch(card_, size_, chip->seed, number, chip->chip, chip->share) : UicmShift{},
-                             process(card_, pmos_, all));
+        constants_ = chip == nullptr
+                         ? designed_
+                         : shifted(designed_, chip->mismatch ? mismatch(card_, size_, chip->seed, number, chip->chip) : UicmShift{},
+                                   process(card_, pmos_, chip->process));
         return true;
     }
 

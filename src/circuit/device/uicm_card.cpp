@@ -59,10 +59,10 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, doubl
     return c;
 }
 
-UicmShift mismatch(const UicmCard& card, const UicmInstance& at, std::uint64_t seed, std::uint32_t device, std::uint64_t chip, double share) {
+UicmShift mismatch(const UicmCard& card, const UicmInstance& at, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
     const double per_side = 1 / num::sqrt(at.area());
     const auto drawn = normals(seed, device, of_mismatch, chip);
-    return {card.A_VT * per_side * drawn.first * share, num::exp(card.A_IS * per_side * drawn.second * share)};
+    return {card.A_VT * per_side * drawn.first, num::exp(card.A_IS * per_side * drawn.second)};
 }
 
 UicmInstance with_mismatch(UicmInstance at, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {

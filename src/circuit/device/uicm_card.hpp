@@ -89,8 +89,8 @@ struct UicmShift {
 };
 
 /// A transistor's own part, drawn for (seed, device, chip): A_VT / sqrt(area) times a normal deviate, and exp(A_IS / sqrt(area) times
-/// another), over the gate area of the whole array. `device` numbers the transistors of a netlist; `share` is the part of the deviates.
-UicmShift mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip, double share = 1);
+/// another), over the gate area of the whole array. `device` numbers the transistors of a netlist.
+UicmShift mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 /// The same as the instance's delvto and mulu0.
 UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 

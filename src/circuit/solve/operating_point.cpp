@@ -2,24 +2,41 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <initializer_list>
-#include <optional>
-#include <utility>
+#include <functional>
 
 #include "circuit/device/values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
+/// Tolerances that are wide as long as this lives.
+class Loosened {
+    Tolerances& of_;
+    const Tolerances tight_;
+
+    void loosen() const { of_.reltol = 1e-2, of_.vntol = 1e-3, of_.abstol = 1e-13; }
+
+public:
+    explicit Loosened(Tolerances& of) : of_(of), tight_(of) { loosen(); }
+    Loosened(const Loosened&) = delete;
+    ~Loosened() { of_ = tight_; }
+    bool exactly(const std::function<bool()>& work) const {
+        of_ = tight_;
+        const bool good = work();
+        return loosen(), good;
+    }
+};
+
 /// One way after another, from where the last good answer was.
 class Search {
     Newton& newton_;
     const System& system_;
+    bool led_;                          // it begins where somebody knows it to be near; then .nodeset has nothing to add
     std::vector<double> start_, last_;  // last: where plain Newton gave up
     std::size_t nodes_;
     Springs held_;  // to the end
-    const Descent* descent_;
 
     /// A spring at every node; those that are held have their own.
     Springs all(double g, const std::vector<double>& to) const {
@@ -32,35 +49,6 @@ class Search {
     bool plain(std::vector<double>& x) {
         newton_.memory = system_.fresh_memory();
         return newton_.run(x, held_);
-    }
-
-    bool from_designed(std::vector<double>& x) {
-        x = descent_->designed;
-        return plain(x);
-    }
-
-    /// The chip grows out of the circuit as designed, and its answer with it.
-    bool by_chip(std::vector<double>& x) {
-        x = descent_->designed;
-        auto before = x;
-        double reached = 0, step = 0.5, last = 0;
-        newton_.memory = system_.fresh_memory();
-        while (reached < 1 && step > 1e-3) {
-            const double share = std::min(1.0, reached + step);
-            auto next = x;
-            if (last > 0)  // on the straight line so far
-                for (std::size_t n = 0; n < x.size(); ++n) next[n] += (x[n] - before[n]) * (share - reached) / last;
-            const auto memory = newton_.memory;
-            descent_->go(share);
-            if (newton_.run(next, held_, 20)) {
-                last = share - reached, reached = share, step *= 2;
-                before = std::exchange(x, std::move(next));
-            } else {
-                newton_.memory = memory, step /= 4;
-            }
-        }
-        descent_->go(1);
-        return reached >= 1;
     }
 
     /// Every node hangs at ground by a conductance that is taken away, decade by decade.
@@ -105,24 +93,42 @@ class Search {
         return found && reached >= 1;
     }
 
-    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves.
+    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves. Where something turns over by its own
+    /// gain, a trigger that a chip has on its other side, it moves ever faster: there a step is as long as to move it so far. None but the
+    /// last steps are exact.
     bool by_time(std::vector<double>& x) {
-        double g = 1e-4;
+        constexpr double so_far = 20e-3, still = 2e-3;  // V
+        constexpr int patience = 5;
+        const Loosened loosened(newton_.tolerances);
+        double g = 1e-4, rate = 0, too_small = 0;
+        int careful = 0;  // steps, after one that was too long
         newton_.memory = system_.fresh_memory();
         for (int tries = 0; tries < 2000; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
-            if (newton_.run(next, all(g, x), 20)) {
-                x = next;
-                if (g < 1e-19) return newton_.run(x, held_);
-                g /= 2;
-            } else {
+            const int before = newton_.iterations;
+            if (!newton_.run(next, all(g, x), patience)) {
                 newton_.memory = memory;
-                g *= 8;
+                too_small = g, careful = 20, g *= 3;
                 if (g > 1e6) return false;
+                continue;
             }
+            const double moved = farthest(x, next), faster = rate > 0 ? moved * g / rate : 0;
+            x = std::move(next), rate = moved * g;
+            if (moved < 10 * still && g < 1e-13) {
+                if (auto there = x; loosened.exactly([&] { return newton_.run(there, held_, 20); })) return x = std::move(there), true;
+                if (g < 1e-19) return false;
+            }
+            const bool quick = newton_.iterations - before <= 3;
+            g = faster > 1.03 ? std::max(rate * faster / so_far, g) : g / (moved < still ? 10 : quick ? 4 : 2);
+            if (careful > 0) --careful, g = std::max(g, 1.5 * too_small);
         }
         return false;
+    }
+    double farthest(const std::vector<double>& a, const std::vector<double>& b) const {
+        double most = 0;
+        for (std::size_t n = 0; n < nodes_; ++n) most = std::max(most, std::abs(a[n] - b[n]));
+        return most;
     }
 
     /// Nodes of .nodeset are held there first, then let go.
@@ -137,40 +143,32 @@ class Search {
     }
 
 public:
-    Search(Newton& newton, std::vector<double> start, Springs held, const Descent* descent = nullptr)
-        : newton_(newton), system_(newton.system), start_(std::move(start)), nodes_(static_cast<std::size_t>(system_.nodes())),
-          held_(std::move(held)), descent_(descent) {
+    Search(Newton& newton, std::vector<double> start, Springs held)
+        : newton_(newton), system_(newton.system), led_(!start.empty()), start_(std::move(start)),
+          nodes_(static_cast<std::size_t>(system_.nodes())), held_(std::move(held)) {
         start_.resize(static_cast<std::size_t>(system_.size()));
         newton_.iterations = 0;
     }
 
     Result<OperatingPoint> run() {
-        if (descent_ != nullptr)
-            if (auto found = by({{"newton", &Search::from_designed}, {"chip", &Search::by_chip}})) return std::move(*found);
-        hold(start_);
-        if (auto found = by({{"newton", &Search::plain},
-                             {"gmin", &Search::by_gmin},
-                             {"source", &Search::by_sources},
-                             {"pseudo-transient", &Search::by_time}}))
-            return std::move(*found);
-        return failure();
-    }
-
-private:
-    struct Way {
-        std::string_view name;
-        bool (Search::*go)(std::vector<double>&);
-    };
-    std::optional<OperatingPoint> by(std::initializer_list<Way> ways) {
-        for (const Way& way : ways) {
+        if (!led_) hold(start_);
+        struct Way {
+            std::string_view name;
+            bool (Search::*go)(std::vector<double>&);
+        };
+        const Way newton{"newton", &Search::plain}, gmin{"gmin", &Search::by_gmin}, source{"source", &Search::by_sources},
+            time{"pseudo-transient", &Search::by_time};
+        // From a place that is near, time goes where the circuit itself would; the other two forget where they began.
+        for (const Way& way : led_ ? std::array{newton, time, gmin, source} : std::array{newton, gmin, source, time}) {
             auto x = start_;
             if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
             if (last_.empty()) last_ = std::move(x);
             if (system_.linear()) break;
         }
-        return {};
+        return failure();
     }
 
+private:
     Error failure() {
         const auto& c = system_.circuit();
         if (system_.linear() && newton_.singular >= 0)
@@ -208,10 +206,6 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
 
 Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start, Springs held) {
     return Search(newton, std::move(start), std::move(held)).run();
-}
-
-Result<OperatingPoint> operating_point(Newton& newton, const Descent& descent, Springs held) {
-    return Search(newton, {}, std::move(held), &descent).run();
 }
 
 }  // namespace corpuscle::circuit

@@ -1,7 +1,6 @@
 #pragma once
 // Where a circuit rests: f(x) = 0, by Newton's steps, and by detours where they do not arrive.
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,19 +22,13 @@ struct Tolerances {
 
 struct OperatingPoint {
     std::vector<double> x;
-    std::string_view how;  ///< "newton", "chip", "gmin", "source", "pseudo-transient"
+    std::string_view how;  ///< "newton", "gmin", "source", "pseudo-transient"
     int iterations = 0;    ///< Newton's steps, all attempts
 };
 
 /// Springs that pull nodes to where they are wanted: g (x - to) is added to each node's equation. Empty: none.
 struct Springs {
     std::vector<double> g, to;
-};
-
-/// A chip's way from the circuit as designed: where that rests, and what takes the circuit so far (0 to 1) towards the chip.
-struct Descent {
-    std::vector<double> designed;
-    std::function<void(double share)> go;
 };
 
 /// Newton's steps from x on; x is left where they ended. False: they did not arrive. Bound to its system, whose matrix it has analysed.
@@ -57,11 +50,7 @@ struct Newton {
     std::string distance(std::span<const double> x);
 };
 
-/// From `start` (empty: 0 everywhere), with .nodeset first. `held`: springs that stay to the end.
+/// From `start`; if that is empty, from 0 everywhere, with .nodeset first. `held`: springs that stay to the end.
 Result<OperatingPoint> operating_point(Newton&, std::vector<double> start = {}, Springs held = {});
-
-/// Of a chip: first from where the circuit rests as designed, then along with that as the chip's deviates grow from nothing to what they are,
-/// then as above.
-Result<OperatingPoint> operating_point(Newton&, const Descent&, Springs held = {});
 
 }  // namespace corpuscle::circuit
