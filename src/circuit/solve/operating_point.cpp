@@ -47,8 +47,9 @@ class Search {
     }
 
     bool plain(std::vector<double>& x) {
+        constexpr int near = 40;  // steps: from near they arrive within half of these, or never
         newton_.memory = system_.fresh_memory();
-        return newton_.run(x, held_);
+        return newton_.run(x, held_, led_ ? std::min(near, newton_.tolerances.itl1) : 0);
     }
 
     /// Every node hangs at ground by a conductance that is taken away, decade by decade.

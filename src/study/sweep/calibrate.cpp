@@ -46,7 +46,8 @@ class TrimmingBench {
         const auto at = values(codes);
         if (const auto known = designs_.find(at); known != designs_.end()) return known->second;
         auto knobs = asked_.knobs;
-        for (std::size_t k = 0; k < at.size(); ++k) knobs.push_back({asked_.trims[k].name, fmt::format("{:.17g}", at[k]), asked_.trims[k].name});
+        for (std::size_t k = 0; k < at.size(); ++k)
+            for (const auto& name : asked_.trims[k].names) knobs.push_back({name, fmt::format("{:.17g}", at[k]), name});
         const auto netlist = circuit::tuned(asked_.netlist, knobs);
         if (!netlist) return netlist.error();
         auto made = CircuitDesign::of(*netlist);
@@ -187,23 +188,24 @@ double Trim::value(int code, int bits) const {
     return whole ? std::max(1.0, std::round(value)) : value;
 }
 
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>& knobs, const std::string& name, double range, bool whole) {
+Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>& knobs, std::vector<std::string> names, double range,
+                     bool whole) {
     const auto read = circuit::tuned(netlist, knobs);
     if (!read) return read.error();
     const auto circuit = read->elaborate();
     if (!circuit) return circuit.error();
-    const auto wanted = lower(name);
-    if (const auto p = circuit->parameters.find(wanted); p != circuit->parameters.end()) return Trim{name, p->second, range, whole};
+    const auto wanted = lower(names.at(0));
+    if (const auto p = circuit->parameters.find(wanted); p != circuit->parameters.end()) return Trim{std::move(names), p->second, range, whole};
     const auto dot = wanted.rfind('.');
-    std::vector<std::string_view> names;
-    for (const auto& e : circuit->elements) names.push_back(e.name);
-    const auto found = dot == std::string::npos ? std::vector<std::size_t>() : circuit::meant(names, wanted.substr(0, dot), circuit::Last::element);
-    if (found.size() == 1) {
+    std::vector<std::string_view> known;
+    for (const auto& e : circuit->elements) known.push_back(e.name);
+    const auto found = circuit::meant(known, wanted.substr(0, dot), circuit::Last::element);
+    if (dot != std::string::npos && found.size() == 1) {
         const auto& values = circuit->elements[found[0]].values;
-        if (const auto v = values.find(wanted.substr(dot + 1)); v != values.end()) return Trim{name, v->second, range, whole};
+        if (const auto v = values.find(wanted.substr(dot + 1)); v != values.end()) return Trim{std::move(names), v->second, range, whole};
     }
-    return bad_input(fmt::format("trim '{}': {} has no such number; a .param of the top level, or a number that a device says, such as 'summer.n3b.m'",
-                                 name, netlist));
+    return bad_input(fmt::format("trim '{}': {} says no such number; it is a .param of the top level, or one of a device, such as 'summer.n3b.m'",
+                                 names[0], netlist));
 }
 
 Result<std::vector<CalibratedChip>> calibrate(const Calibration& asked, const std::vector<Draw>& chips) {

@@ -15,7 +15,7 @@ namespace corpuscle {
 /// What can be set of a chip once it is made, by a binary code: designed * (1 + range * code / 2^(bits - 1)), code from 1 - 2^(bits - 1) to
 /// 2^(bits - 1); 0 is as designed. One bit: as designed, or the most.
 struct Trim {
-    std::string name;    ///< a knob that is a number: "i_leak", "summer.N3B.m"
+    std::vector<std::string> names;  ///< knobs that are numbers: "i_leak"; "rect.p1b.m" and "rect.n2b.m", switched together
     double designed = 0;
     double range = 0.5;  ///< the largest code's share more than designed
     bool whole = false;  ///< columns of an array: to the nearest whole number, 1 at least
@@ -52,7 +52,7 @@ struct CalibratedChip {
 /// bits are those with few, and one search tells what each number of bits is worth.
 Result<std::vector<CalibratedChip>> calibrate(const Calibration&, const std::vector<circuit::Draw>& chips);
 
-/// The trim with what the netlist has of it; refused if it is no number there.
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>&, const std::string& name, double range, bool whole);
+/// The trim with what the netlist has of its first name; refused if that is no number there.
+Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>&, std::vector<std::string> names, double range, bool whole);
 
 }  // namespace corpuscle
