@@ -88,7 +88,7 @@ Result<std::vector<RestState>> rest_states(TestBench& bench, double rise) {
     for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n) {
         if (bench.stopped(static_cast<double>(n) / bench.system.nodes())) return interruption();
         for (const double end : {low, high})
-            if (std::abs(usual->x[n] - end) > (high - low) / 4) states.pushed(usual->x, n, end);
+            if (std::abs(usual->x[n] - end) > apart) states.pushed(usual->x, n, end);
     }
     const auto on = powered_on(bench, rise);
     if (on && *on)
