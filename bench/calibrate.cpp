@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
     std::vector<std::vector<int>> sets = {{0, 1, 2}, {0}, {1}, {2}};
     if (argc > 5) {
         sets = {{}};
-        for (int a = 5; a < argc; ++a) sets[0].push_back(std::strcmp(argv[a], "gain") == 0 ? 2 : std::strcmp(argv[a], "i_biasb") == 0 ? 1 : 0);
+        for (int a = 5; a < argc; ++a)
+            sets[0].push_back(std::strcmp(argv[a], "gain") == 0 ? 2 : std::strcmp(argv[a], "i_biasb") == 0 ? 1 : 0);
     }
     for (const auto& set : sets) {
         asked.trims.clear();
@@ -83,8 +84,9 @@ int main(int argc, char** argv) {
         if (set.size() == 3)
             for (std::size_t k = 0; k < all->size(); ++k) {
                 const auto& c = (*all)[k];
-                fmt::print("  chip {:4} {} spikes -> {} with {} bits, codes {}, off {:.2f} -> {:.2f}, {} presses\n", k, c.spikes_before.size(), c.spikes.size(),
-                           c.bits, fmt::join(c.codes.back(), " "), c.distance.front(), c.distance.back(), c.presses);
+                fmt::print("  chip {:4} {} spikes -> {} with {} bits, codes {}, off {:.2f} -> {:.2f}, {} presses\n", k,
+                           c.spikes_before.size(), c.spikes.size(), c.bits, fmt::join(c.codes.back(), " "), c.distance.front(),
+                           c.distance.back(), c.presses);
             }
     }
 }

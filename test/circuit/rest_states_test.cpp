@@ -99,7 +99,8 @@ TEST(RestStates, OfASchmittTriggerAreTwoWithinItsHysteresisAndOneBeyond) {
         EXPECT_EQ(found.count(true), states == 3 ? 2 : 1) << level;
         ASSERT_NE(found.power_on(), nullptr);
         EXPECT_TRUE(found.power_on()->stable) << level;
-        if (level < 0.4) EXPECT_GT(found.of(*found.power_on(), "v(out)"), 0.35) << level << ": its input rises with its supply, from below";
+        const double out = found.of(*found.power_on(), "v(out)");
+        EXPECT_TRUE(level > 0.4 || out > 0.35) << level << ": its input rises with its supply, from below, and " << out << " V come out";
     }
 }
 

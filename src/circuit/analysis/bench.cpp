@@ -21,7 +21,8 @@ Result<std::unique_ptr<TestBench>> TestBench::make(std::shared_ptr<const Circuit
 
 Springs TestBench::held() const {
     if (circuit->ic.empty()) return {};
-    Springs out{std::vector<double>(static_cast<std::size_t>(system.nodes())), std::vector<double>(static_cast<std::size_t>(system.size()))};
+    Springs out{std::vector<double>(static_cast<std::size_t>(system.nodes())),
+                std::vector<double>(static_cast<std::size_t>(system.size()))};
     for (const auto& [node, v] : circuit->ic)
         out.g[static_cast<std::size_t>(node) - 1] = 1e3, out.to[static_cast<std::size_t>(node) - 1] = v;
     return out;

@@ -72,7 +72,8 @@ Result<OpWords> op_words(const Command& c) {
     if (c.words.size() == 1) return out;
     const auto rise = number_of(c, 1, "a time in which the sources rise");
     if (!rise) return rise.error();
-    if (!(*rise > 0 && *rise <= 1e3)) return error_at(c, 1, fmt::format(".op: the sources rise within {:g} s; above 0, at most 1000", *rise));
+    if (!(*rise > 0 && *rise <= 1e3))
+        return error_at(c, 1, fmt::format(".op: the sources rise within {:g} s; above 0, at most 1000", *rise));
     return out.rise = *rise, out;
 }
 
@@ -82,7 +83,8 @@ Result<void> tell_states(TestBench& bench, const OpWords& asked, Findings& out) 
     if (!states) return states.error();
     double stable = 0, unusual = 1;  // unusual: switched on, it comes elsewhere, or nowhere
     for (const auto& s : *states) stable += s.stable, unusual -= s.usual && s.power_on;
-    out.numbers = {{"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", unusual}};
+    out.numbers = {
+        {"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", unusual}};
     out.table = told(bench, *states);
     return {};
 }
@@ -101,8 +103,8 @@ Result<Findings> analyse_op(TestBench& bench, const Command& c) {
     if (asked->states)
         if (auto done = tell_states(bench, *asked, out); !done) return done.error();
     if (bench.brief) return out;
-    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->how, found->iterations, bench.tolerances.gmin, out.table,
-                            table_of(bench.system, found->x));
+    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->how, found->iterations, bench.tolerances.gmin,
+                            out.table, table_of(bench.system, found->x));
     if (asked->states) return out;
     if (auto other = other_state(bench, *found)) out.remarks.push_back(std::move(*other));
     return out;

@@ -42,8 +42,10 @@ Result<std::optional<std::vector<double>>> powered_on(const TestBench& given, do
     constexpr long most_steps = 200'000;  // one that swings on
     while (transient.time() < longest) {
         if (transient.work().steps > most_steps) return std::optional<std::vector<double>>();
-        if (auto stepped = transient.step(longest); !stepped) return stepped.error();
-        else if (!*stepped) break;
+        if (auto stepped = transient.step(longest); !stepped)
+            return stepped.error();
+        else if (!*stepped)
+            break;
     }
     return std::optional(std::vector<double>(transient.x().begin(), transient.x().end()));
 }

@@ -116,8 +116,8 @@ std::string told(const TestBench& bench, const std::vector<RestState>& states) {
     constexpr std::size_t most = 6;  // nodes
     std::string out;
     for (const auto& s : states) {
-        out += fmt::format("state {}: {}{}{}\n", &s - states.data() + 1, s.stable ? "stable" : "not stable", s.usual ? ", where .op rests" : "",
-                           s.power_on ? ", where it comes to when it is switched on" : "");
+        out += fmt::format("state {}: {}{}{}\n", &s - states.data() + 1, s.stable ? "stable" : "not stable",
+                           s.usual ? ", where .op rests" : "", s.power_on ? ", where it comes to when it is switched on" : "");
         if (&s == states.data()) continue;
         const auto nodes = differing(bench, states[0], s);
         for (std::size_t k = 0; k < std::min(most, nodes.size()); ++k)

@@ -94,9 +94,9 @@ class Search {
         return found && reached >= 1;
     }
 
-    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves. Where something turns over by its own
-    /// gain, a trigger that a chip has on its other side, it moves ever faster: there a step is as long as to move it so far. None but the
-    /// last steps are exact.
+    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves. Where something turns over by its
+    /// own gain, a trigger that a chip has on its other side, it moves ever faster: there a step is as long as to move it so far. None but
+    /// the last steps are exact.
     bool by_time(std::vector<double>& x) {
         constexpr double so_far = 20e-3, still = 2e-3;  // V
         constexpr int patience = 5;

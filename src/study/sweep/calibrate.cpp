@@ -59,7 +59,8 @@ class TrimmingBench {
         p.kept = !p.lost && !answer.capped && asked_.limits.kept(p.spikes);
         p.distance = p.lost ? std::numeric_limits<double>::infinity() : asked_.limits.distance(p.spikes);
         // Broken off, as it fires too often: how early tells how far off it is, and it is worse than any that ended.
-        if (answer.capped) p.distance = 1e6 * (2 - (p.spikes.empty() ? 0 : p.spikes.back() / (asked_.T * static_cast<double>(asked_.force.size()))));
+        if (answer.capped)
+            p.distance = 1e6 * (2 - (p.spikes.empty() ? 0 : p.spikes.back() / (asked_.T * static_cast<double>(asked_.force.size()))));
     }
 
 public:
@@ -85,7 +86,9 @@ public:
             const auto k = next++;
             return Chip{static_cast<std::int64_t>(k), designs[k], chips_[all[k].chip], asked_.force, asked_.T};
         };
-        const auto told = [&](const Chip& chip, ChipAnswer&& answer) { judge(all[static_cast<std::size_t>(chip.number)], std::move(answer)); };
+        const auto told = [&](const Chip& chip, ChipAnswer&& answer) {
+            judge(all[static_cast<std::size_t>(chip.number)], std::move(answer));
+        };
         pool_.each(pool_.threads(), [&](std::size_t, unsigned) {
             if (auto done = circuit::run_chips(designs[0], more, told, asked_.batch); !done) {
                 const std::lock_guard lock(guard);
@@ -173,7 +176,8 @@ public:
         std::vector<double> least(best_.size(), start);
         for (auto& p : all) {
             for (std::size_t k = 0; k < best_.size() && !was_together; ++k)
-                if (p.codes[k] != before[k] && p.distance < least[k]) helped += least[k] == start, least[k] = p.distance, joined[k] = p.codes[k];
+                if (p.codes[k] != before[k] && p.distance < least[k])
+                    helped += least[k] == start, least[k] = p.distance, joined[k] = p.codes[k];
             better(p);
         }
         if (best_ == before && !was_together) return finish_bits();
@@ -195,7 +199,8 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob
     const auto circuit = read->elaborate();
     if (!circuit) return circuit.error();
     const auto wanted = lower(names.at(0));
-    if (const auto p = circuit->parameters.find(wanted); p != circuit->parameters.end()) return Trim{std::move(names), p->second, range, whole};
+    if (const auto p = circuit->parameters.find(wanted); p != circuit->parameters.end())
+        return Trim{std::move(names), p->second, range, whole};
     const auto dot = wanted.rfind('.');
     std::vector<std::string_view> known;
     for (const auto& e : circuit->elements) known.push_back(e.name);
@@ -204,8 +209,9 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob
         const auto& values = circuit->elements[found[0]].values;
         if (const auto v = values.find(wanted.substr(dot + 1)); v != values.end()) return Trim{std::move(names), v->second, range, whole};
     }
-    return bad_input(fmt::format("trim '{}': {} says no such number; it is a .param of the top level, or one of a device, such as 'summer.n3b.m'",
-                                 names[0], netlist));
+    return bad_input(
+        fmt::format("trim '{}': {} says no such number; it is a .param of the top level, or one of a device, such as 'summer.n3b.m'",
+                    names[0], netlist));
 }
 
 Result<std::vector<CalibratedChip>> calibrate(const Calibration& asked, const std::vector<Draw>& chips) {
@@ -228,7 +234,8 @@ Result<std::vector<CalibratedChip>> calibrate(const Calibration& asked, const st
                                            std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(to))});
         }
         if (asked.told)
-            asked.told(static_cast<std::size_t>(std::count_if(searches.begin(), searches.end(), [](const auto& s) { return !s.over(); })), presses);
+            asked.told(static_cast<std::size_t>(std::count_if(searches.begin(), searches.end(), [](const auto& s) { return !s.over(); })),
+                       presses);
     }
     std::vector<CalibratedChip> out;
     for (auto& s : searches) out.push_back(s.take());

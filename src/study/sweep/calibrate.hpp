@@ -41,10 +41,10 @@ struct Calibration {
 struct CalibratedChip {
     std::vector<std::vector<int>> codes;  ///< in steps of the finest converter
     std::vector<double> distance;
-    int bits = -1;    ///< with so many it keeps to the limits: 0 as it was made; -1: with none tried
-    int presses = 0;  ///< in all
+    int bits = -1;                              ///< with so many it keeps to the limits: 0 as it was made; -1: with none tried
+    int presses = 0;                            ///< in all
     std::vector<double> spikes_before, spikes;  ///< s, as it was made and at the last
-    bool lost = false;  ///< as it was made it did not converge
+    bool lost = false;                          ///< as it was made it did not converge
 };
 
 /// Each chip by itself, coarse steps before fine ones: with one bit, then two ..., from the best so far one step up or down with each trim,
@@ -53,6 +53,7 @@ struct CalibratedChip {
 Result<std::vector<CalibratedChip>> calibrate(const Calibration&, const std::vector<circuit::Draw>& chips);
 
 /// The trim with what the netlist has of its first name; refused if that is no number there.
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>&, std::vector<std::string> names, double range, bool whole);
+Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>&, std::vector<std::string> names, double range,
+                     bool whole);
 
 }  // namespace corpuscle

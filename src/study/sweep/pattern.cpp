@@ -56,9 +56,11 @@ double FiringLimits::distance(std::span<const double> spikes) const {
 std::string FiringLimits::text() const {
     std::string out;
     for (const auto& p : phases)
-        out += fmt::format("{}{}", out.empty() ? "" : ", ", p.least == p.most ? fmt::format("{:g}", p.least) : fmt::format("{:g} to {:g}", p.least, p.most));
-    return fmt::format("{} spikes{}", out,
-                       first_off > 0 ? fmt::format(", the first at {} +- {}", format_quantity(first, "s"), format_quantity(first_off, "s")) : "");
+        out += fmt::format("{}{}", out.empty() ? "" : ", ",
+                           p.least == p.most ? fmt::format("{:g}", p.least) : fmt::format("{:g} to {:g}", p.least, p.most));
+    return fmt::format(
+        "{} spikes{}", out,
+        first_off > 0 ? fmt::format(", the first at {} +- {}", format_quantity(first, "s"), format_quantity(first_off, "s")) : "");
 }
 
 }  // namespace corpuscle

@@ -24,8 +24,8 @@ struct FiringLimits {
     static FiringLimits about(std::span<const double> meant, std::span<const Stretch> phases, double first_off);
 
     bool kept(std::span<const double> spikes) const;
-    /// How far off, as one number: squares of deviations, each in what is allowed of it. Without steps where a spike crosses a phase's edge,
-    /// so that a search finds its way; kept() decides.
+    /// How far off, as one number: squares of deviations, each in what is allowed of it. Without steps where a spike crosses a phase's
+    /// edge, so that a search finds its way; kept() decides.
     double distance(std::span<const double> spikes) const;
     std::string text() const;  ///< "0, 4 to 6, 7 to 11 ... spikes, the first at 309 ms +- 10 ms"
 };
