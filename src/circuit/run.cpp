@@ -36,28 +36,12 @@ Result<Expectation> expectation_of(const Command& c) {
                        0,        false,        c.place};
 }
 
-/// A number that a name means once all is done: of a measure or an analysis, or at the last point of the first plot that has it.
-std::optional<double> number_named(const RunOutcome& out, std::string_view name) {
-    for (const auto& [known, value] : out.numbers)
-        if (known == name) return value;
-    const auto last = [&](const Plot& plot) -> std::optional<double> {
-        const auto values = values_of(plot, name);
-        return values && !values->empty() ? std::optional(values->back().real()) : std::nullopt;
-    };
-    for (const auto& a : out.analyses) {
-        if (const auto value = last(a.last)) return value;
-        for (const auto& plot : a.findings.plots)
-            if (const auto value = last(plot)) return value;
-    }
-    return {};
-}
-
 Result<void> expect(const Circuit& circuit, RunOutcome& out) {
     for (const auto& c : circuit.commands) {
         if (c.name != "expect") continue;
         auto e = expectation_of(c);
         if (!e) return e.error();
-        const auto found = number_named(out, e->what);
+        const auto found = out.number(e->what);
         if (!found) {
             std::vector<std::string_view> known;
             for (const auto& [name, value] : out.numbers) known.push_back(name);
@@ -200,6 +184,21 @@ Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
     if (auto ok = measures.finish(out.numbers, out.remarks); !ok) return ok.error();
     if (auto ok = expect(*circuit, out); !ok) return ok.error();
     return out;
+}
+
+std::optional<double> RunOutcome::number(std::string_view name) const {
+    for (const auto& [known, value] : numbers)
+        if (known == name) return value;
+    const auto last = [&](const Plot& plot) -> std::optional<double> {
+        const auto values = values_of(plot, name);
+        return values && !values->empty() ? std::optional(values->back().real()) : std::nullopt;
+    };
+    for (const auto& a : analyses) {
+        if (const auto value = last(a.last)) return value;
+        for (const auto& plot : a.findings.plots)
+            if (const auto value = last(plot)) return value;
+    }
+    return {};
 }
 
 std::vector<Plot> RunOutcome::plots(const Analysed& a) const {

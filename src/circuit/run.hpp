@@ -2,6 +2,7 @@
 // A netlist's own orders, carried out: its analyses, in the order in which they stand, then its measures and what it expects.
 
 #include <functional>
+#include <optional>
 
 #include "circuit/analysis/bench.hpp"
 
@@ -32,6 +33,9 @@ struct RunOutcome {
 
     std::vector<std::string> saved;  ///< by .save: v(a), v(a,b), i(v1) ...; empty: everything
 
+    /// What a name means once all is done: a measure or a number of an analysis; else a curve, "v(out)", at the last point of the first
+    /// plot that has it.
+    std::optional<double> number(std::string_view name) const;
     std::vector<Plot> plots(const Analysed&) const;  ///< with what is swept and what is saved
     std::vector<Plot> plots() const;                 ///< of all analyses
 };

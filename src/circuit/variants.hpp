@@ -28,11 +28,15 @@ Result<Chips> chips_of(const Command&);
 /// param). Several .step lines: every value of the first with every of the second. .mc COUNT [seed=S] [process=0] [mismatch=0]: each
 /// transistor draws its own delvto and mulu0, each chip its process, after the card's deviations (avt, ais, svt0, sis).
 class Variants {
-    Netlist netlist_;
+public:
+    /// What one .step line gives.
     struct Axis {
         std::string name;
         std::vector<double> values;
     };
+
+private:
+    Netlist netlist_;
     std::vector<Axis> axes_;
     Chips chips_;
     std::shared_ptr<const Circuit> plain_;
@@ -48,6 +52,8 @@ class Variants {
 public:
     static Result<Variants> of(const Netlist&);
     std::size_t count() const;
+    const std::vector<Axis>& axes() const { return axes_; }
+    const Chips& chips() const { return chips_; }  ///< count 0: no .mc
     bool draws() const { return chips_.count > 0; }
     /// Quick where numbers follow each other: draws run fastest.
     Result<Variant> at(std::size_t number);

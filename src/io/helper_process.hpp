@@ -13,12 +13,16 @@
 
 namespace corpuscle {
 
-/// Numbers and words in a row, on their way through the socket; read in the order in which they were put.
+/// Numbers and words in a row, on their way through a socket or to another rank; read in the order in which they were put.
 class Message {
     std::string bytes_;
     std::size_t at_ = 0;
 
 public:
+    Message() = default;
+    explicit Message(std::string bytes) : bytes_(std::move(bytes)) {}
+    const std::string& bytes() const { return bytes_; }
+
     void put(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
     void put(std::uint64_t n) { put(&n, sizeof n); }
     void put(const std::string& s) {

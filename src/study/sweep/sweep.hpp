@@ -15,7 +15,7 @@ namespace corpuscle {
 /// A column of a sweep's table: what a unit was given, or what was measured of it.
 struct SweepColumn {
     std::string name, unit, sentence = {};
-    std::vector<std::string> words = {};             ///< of what varies by word: value k means words[k]
+    std::vector<std::string> words = {};                ///< of what varies by word: value k means words[k]
     std::optional<double> at_least = {}, at_most = {};  ///< of a measure: within these a unit passes
 };
 
@@ -39,11 +39,11 @@ public:
     virtual ~Sweep() = default;
 
     virtual std::int64_t units() const = 0;
-    virtual const std::vector<SweepColumn>& axes() const = 0;      ///< what varies and has a value that can be told
+    virtual const std::vector<SweepColumn>& axes() const = 0;  ///< what varies and has a value that can be told
     virtual const std::vector<SweepColumn>& measures() const = 0;
-    virtual const std::vector<std::string>& trains() const = 0;    ///< names of the trains of spikes that are kept
-    virtual const std::vector<std::string>& traces() const = 0;    ///< names of the traces that are kept
-    virtual const std::vector<double>& trace_times() const = 0;    ///< s
+    virtual const std::vector<std::string>& trains() const = 0;  ///< names of the trains of spikes that are kept
+    virtual const std::vector<std::string>& traces() const = 0;  ///< names of the traces that are kept
+    virtual const std::vector<double>& trace_times() const = 0;  ///< s
     /// The value of each axis for a unit.
     virtual std::vector<double> values(std::int64_t unit) const = 0;
 
@@ -59,9 +59,18 @@ public:
     using Next = std::function<std::optional<std::int64_t>()>;
     using Told = std::function<void(UnitOutcome&&)>;
     virtual Result<void> work(const Next&, const Told&, const std::function<bool()>& stop) const = 0;
+
+    /// How many lanes a circuit's chips run on: 1, 4 or 8; results do not depend on it.
+    virtual void set_lanes(std::size_t) {}
+};
+
+/// What is asked for in place of what the file says.
+struct SweepAsked {
+    std::optional<std::uint64_t> seed = {};
+    std::optional<std::int64_t> units = {};
 };
 
 /// A sweep file (.toml), or a netlist with .mc and .step lines.
-Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path);
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepAsked& asked = {});
 
 }  // namespace corpuscle

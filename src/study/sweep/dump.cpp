@@ -1,0 +1,100 @@
+#include "study/sweep/dump.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <cstring>
+
+#include "study/sweep/sqlite.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// A text as a field: in quotes where it has to be.
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\n\r") == text.npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + "\"";
+}
+
+std::string number(double x, const SweepColumn& column) {
+    const auto& words = column.words;
+    if (!words.empty() && x >= 0 && x < static_cast<double>(words.size()) && x == std::floor(x))
+        return field(words[static_cast<std::size_t>(x)]);
+    return std::isnan(x) ? "" : fmt::format("{}", x);
+}
+
+/// Blobs of one table, read in step with the units.
+template <class T>
+class InStep {
+    sql::Statement rows_;
+    bool has_ = false;
+
+    Result<void> advance() {
+        const auto more = rows_.step();
+        if (!more) return more.error();
+        has_ = *more;
+        return {};
+    }
+
+public:
+    Result<void> begin(const SweepResults& of, const std::string& query) {
+        auto made = sql::Statement::make(of.handle(), of.path(), query);
+        if (!made) return made.error();
+        rows_ = std::move(*made);
+        return advance();
+    }
+
+    Result<void> put(std::int64_t unit, std::size_t columns, std::string& text) {
+        while (has_ && rows_.integer(0) < unit)
+            if (auto ok = advance(); !ok) return ok;
+        for (std::size_t k = 0; k < columns; ++k) {
+            text += ",";
+            if (!has_ || rows_.integer(0) != unit || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
+            const auto bytes = rows_.bytes(2);
+            for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
+                T x;
+                std::memcpy(&x, bytes.data() + at, sizeof x);
+                fmt::format_to(std::back_inserter(text), "{}{}", at ? " " : "", x);
+            }
+            if (auto ok = advance(); !ok) return ok;
+        }
+        return {};
+    }
+};
+
+std::string names(const SweepResults& results) {
+    std::string text = "unit,ended,steps,iterations,alone,why";
+    for (const auto& name : results.stored()) text += "," + field(name);
+    for (const auto& name : results.trains()) text += "," + field("spikes of " + name);
+    for (const auto& name : results.traces()) text += "," + field("trace of " + name);
+    return text + "\n";
+}
+
+}  // namespace
+
+Result<void> dump_results(const SweepResults& results, const std::function<bool(const std::string&)>& put) {
+    InStep<double> spikes;
+    InStep<float> traces;
+    if (auto ok = sql::run(results.handle(), results.path(), "BEGIN"); !ok) return ok;  // one state of it, also while somebody writes
+    auto ok = spikes.begin(results, "SELECT unit, train, times FROM spikes ORDER BY unit, train");
+    if (ok) ok = traces.begin(results, "SELECT unit, trace, samples FROM traces ORDER BY unit, trace");
+    bool goes_on = ok && put(names(results));
+    Result<void> each;
+    if (goes_on)
+        each = results.each([&](const SweepResults::Row& row) {
+            auto text =
+                fmt::format("{},{},{},{},{},{}", row.unit, word_of(row.end), row.steps, row.iterations, row.alone ? 1 : 0, field(row.why));
+            for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + number(row.axes[k], results.axes()[k]);
+            for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + number(row.measures[k], results.measures()[k]);
+            ok = spikes.put(row.unit, results.trains().size(), text);
+            if (ok) ok = traces.put(row.unit, results.traces().size(), text);
+            goes_on = ok && put(text + "\n");
+            return goes_on;
+        });
+    spikes = {}, traces = {};
+    const auto ended = sql::run(results.handle(), results.path(), "END");
+    return !ok ? ok : !each ? each : ended;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,105 @@
+// How a file of results is made and replaced: as a whole, by renaming, never by writing over what a copy may be reading.
+
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "study/sweep/results_held.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t long_wal = std::int64_t{256} << 20;
+
+std::int64_t size_of(const std::string& path) {
+    std::error_code none;
+    const auto size = fs::file_size(path, none);
+    return none ? 0 : static_cast<std::int64_t>(size);
+}
+
+Error not_written(const std::string& path) {
+    return bad_input(fmt::format("cannot be written ({}); what stands in the results is kept", std::strerror(errno)), {path});
+}
+
+/// On disk, whatever becomes of the power. `legacy`: marked as a file without a -wal (bytes 18 and 19 of SQLite's file format).
+Result<void> settle(const std::string& path, bool legacy) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    if (file < 0) return not_written(path);
+    constexpr std::array<char, 2> versions = {1, 1};
+    const bool ok = (!legacy || ::pwrite(file, versions.data(), versions.size(), 18) == 2) && ::fsync(file) == 0;
+    ::close(file);
+    if (!ok) return not_written(path);
+    return {};
+}
+
+Result<void> put_in_place(const std::string& from, const std::string& to) {
+    if (::rename(from.c_str(), to.c_str()) != 0) return not_written(to);
+    return {};
+}
+
+void settle_folder(const std::string& path) {
+    const auto folder = fs::path(path).parent_path();
+    const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return;
+    ::fsync(file);
+    ::close(file);
+}
+
+/// All pages of the one, those of its -wal among them, in the other at the same numbers.
+Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
+    auto* copying = sqlite3_backup_init(to, "main", from, "main");
+    if (!copying) return sql::failed(to, path);
+    sqlite3_backup_step(copying, -1);
+    if (sqlite3_backup_finish(copying) != SQLITE_OK) return sql::failed(to, path);
+    return {};
+}
+
+}  // namespace
+
+Result<void> SweepResults::Held::make() const {
+    // What is left of a file that was removed must not be taken for a part of this one.
+    ::unlink(wal().c_str()), ::unlink(shared_memory().c_str());
+    auto made = sql::open(folded(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    if (!made) return made.error();
+    if (auto ok = sql::run(made->get(), path, "PRAGMA journal_mode = OFF"); !ok) return ok;
+    auto ok = layout.write(made->get(), path);
+    made->reset();
+    if (ok) ok = settle(folded(), false);
+    if (ok) ok = put_in_place(folded(), path);
+    if (!ok) return ::unlink(folded().c_str()), ok;
+    settle_folder(path);
+    return {};
+}
+
+void SweepResults::Held::set_next_fold() { next_fold = std::max({long_wal, size_of(path), 2 * size_of(wal())}); }
+
+// The new file has each page where the -wal has it. So whoever finds the new one beside the old -wal (a copy; the next run, if this one
+// is killed between the two steps) reads the same, and whoever finds the old one without it what stood there before.
+Result<void> SweepResults::Held::fold(bool last) {
+    if (std::error_code none; !fs::exists(wal(), none) && !writing) return {};
+    {
+        auto made = sql::open(folded(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+        auto ok = made ? sql::run(made->get(), folded(), "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF") : made.error();
+        if (ok) ok = copy_pages(file.get(), made->get(), folded());
+        if (ok) made->reset(), ok = settle(folded(), last);
+        if (!ok) return ::unlink(folded().c_str()), ok;
+    }
+    unit = {}, spikes = {}, trace = {}, writing = false;
+    file.reset();
+    if (auto ok = put_in_place(folded(), path); !ok) return ok;
+    ::unlink(wal().c_str()), ::unlink(shared_memory().c_str());
+    settle_folder(path);
+    return open_file(SQLITE_OPEN_READWRITE);
+}
+
+Result<void> SweepResults::fold() { return held_->fold(true); }
+
+}  // namespace corpuscle

@@ -1,0 +1,177 @@
+#include "study/sweep/force.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+
+#include "io/recording.hpp"
+#include "signal/quantity.hpp"
+#include "signal/stimuli.hpp"
+
+namespace corpuscle::sweeps {
+namespace {
+
+constexpr double most_samples = 1e9;  // of one force
+constexpr std::size_t forces_kept = 8;
+
+std::vector<std::string_view> members_of(std::string_view text) {
+    std::vector<std::string_view> out;
+    for (;;) {
+        const auto plus = text.find('+');
+        out.push_back(text.substr(0, plus));
+        if (plus == std::string_view::npos) return out;
+        text.remove_prefix(plus + 1);
+    }
+}
+
+Result<std::shared_ptr<const FeltForce>> read_whole(Source& source) {
+    auto force = std::make_shared<FeltForce>();
+    force->clock = source.clock(), force->clock.t0 = 0;
+    force->phases = source.phases(), force->cycle = source.cycle();
+    Frames frames(source.channels().size(), 4096);
+    for (;;) {
+        if (auto ok = source.read(frames); !ok) return ok.error();
+        if (frames.count == 0) break;
+        force->samples.insert(force->samples.end(), frames.force[0].begin(),
+                              frames.force[0].begin() + static_cast<std::ptrdiff_t>(frames.count));
+        if (static_cast<double>(force->samples.size()) > most_samples)
+            return bad_input(fmt::format("{}: a force of more than {:g} samples", source.name(), most_samples));
+    }
+    if (force->samples.empty()) return bad_input(fmt::format("{}: no samples of force", source.name()));
+    return std::shared_ptr<const FeltForce>(std::move(force));
+}
+
+Result<double> number_of(const MaybeSaid& said, std::string_view unit, double otherwise) {
+    if (!said) return otherwise;
+    const auto value = parse_quantity(said->text, unit);
+    return value ? value : Result<double>(said->wrong(value.error().sentence));
+}
+
+}  // namespace
+
+/// Forces made a while ago: neighbours among units often feel the same.
+struct ForceMaker::Kept {
+    std::mutex guard;
+    std::map<std::vector<double>, std::shared_ptr<const FeltForce>> forces;
+};
+
+Result<ForceMaker> ForceMaker::of(const SweepText& said, const std::string& folder, std::uint64_t seed) {
+    ForceMaker out;
+    out.text_ = said.force ? said.force->text : "press", out.seed_ = seed, out.kept_ = std::make_shared<Kept>();
+    const auto rate = number_of(said.rate, "Hz", 10e3);
+    if (!rate) return rate.error();
+    out.rate_ = *rate;
+    out.recording_ = !is_stimulus(out.text_);
+    if (!out.recording_) {
+        for (const auto& [name, value] : {std::pair{"channel", &said.channel}, {"unit", &said.unit}, {"scale", &said.scale}})
+            if (*value) return (*value)->wrong(fmt::format("{} is of a recording, and {} is a stimulus", name, out.text_));
+        return out;
+    }
+    const auto path = (std::filesystem::path(folder) / out.text_).string();
+    std::error_code status;
+    if (!std::filesystem::exists(path, status)) {
+        auto error = make_stimulus(out.text_, {}, out.rate_, seed).error();
+        return said.force->wrong(fmt::format("{} (and there is no file '{}')", error.sentence, out.text_));
+    }
+    RecordingOptions options;
+    if (said.channel) options.channels = {said.channel->text};
+    if (said.rate) options.rate = *rate;
+    if (said.unit) options.unit = said.unit->text;
+    const auto scale = number_of(said.scale, "", 1);
+    if (!scale) return scale.error();
+    if (said.scale) options.scale = *scale;
+    auto source = open_recording(path, options);
+    if (!source) return source.error();
+    if ((*source)->channels().size() > 1) {
+        std::vector<std::string_view> names;
+        for (const auto& c : (*source)->channels()) names.push_back(c.name);
+        return said.force->wrong(fmt::format("{} has {} channels; say which: channel = \"{}\"", out.text_, names.size(), names[0]));
+    }
+    auto force = read_whole(**source);
+    if (!force) return force.error();
+    out.nominal_ = std::move(*force);
+    return out;
+}
+
+bool ForceMaker::owns(std::string_view name) const {
+    const auto dot = name.find('.');
+    if (recording_ || dot == std::string_view::npos) return false;
+    const auto all = members_of(text_);
+    return std::find(all.begin(), all.end(), name.substr(0, dot)) != all.end();
+}
+
+Result<Target> ForceMaker::target(const Said& what) const {
+    const auto dot = what.text.find('.');
+    const Wish wish{what.text.substr(0, dot), what.text.substr(dot + 1), ""};
+    for (const auto& card : stimulus_cards()) {
+        if (card.name != wish.of) continue;
+        const auto row = row_for(wish, card.rows);
+        if (!row) return what.wrong(row.error().sentence);
+        Target out{{what.text, std::string((*row)->unit), std::string((*row)->sentence)}, (*row)->initial, (*row)->low, (*row)->high};
+        for (const auto& w : wishes_)
+            if (w.of == wish.of && w.parameter == wish.parameter) out.nominal = *parse_quantity(w.value, (*row)->unit);
+        out.read = [unit = std::string((*row)->unit)](const Said& s) { return parse_quantity(s.text, unit); };
+        return out;
+    }
+    return what.wrong(fmt::format("no stimulus '{}' takes part", wish.of));
+}
+
+Result<void> ForceMaker::set(const SaidSetting& setting) {
+    const auto dot = setting.name.find('.');
+    std::vector<Wish> one = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
+    for (const auto& card : stimulus_cards())
+        if (card.name == one[0].of)
+            if (const auto ok = settings_for(card.name, card.rows, one); !ok) return setting.value.wrong(ok.error().sentence);
+    wishes_.push_back(std::move(one[0]));
+    fixed_ = wishes_.size();
+    return {};
+}
+
+void ForceMaker::vary(const std::string& name, std::size_t axis) {
+    const auto dot = name.find('.');
+    wishes_.push_back({name.substr(0, dot), name.substr(dot + 1), ""});
+    axes_.push_back(axis);
+}
+
+Result<std::shared_ptr<const FeltForce>> ForceMaker::make(std::span<const double> values) const {
+    if (recording_) return nominal_;
+    auto wishes = wishes_;
+    wishes.resize(fixed_ + values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) wishes[fixed_ + k].value = fmt::format("{}", values[k]);
+    const auto source = make_stimulus(text_, wishes, rate_, seed_);
+    if (!source) return source.error();
+    return read_whole(**source);
+}
+
+Result<void> ForceMaker::prepare() {
+    auto force = make({});
+    if (!force) return force.error();
+    nominal_ = std::move(*force);
+    return {};
+}
+
+Result<std::shared_ptr<const FeltForce>> ForceMaker::at(std::span<const double> values) const {
+    if (!varies()) return nominal_;
+    std::vector<double> own;
+    for (const auto axis : axes_) own.push_back(values[axis]);
+    {
+        const std::lock_guard lock(kept_->guard);
+        if (const auto at = kept_->forces.find(own); at != kept_->forces.end()) return at->second;
+    }
+    auto force = make(own);
+    if (!force) return force;
+    const std::lock_guard lock(kept_->guard);
+    if (kept_->forces.size() >= forces_kept) kept_->forces.clear();
+    kept_->forces[own] = *force;
+    return force;
+}
+
+std::string ForceMaker::recorded() const {
+    if (!recording_) return "";
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const double x : nominal_->samples) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3;
+    return fmt::format("{} samples at {} Hz, {:016x}", nominal_->samples.size(), nominal_->clock.rate(), hash);
+}
+
+}  // namespace corpuscle::sweeps

@@ -1,0 +1,207 @@
+#include "study/sweep/netlists.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "signal/field.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle::sweeps {
+namespace {
+
+namespace fs = std::filesystem;
+using circuit::Knob;
+using circuit::Netlist;
+
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;
+
+bool is_carried(std::string_view path) {
+    const auto all = circuit::carried_files();
+    return std::find(all.begin(), all.end(), path) != all.end();
+}
+
+Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
+    std::error_code status;
+    if (!fs::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {name});
+    if (fs::file_size(path, status) > most_bytes) return bad_input(fmt::format("is larger than {} MB", most_bytes >> 20), {name});
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return bad_input("cannot be read", {name});
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+Knob knob_of(const std::string& name, std::string value) { return {name, std::move(value), name, same_letters(name, "supply")}; }
+
+/// "85", "85C"
+Result<double> temperature_of(const Said& said) {
+    auto text = trimmed(said.text);
+    for (const std::string_view unit : {"degC", "\u00b0C", "C"})
+        if (text.ends_with(unit)) {
+            text.remove_suffix(unit.size());
+            break;
+        }
+    const auto value = circuit::number_with_unit(text);
+    if (!value || !value->unit.empty())
+        return bad_input(fmt::format("'{}' is no temperature; write degrees Celsius, such as 85", said.text));
+    return value->value;
+}
+
+Result<double> any_number(const Said& said) {
+    const auto value = circuit::number_with_unit(said.text);
+    return value ? Result<double>(value->value) : value.error();
+}
+
+}  // namespace
+
+/// What was read stays as it was: a file that changes while the sweep is at work changes nothing.
+struct NetlistMaker::Files {
+    std::mutex guard;
+    std::vector<std::pair<std::string, std::string>> texts;
+    std::map<std::string, Netlist> by_corner;
+};
+
+Result<NetlistMaker> NetlistMaker::of(const Said& said, const std::string& folder) {
+    NetlistMaker out;
+    out.name_ = out.file_ = said.text, out.folder_ = folder, out.files_ = std::make_shared<Files>();
+    std::error_code status;
+    if (const auto* carried = circuit::carried_netlist(said.text)) {
+        out.file_ = carried->file, out.name_ = carried->name, out.carried_ = true;
+    } else if (const fs::path path = said.text; path.is_absolute()) {  // where it lies on this machine is nobody's business
+        out.folder_ = path.parent_path().string(), out.name_ = out.file_ = path.filename().string();
+    }
+    if (!out.carried_ && !fs::exists(fs::path(out.folder_) / out.file_, status)) {
+        std::vector<std::string_view> known;
+        for (const auto file : circuit::carried_files())
+            if (file.ends_with(".cir")) known.push_back(file);
+        for (const auto& c : circuit::carried_netlists) known.push_back(c.name);
+        if (!is_carried(out.file_))
+            return said.wrong(fmt::format("there is no netlist '{}' beside the sweep file, nor does the program carry one of this name{}",
+                                          said.text, did_you_mean(said.text, known)));
+        out.carried_ = true;
+    }
+    auto opened = out.open("");
+    if (!opened) return opened.error();
+    return out;
+}
+
+Result<std::string> NetlistMaker::text_of(const std::string& path) const {
+    {
+        const std::lock_guard lock(files_->guard);
+        for (const auto& [name, text] : files_->texts)
+            if (name == path) return text;
+    }
+    auto text = carried_ ? circuit::carried_text(path) : bytes_of(fs::path(folder_) / path, path);
+    if (!text) return text;
+    const std::lock_guard lock(files_->guard);
+    files_->texts.emplace_back(path, *text);
+    return text;
+}
+
+Result<Netlist> NetlistMaker::open(const std::string& corner) const {
+    {
+        const std::lock_guard lock(files_->guard);
+        if (const auto at = files_->by_corner.find(corner); at != files_->by_corner.end()) return at->second;
+    }
+    auto text = text_of(file_);
+    if (!text) return text.error();
+    auto netlist = Netlist::parse(std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
+    if (!netlist) return netlist;
+    const std::lock_guard lock(files_->guard);
+    files_->by_corner.emplace(corner, *netlist);
+    return netlist;
+}
+
+Result<Netlist> NetlistMaker::tuned(std::span<const Knob> knobs) const {
+    auto netlist = circuit::tuned([this](const std::string& corner) { return open(corner); }, file_, knobs);
+    if (!netlist || saved_.empty()) return netlist;
+    auto changes = netlist->changes();
+    changes.saved_alone = true, changes.saved = saved_;
+    return netlist->with(std::move(changes));
+}
+
+Result<void> NetlistMaker::set(const SaidSetting& setting) {
+    auto more = set_;
+    more.push_back(knob_of(setting.name, setting.value.text));
+    if (const auto ok = tuned(more); !ok) return ok.error().place.line > 0 ? ok.error() : setting.value.wrong(ok.error().sentence);
+    set_ = std::move(more);
+    return {};
+}
+
+Result<Target> NetlistMaker::target(const Said& what) const {
+    const auto check = [this, name = what.text](const std::string& value) -> Result<void> {
+        auto more = set_;
+        more.push_back(knob_of(name, value));
+        const auto ok = tuned(more);
+        return ok ? Result<void>() : ok.error();
+    };
+    Target out{{what.text, "", ""}};
+    out.read = any_number, out.check = check, out.words_too = true;
+    const auto small = lower(what.text);
+    if (small == "corner") {
+        out.words_alone = true, out.column.sentence = "corner of the process";
+        return out;
+    }
+    const auto netlist = nominal();
+    if (!netlist) return netlist.error();
+    const auto circuit = netlist->elaborate();
+    if (!circuit) return circuit.error();
+    if (small == "temp") {
+        out.read = temperature_of, out.nominal = circuit->temperature, out.words_too = false;
+        out.column.unit = "degC", out.column.sentence = "temperature";
+    } else if (const auto at = circuit->parameters.find(small); at != circuit->parameters.end()) {
+        out.nominal = at->second, out.words_too = false;
+        out.column.sentence = fmt::format(".param {} of {}", small, file_);
+    } else {
+        out.column.sentence = fmt::format("of a device of {}", file_);
+        if (const auto ok = check("1");
+            !ok && (ok.error().sentence.find(" has no ") != std::string::npos || ok.error().sentence.find("may be") != std::string::npos))
+            return what.wrong(ok.error().sentence);
+    }
+    return out;
+}
+
+void NetlistMaker::vary(const std::string& what, std::size_t axis, std::vector<std::string> words) {
+    varied_.push_back({what, axis, std::move(words)});
+}
+
+Result<Netlist> NetlistMaker::at(std::span<const double> values) const {
+    auto knobs = set_;
+    for (const auto& v : varied_)
+        knobs.push_back(
+            knob_of(v.knob, v.words.empty() ? fmt::format("{}", values[v.axis]) : v.words[static_cast<std::size_t>(values[v.axis])]));
+    return tuned(knobs);
+}
+
+std::vector<double> NetlistMaker::own(std::span<const double> values) const {
+    std::vector<double> out;
+    for (const auto& v : varied_) out.push_back(values[v.axis]);
+    return out;
+}
+
+std::vector<Sweep::Fact> NetlistMaker::facts() const {
+    const std::lock_guard lock(files_->guard);
+    std::vector<Sweep::Fact> out;
+    for (const auto& [name, text] : files_->texts) {
+        const fs::path path = name;
+        out.push_back(
+            {fmt::format("{} {}", name == file_ ? "netlist" : "file", path.is_absolute() ? path.filename().string() : name), text});
+    }
+    return out;
+}
+
+bool same_devices(const circuit::Circuit& a, const circuit::Circuit& b) {
+    if (a.nodes != b.nodes || a.elements.size() != b.elements.size()) return false;
+    for (std::size_t k = 0; k < a.elements.size(); ++k) {
+        const auto &x = a.elements[k], &y = b.elements[k];
+        const auto type = [](const circuit::Circuit& c, const circuit::Element& e) {
+            return e.model < 0 ? std::string_view() : std::string_view(c.models[static_cast<std::size_t>(e.model)].type);
+        };
+        if (x.name != y.name || x.letter != y.letter || x.nodes != y.nodes || x.control != y.control || type(a, x) != type(b, y))
+            return false;
+    }
+    return true;
+}
+
+}  // namespace corpuscle::sweeps

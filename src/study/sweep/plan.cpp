@@ -1,0 +1,55 @@
+#include "study/sweep/plan.hpp"
+
+#include <algorithm>
+
+#include "signal/elementary.hpp"
+
+namespace corpuscle::sweeps {
+
+double SweepAxis::drawn(std::uint64_t draw) const {
+    const double u = numbers->at(draw);
+    if (normal) return first + second * normal_quantile(std::clamp(least_share + u * (most_share - least_share), 0x1p-1000, 1 - 0x1p-53));
+    return by_powers ? first * num::exp(u * num::log(second / first)) : first + u * (second - first);
+}
+
+SweepPlan::SweepPlan(std::vector<SweepAxis> axes, const circuit::Chips& chips, std::int64_t draws)
+    : axes_(std::move(axes)), chips_(chips), draws_(draws) {
+    for (const auto& a : axes_) {
+        columns_.push_back(a.column);
+        if (!a.values.empty()) points_ *= static_cast<std::int64_t>(a.values.size());
+    }
+    if (!chips.process) return;
+    for (const auto& [name, sentence] : {std::pair{"process.V_T0_n", "threshold of N devices, of all of a chip"},
+                                         {"process.V_T0_p", "threshold of P devices, of all of a chip"},
+                                         {"process.I_SQ_n", "specific current of N devices, of all of a chip"},
+                                         {"process.I_SQ_p", "specific current of P devices, of all of a chip"}})
+        columns_.push_back({name, "", std::string(sentence) + ", in deviations"});
+}
+
+std::vector<double> SweepPlan::values(std::int64_t unit) const {
+    std::vector<double> out(axes_.size());
+    auto point = unit / draws_;
+    const auto draw = static_cast<std::uint64_t>(unit % draws_);
+    for (std::size_t k = axes_.size(); k-- > 0;) {
+        const auto& a = axes_[k];
+        if (a.values.empty()) {
+            out[k] = a.drawn(draw);
+            continue;
+        }
+        const auto count = static_cast<std::int64_t>(a.values.size());
+        out[k] = a.values[static_cast<std::size_t>(point % count)];
+        point /= count;
+    }
+    if (chips_.process) {
+        const auto chip = chips_.draw(draw);
+        out.insert(out.end(), std::begin(chip.process), std::end(chip.process));
+    }
+    return out;
+}
+
+std::optional<circuit::Draw> SweepPlan::draw(std::int64_t unit) const {
+    if (!draws_chips()) return {};
+    return chips_.draw(static_cast<std::uint64_t>(unit % draws_));
+}
+
+}  // namespace corpuscle::sweeps

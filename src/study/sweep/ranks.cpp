@@ -1,0 +1,203 @@
+// The one file that knows MPI.
+
+#include "study/sweep/ranks.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <list>
+#include <vector>
+
+#ifdef CORPUSCLE_MPI
+#include <dlfcn.h>
+#include <mpi.h>
+#endif
+
+namespace corpuscle {
+namespace {
+
+/// Of an environment variable that a launcher sets; none: -1.
+int launched(const char* name) {
+    const char* text = std::getenv(name);
+    return text ? std::atoi(text) : -1;
+}
+
+}  // namespace
+
+bool Ranks::are_started() {
+    const int size = launched("OMPI_COMM_WORLD_SIZE");
+    return size > 1 || (size < 0 && launched("PMIX_RANK") >= 0);
+}
+
+#ifdef CORPUSCLE_MPI
+
+namespace {
+
+/// MPI's functions, found in its library by name. Of the header only types and numbers are used.
+struct Mpi {
+    decltype(&MPI_Init) init = nullptr;
+    decltype(&MPI_Comm_rank) rank = nullptr;
+    decltype(&MPI_Comm_size) size = nullptr;
+    decltype(&MPI_Comm_set_errhandler) set_errhandler = nullptr;
+    decltype(&MPI_Isend) isend = nullptr;
+    decltype(&MPI_Improbe) improbe = nullptr;
+    decltype(&MPI_Imrecv) imrecv = nullptr;
+    decltype(&MPI_Test) test = nullptr;
+    decltype(&MPI_Get_count) count = nullptr;
+    decltype(&MPI_Finalize) finalize = nullptr;
+    MPI_Comm world = {};
+    MPI_Errhandler errors_return = {};
+    MPI_Datatype byte = {};
+    std::string missing;  ///< what is not there
+
+    Mpi() {
+        void* library = nullptr;
+        for (const char* name : {"libmpi.so.40", "libmpi.so"})
+            if (!library) library = ::dlopen(name, RTLD_NOW | RTLD_GLOBAL);
+        if (!library) {
+            missing = ::dlerror();
+            return;
+        }
+        const auto find = [&](auto& into, const char* name) {
+            void* symbol = ::dlsym(library, name);
+            if (!symbol) missing = name;
+            std::memcpy(&into, &symbol, sizeof into);
+        };
+        find(init, "MPI_Init"), find(rank, "MPI_Comm_rank"), find(size, "MPI_Comm_size"), find(set_errhandler, "MPI_Comm_set_errhandler");
+        find(isend, "MPI_Isend"), find(improbe, "MPI_Improbe"), find(imrecv, "MPI_Imrecv"), find(test, "MPI_Test");
+        find(count, "MPI_Get_count"), find(finalize, "MPI_Finalize");
+#ifdef OPEN_MPI  // where its constants are objects of the library
+        find(world, "ompi_mpi_comm_world"), find(errors_return, "ompi_mpi_errors_return"), find(byte, "ompi_mpi_byte");
+#else
+        world = MPI_COMM_WORLD, errors_return = MPI_ERRORS_RETURN, byte = MPI_BYTE;
+#endif
+    }
+};
+
+/// A message on its way; its bytes stay where they are.
+struct UnderWay {
+    int other;
+    std::string bytes;
+    MPI_Request request;
+};
+
+}  // namespace
+
+struct Ranks::Held {
+    Mpi mpi;
+    int rank = 0, size = 1;
+    std::list<UnderWay> sent, coming;
+
+    enum class State { under_way, arrived, failed };
+    State state(UnderWay& m) {
+        int done = 0;
+        if (mpi.test(&m.request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS) return State::failed;
+        return done ? State::arrived : State::under_way;
+    }
+    void begin_receiving();
+};
+
+Result<std::unique_ptr<Ranks>> Ranks::join() {
+    auto held = std::make_unique<Held>();
+    auto& mpi = held->mpi;
+    if (!mpi.missing.empty())
+        return bad_input(
+            fmt::format("mpirun has started this, but MPI's library is not to be had here ({}); install OpenMPI, or start it "
+                        "without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several",
+                        mpi.missing));
+    // A large message must not be read out of the memory of a process that may be dead.
+    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+    if (mpi.init(nullptr, nullptr) != MPI_SUCCESS) return bad_input("MPI does not begin: see what it says above");
+    mpi.set_errhandler(mpi.world, mpi.errors_return);
+    mpi.rank(mpi.world, &held->rank);
+    mpi.size(mpi.world, &held->size);
+    return std::unique_ptr<Ranks>(new Ranks(std::move(held)));
+}
+
+void Ranks::Held::begin_receiving() {
+    for (;;) {
+        int there = 0;
+        MPI_Message message = {};
+        MPI_Status status = {};
+        if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &there, &message, &status) != MPI_SUCCESS || !there) return;
+        int size = 0;
+        mpi.count(&status, mpi.byte, &size);
+        auto& m = coming.emplace_back(UnderWay{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0'), {}});
+        if (mpi.imrecv(m.bytes.data(), size, mpi.byte, &message, &m.request) != MPI_SUCCESS) coming.pop_back();
+    }
+}
+
+int Ranks::rank() const { return held_->rank; }
+int Ranks::size() const { return held_->size; }
+
+bool Ranks::outlive_one() const { return launched("OMPI_COMM_WORLD_SIZE") < 0 || launched("OMPI_MCA_orte_enable_recovery") == 1; }
+
+void Ranks::send(int to, std::string message) {
+    auto& m = held_->sent.emplace_back(UnderWay{to, std::move(message), {}});
+    const auto& mpi = held_->mpi;
+    if (mpi.isend(m.bytes.data(), static_cast<int>(m.bytes.size()), mpi.byte, to, 0, mpi.world, &m.request) != MPI_SUCCESS)
+        held_->sent.pop_back();
+}
+
+std::size_t Ranks::unsent() const {
+    held_->sent.remove_if([&](UnderWay& m) { return held_->state(m) != Held::State::under_way; });
+    return held_->sent.size();
+}
+
+std::optional<Ranks::Received> Ranks::receive() {
+    held_->begin_receiving();
+    std::vector<int> behind;  // those of whom an earlier message is not yet there
+    for (auto m = held_->coming.begin(); m != held_->coming.end();) {
+        const auto here = m++;
+        if (std::find(behind.begin(), behind.end(), here->other) != behind.end()) continue;
+        const auto state = held_->state(*here);
+        if (state == Held::State::under_way) {
+            behind.push_back(here->other);
+            continue;
+        }
+        Received out{here->other, std::move(here->bytes)};
+        held_->coming.erase(here);
+        if (state == Held::State::arrived) return out;
+    }
+    return {};
+}
+
+// MPI may still write into what it has been given: it is never given back.
+void Ranks::forget(int rank) {
+    static std::list<UnderWay> forgotten;
+    for (auto* all : {&held_->sent, &held_->coming})
+        for (auto m = all->begin(); m != all->end();) {
+            const auto here = m++;
+            if (here->other == rank) forgotten.splice(forgotten.end(), *all, here);
+        }
+}
+
+void Ranks::leave(bool together) {
+    if (together) held_->mpi.finalize();
+}
+
+#else
+
+struct Ranks::Held {};
+
+Result<std::unique_ptr<Ranks>> Ranks::join() {
+    return bad_input(
+        "mpirun has started this, but this corpuscle was built without MPI; build it where OpenMPI is installed (libopenmpi-dev), or start "
+        "it without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several");
+}
+int Ranks::rank() const { return 0; }
+int Ranks::size() const { return 1; }
+bool Ranks::outlive_one() const { return true; }
+void Ranks::send(int, std::string) {}
+std::size_t Ranks::unsent() const { return 0; }
+std::optional<Ranks::Received> Ranks::receive() { return {}; }
+void Ranks::forget(int) {}
+void Ranks::leave(bool) {}
+
+#endif
+
+Ranks::Ranks(std::unique_ptr<Held> held) : held_(std::move(held)) {}
+Ranks::~Ranks() = default;
+
+}  // namespace corpuscle

@@ -1,0 +1,269 @@
+#include "study/sweep/results.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <filesystem>
+
+#include "study/sweep/results_held.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+static_assert(std::endian::native == std::endian::little, "spikes and traces stand in the file as they do in memory");
+
+constexpr std::array<std::string_view, 3> ends = {"done", "capped", "lost"};
+
+UnitEnd end_of(std::string_view word) {
+    const auto* at = std::find(ends.begin(), ends.end(), word);
+    return at == ends.end() ? UnitEnd::lost : static_cast<UnitEnd>(at - ends.begin());
+}
+
+std::string insertion(std::size_t columns) {
+    std::string text = "INSERT INTO units VALUES(?, ?, ?, ?, ?, ?";
+    for (std::size_t k = 0; k < columns; ++k) text += ", ?";
+    return text + ") ON CONFLICT(unit) DO NOTHING";
+}
+
+/// Numbers of a blob; of a damaged one those that are whole.
+template <class T>
+std::vector<T> numbers(std::span<const std::byte> bytes) {
+    std::vector<T> out(bytes.size() / sizeof(T));
+    if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+    return out;
+}
+
+template <class T>
+Result<std::vector<T>> blob(sqlite3* file, const std::string& path, const char* query, std::int64_t unit, std::size_t which) {
+    auto row = sql::Statement::make(file, path, query);
+    if (!row) return row.error();
+    const auto found = row->set(1, unit).set(2, static_cast<std::int64_t>(which)).step();
+    if (!found) return found.error();
+    return *found ? numbers<T>(row->bytes(0)) : std::vector<T>{};
+}
+
+Result<void> make_folder(const std::string& path) {
+    const auto folder = fs::path(path).parent_path();
+    std::error_code failed;
+    if (!folder.empty()) fs::create_directories(folder, failed);
+    if (failed) return bad_input(fmt::format("its folder cannot be made ({}); give another place with --out", failed.message()), {path});
+    return {};
+}
+
+Error not_alone(const std::string& path) {
+    return bad_input(
+        "was left by a run that was killed, and can be read only where a file can be made beside it: copy it, together with "
+        "its -wal file, to such a place",
+        {path});
+}
+
+}  // namespace
+
+std::string_view word_of(UnitEnd end) { return ends[static_cast<std::size_t>(end)]; }
+
+Result<void> SweepResults::Held::open_file(int flags) {
+    auto opened = sql::open(path, flags);
+    if (!opened) return opened.error();
+    file = std::move(*opened);
+    return {};
+}
+
+Result<void> SweepResults::Held::begin_writing() {
+    if (writing) return {};
+    if (!lock) return bad_input("was opened to be looked at, not to be written", {path});
+    if (auto ok = sql::run(file.get(), path, "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL"); !ok)
+        return ok;
+    const auto make = [&](const std::string& text, sql::Statement& out) -> Result<void> {
+        auto made = sql::Statement::make(file.get(), path, text);
+        if (!made) return made.error();
+        out = std::move(*made);
+        return {};
+    };
+    if (auto ok = make(insertion(layout.stored.size()), unit); !ok) return ok;
+    if (auto ok = make("INSERT INTO spikes VALUES(?, ?, ?)", spikes); !ok) return ok;
+    if (auto ok = make("INSERT INTO traces VALUES(?, ?, ?)", trace); !ok) return ok;
+    set_next_fold();
+    writing = true;
+    return {};
+}
+
+Result<void> SweepResults::Held::put(const Sweep& sweep, const UnitOutcome& o) {
+    const auto values = sweep.values(o.unit);
+    if (o.unit < 0 || o.unit >= layout.units || (!o.measures.empty() && o.measures.size() != layout.measures.size()) ||
+        values.size() != layout.axes.size())
+        return bad_input(fmt::format("unit {} with {} axes and {} measures is none of {} units with {} and {}", o.unit, values.size(),
+                                     o.measures.size(), layout.units, layout.axes.size(), layout.measures.size()),
+                         {path});
+    unit.set(1, o.unit).set(2, word_of(o.end)).set(3, o.steps).set(4, o.iterations).set(5, std::int64_t{o.alone});
+    unit.set(6, std::string_view(o.why));
+    int place = 7;
+    for (const double x : values) unit.set(place++, x);
+    for (std::size_t k = 0; k < layout.measures.size(); ++k, ++place)
+        k < o.measures.size() ? unit.set(place, o.measures[k]) : unit.set_nothing(place);
+    if (auto ok = unit.finish(); !ok) return ok;
+    if (sqlite3_changes(file.get()) == 0) return {};  // it has a row already
+    ++finished;
+    for (std::size_t k = 0; k < o.spikes.size(); ++k)
+        if (!o.spikes[k].empty())
+            if (auto ok = spikes.set(1, o.unit).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.spikes[k]))).finish();
+                !ok)
+                return ok;
+    for (std::size_t k = 0; k < o.traces.size(); ++k)
+        if (auto ok = trace.set(1, o.unit).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.traces[k]))).finish(); !ok)
+            return ok;
+    return {};
+}
+
+Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sweep) { return open_as(path, ResultsLayout::of(sweep)); }
+
+Result<SweepResults> SweepResults::open(const std::string& path, const SweepResults& like) { return open_as(path, like.held_->layout); }
+
+Result<SweepResults> SweepResults::open_as(const std::string& path, const ResultsLayout& wanted) {
+    auto held = std::make_unique<Held>();
+    held->path = path;
+    if (auto ok = make_folder(path); !ok) return ok.error();
+    auto lock = WriterLock::take(path);
+    if (!lock) return lock.error();
+    held->lock = std::move(*lock);
+    ::unlink(held->folded().c_str());  // of one that was killed
+    if (std::error_code none; !fs::exists(path, none)) {
+        held->layout = wanted;
+        if (auto ok = held->make(); !ok) return ok.error();
+    }
+    if (auto ok = held->open_file(SQLITE_OPEN_READWRITE); !ok) return ok.error();
+    auto there = ResultsLayout::read(held->file.get(), path);
+    if (!there) return there.error();
+    held->layout = std::move(*there);
+    if (const auto difference = wanted.differs_from(held->layout); !difference.empty())
+        return bad_input(fmt::format("holds results of another sweep: {}. Give another file with --out, or put back what has changed, or "
+                                     "remove this one",
+                                     difference),
+                         {path});
+    const auto rows = sql::integer(held->file.get(), path, "SELECT count(*) FROM units");
+    if (!rows) return rows.error();
+    held->finished = *rows;
+    return SweepResults(std::move(held));
+}
+
+Result<SweepResults> SweepResults::look(const std::string& path) {
+    std::error_code none;
+    if (!fs::exists(path, none)) return bad_input("is not there; 'corpuscle sweep FILE --out RESULTS' makes such a file", {path});
+    auto held = std::make_unique<Held>();
+    held->path = path;
+    if (auto ok = held->open_file(SQLITE_OPEN_READWRITE); !ok) return ok.error();
+    auto there = ResultsLayout::read(held->file.get(), path);
+    if (!there && (sqlite3_errcode(held->file.get()) & 0xff) == SQLITE_CANTOPEN) {
+        // It wants a file beside it, which there is no making here: needless, if nobody has left rows there.
+        if (fs::exists(held->wal(), none) && fs::file_size(held->wal(), none) > 0) return not_alone(path);
+        auto opened = sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+        if (!opened) return opened.error();
+        held->file = std::move(*opened);
+        there = ResultsLayout::read(held->file.get(), path);
+    }
+    if (!there) return there.error();
+    held->layout = std::move(*there);
+    if (auto ok = sql::run(held->file.get(), path, "PRAGMA query_only = 1"); !ok) return ok.error();
+    const auto rows = sql::integer(held->file.get(), path, "SELECT count(*) FROM units");
+    if (!rows) return rows.error();
+    held->finished = *rows;
+    return SweepResults(std::move(held));
+}
+
+SweepResults::SweepResults(std::unique_ptr<Held> held) : held_(std::move(held)) {}
+SweepResults::SweepResults(SweepResults&&) noexcept = default;
+SweepResults& SweepResults::operator=(SweepResults&&) noexcept = default;
+SweepResults::~SweepResults() = default;
+
+Result<void> SweepResults::add(const Sweep& sweep, std::vector<UnitOutcome>&& outcomes) {
+    if (outcomes.empty()) return {};
+    std::sort(outcomes.begin(), outcomes.end(), [](const UnitOutcome& a, const UnitOutcome& b) { return a.unit < b.unit; });
+    auto& held = *held_;
+    const auto before = held.finished;
+    auto ok = held.begin_writing();
+    if (ok) ok = sql::run(held.file.get(), held.path, "BEGIN IMMEDIATE");
+    for (std::size_t k = 0; ok && k < outcomes.size(); ++k) ok = held.put(sweep, outcomes[k]);
+    if (ok) ok = sql::run(held.file.get(), held.path, "COMMIT");
+    if (!ok) {
+        held.finished = before;
+        if (held.file && !sqlite3_get_autocommit(held.file.get())) (void)sql::run(held.file.get(), held.path, "ROLLBACK");
+        return ok;
+    }
+    std::error_code none;
+    const auto size = fs::file_size(held.wal(), none);
+    if (!none && static_cast<std::int64_t>(size) > held.next_fold && !held.fold(false)) held.set_next_fold();  // tried again later
+    return {};
+}
+
+void SweepResults::note(std::int64_t to_do) const {
+    if (held_->lock) held_->lock->note(finished(), to_do);
+}
+
+const std::string& SweepResults::path() const { return held_->path; }
+std::int64_t SweepResults::units() const { return held_->layout.units; }
+std::int64_t SweepResults::finished() const { return held_->finished; }
+const std::vector<SweepColumn>& SweepResults::axes() const { return held_->layout.axes; }
+const std::vector<SweepColumn>& SweepResults::measures() const { return held_->layout.measures; }
+const std::vector<std::string>& SweepResults::trains() const { return held_->layout.trains; }
+const std::vector<std::string>& SweepResults::traces() const { return held_->layout.traces; }
+const std::vector<double>& SweepResults::trace_times() const { return held_->layout.trace_times; }
+const std::vector<std::string>& SweepResults::stored() const { return held_->layout.stored; }
+sqlite3* SweepResults::handle() const { return held_->file.get(); }
+
+std::string SweepResults::about(const std::string& key) const {
+    const auto found = held_->layout.about.find(key);
+    return found == held_->layout.about.end() ? "" : found->second;
+}
+
+Result<std::vector<std::pair<std::int64_t, std::int64_t>>> SweepResults::missing() const {
+    auto rows = sql::Statement::make(handle(), path(), "SELECT unit FROM units ORDER BY unit");
+    if (!rows) return rows.error();
+    std::vector<std::pair<std::int64_t, std::int64_t>> out;
+    std::int64_t from = 0;
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        const auto to = *more ? rows->integer(0) : units();
+        if (to > from) out.emplace_back(from, to);
+        if (!*more) return out;
+        from = to + 1;
+    }
+}
+
+Result<std::int64_t> SweepResults::ended(UnitEnd end) const {
+    return sql::integer(handle(), path(), fmt::format("SELECT count(*) FROM units WHERE ended = '{}'", word_of(end)));
+}
+
+Result<void> SweepResults::each(const std::function<bool(const Row&)>& see) const {
+    std::string text = "SELECT unit, ended, steps, iterations, alone, why";
+    for (const auto& column : stored()) text += ", " + sql::name(column);
+    auto rows = sql::Statement::make(handle(), path(), text + " FROM units ORDER BY unit");
+    if (!rows) return rows.error();
+    Row row;
+    row.axes.resize(axes().size()), row.measures.resize(measures().size());
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) return {};
+        row.unit = rows->integer(0), row.end = end_of(rows->text(1)), row.steps = rows->integer(2), row.iterations = rows->integer(3);
+        row.alone = rows->integer(4) != 0, row.why = rows->text(5);
+        int column = 6;
+        for (auto* into : {&row.axes, &row.measures})
+            for (double& x : *into) x = rows->number(column++);
+        if (!see(row)) return {};
+    }
+}
+
+Result<std::vector<double>> SweepResults::spikes(std::int64_t unit, std::size_t train) const {
+    return blob<double>(handle(), path(), "SELECT times FROM spikes WHERE unit = ? AND train = ?", unit, train);
+}
+
+Result<std::vector<float>> SweepResults::trace(std::int64_t unit, std::size_t trace) const {
+    return blob<float>(handle(), path(), "SELECT samples FROM traces WHERE unit = ? AND trace = ?", unit, trace);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,200 @@
+#include "study/sweep/results_layout.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t most_columns = 1900;  // of a table of SQLite's: 2000
+
+constexpr const char* tables = R"(
+CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, sentence TEXT NOT NULL,
+                     words TEXT NOT NULL, at_least REAL, at_most REAL, stored TEXT NOT NULL);
+CREATE TABLE spikes(unit INTEGER NOT NULL, train INTEGER NOT NULL, times BLOB NOT NULL, PRIMARY KEY(unit, train)) WITHOUT ROWID;
+CREATE TABLE traces(unit INTEGER NOT NULL, trace INTEGER NOT NULL, samples BLOB NOT NULL, PRIMARY KEY(unit, trace)) WITHOUT ROWID;
+CREATE TABLE units(unit INTEGER PRIMARY KEY, ended TEXT NOT NULL, steps INTEGER NOT NULL, iterations INTEGER NOT NULL,
+                   alone INTEGER NOT NULL, why TEXT NOT NULL)";
+
+std::string lower(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+    return text;
+}
+
+std::vector<std::string> names_apart(const std::vector<SweepColumn>& axes, const std::vector<SweepColumn>& measures) {
+    std::set<std::string> taken = {"unit", "ended", "steps", "iterations", "alone", "why"};
+    std::vector<std::string> out;
+    for (const auto* columns : {&axes, &measures})
+        for (const auto& c : *columns) {
+            auto name = c.name;
+            for (int n = 2; !taken.insert(lower(name)).second; ++n) name = fmt::format("{}_{}", c.name, n);
+            out.push_back(name);
+        }
+    return out;
+}
+
+/// The rest of the sentence that begins with a name: at which line two texts part.
+std::string parting(const std::string& here, const std::string& there) {
+    std::size_t line = 1;
+    const auto end = std::min(here.size(), there.size());
+    for (std::size_t k = 0; k < end && here[k] == there[k]; ++k) line += here[k] == '\n';
+    const bool several = here.find('\n') != here.npos && there.find('\n') != there.npos;
+    return several ? fmt::format(" has changed since, in line {}", line) : fmt::format(" was '{}' and is '{}' now", there, here);
+}
+
+Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& path, const char* kind, std::vector<std::string>& stored) {
+    auto rows = sql::Statement::make(
+        file, path, "SELECT name, unit, sentence, words, at_least, at_most, stored FROM columns WHERE kind = ? ORDER BY position");
+    if (!rows) return rows.error();
+    rows->set(1, std::string_view(kind));
+    std::vector<SweepColumn> out;
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) return out;
+        SweepColumn c{rows->text(0), rows->text(1), rows->text(2)};
+        c.words = Json::parse(rows->text(3)).get<std::vector<std::string>>();
+        if (!rows->is_nothing(4)) c.at_least = rows->number(4);
+        if (!rows->is_nothing(5)) c.at_most = rows->number(5);
+        out.push_back(std::move(c));
+        stored.push_back(rows->text(6));
+    }
+}
+
+Result<void> write_columns(sqlite3* file, const std::string& path, const char* kind, const std::vector<SweepColumn>& columns,
+                           const std::vector<std::string>& stored, std::size_t first) {
+    auto row = sql::Statement::make(file, path, "INSERT INTO columns VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    if (!row) return row.error();
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        const auto& c = columns[k];
+        const auto words = Json(c.words).dump();
+        row->set(1, static_cast<std::int64_t>(first + k)).set(2, std::string_view(kind)).set(3, std::string_view(c.name));
+        row->set(4, std::string_view(c.unit)).set(5, std::string_view(c.sentence)).set(6, std::string_view(words));
+        c.at_least ? row->set(7, *c.at_least) : row->set_nothing(7);
+        c.at_most ? row->set(8, *c.at_most) : row->set_nothing(8);
+        row->set(9, std::string_view(stored[first + k]));
+        if (auto ok = row->finish(); !ok) return ok;
+    }
+    return {};
+}
+
+Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::string& path) {
+    auto rows = sql::Statement::make(file, path, "SELECT key, value FROM about");
+    if (!rows) return rows.error();
+    std::map<std::string, std::string> out;
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) return out;
+        out[rows->text(0)] = rows->text(1);
+    }
+}
+
+/// By whom and for what the file was made; an SQLite file may be anything.
+Result<void> check_kind(sqlite3* file, const std::string& path) {
+    const auto application = sql::integer(file, path, "PRAGMA application_id");
+    if (!application) return application.error();
+    const auto written = sql::integer(file, path, "PRAGMA user_version");
+    if (!written) return written.error();
+    if (*application != ResultsLayout::application)
+        return bad_input("is an SQLite file, but holds no results of a sweep; give another with --out", {path});
+    if (*written > ResultsLayout::format)
+        return bad_input(fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use that one, or give "
+                                     "another file with --out",
+                                     *written, ResultsLayout::format),
+                         {path});
+    return {};
+}
+
+bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColumn>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SweepColumn& x, const SweepColumn& y) {
+        return x.name == y.name && x.unit == y.unit && x.words == y.words && x.at_least == y.at_least && x.at_most == y.at_most;
+    });
+}
+
+}  // namespace
+
+ResultsLayout ResultsLayout::of(const Sweep& sweep) {
+    ResultsLayout out;
+    out.units = sweep.units();
+    out.axes = sweep.axes(), out.measures = sweep.measures();
+    out.trains = sweep.trains(), out.traces = sweep.traces(), out.trace_times = sweep.trace_times();
+    out.stored = names_apart(out.axes, out.measures);
+    for (const auto& fact : sweep.facts()) {
+        out.facts.push_back(fact.name);
+        out.about[fact.name] = fact.text;
+    }
+    return out;
+}
+
+Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path) {
+    if (auto ok = check_kind(file, path); !ok) return ok.error();
+    ResultsLayout out;
+    try {
+        auto about = read_about(file, path);
+        if (!about) return about.error();
+        out.about = std::move(*about);
+        out.units = std::stoll(out.about.at("units"));
+        out.facts = Json::parse(out.about.at("facts")).get<std::vector<std::string>>();
+        out.trains = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();
+        out.traces = Json::parse(out.about.at("traces")).get<std::vector<std::string>>();
+        out.trace_times = Json::parse(out.about.at("trace_times")).get<std::vector<double>>();
+        for (auto [kind, into] : {std::pair{"axis", &out.axes}, std::pair{"measure", &out.measures}}) {
+            auto columns = read_columns(file, path, kind, out.stored);
+            if (!columns) return columns.error();
+            *into = std::move(*columns);
+        }
+    } catch (const std::exception&) {  // a table that somebody changed by hand
+        return bad_input("says nothing readable of its sweep: its tables about and columns were changed; give another with --out", {path});
+    }
+    return out;
+}
+
+Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const {
+    if (stored.size() > most_columns)
+        return bad_input(
+            fmt::format("{} axes and measures are more than a table can have ({}); vary or measure fewer", stored.size(), most_columns),
+            {path});
+    std::string made = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; BEGIN;{}", application, format, tables);
+    for (const auto& column : stored) made += fmt::format(", {} REAL", sql::name(column));
+    if (auto ok = sql::run(file, path, made + ");"); !ok) return ok;
+    auto row = sql::Statement::make(file, path, "INSERT INTO about VALUES(?, ?)");
+    if (!row) return row.error();
+    auto all = about;
+    all["units"] = fmt::format("{}", units);
+    all["facts"] = Json(facts).dump();
+    all["trains"] = Json(trains).dump();
+    all["traces"] = Json(traces).dump();
+    all["trace_times"] = Json(trace_times).dump();
+    for (const auto& [key, value] : all)
+        if (auto ok = row->set(1, std::string_view(key)).set(2, std::string_view(value)).finish(); !ok) return ok;
+    if (auto ok = write_columns(file, path, "axis", axes, stored, 0); !ok) return ok;
+    if (auto ok = write_columns(file, path, "measure", measures, stored, axes.size()); !ok) return ok;
+    return sql::run(file, path, "COMMIT");
+}
+
+std::string ResultsLayout::differs_from(const ResultsLayout& there) const {
+    for (const auto& name : facts) {
+        const auto found = there.about.find(name);
+        if (found == there.about.end() || std::find(there.facts.begin(), there.facts.end(), name) == there.facts.end())
+            return fmt::format("of '{}' it knows nothing", name);
+        if (found->second != about.at(name)) return name + parting(about.at(name), found->second);
+    }
+    for (const auto& name : there.facts)
+        if (!about.contains(name)) return fmt::format("'{}' is no part of the sweep now", name);
+    if (units != there.units) return fmt::format("the number of units was {} and is {} now", there.units, units);
+    if (!same_columns(axes, there.axes)) return "what varies has changed since";
+    if (!same_columns(measures, there.measures)) return "what is measured has changed since";
+    if (trains != there.trains || traces != there.traces || trace_times != there.trace_times)
+        return "what trains and traces are kept has changed since";
+    return "";
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,44 @@
+#include "study/sweep/run_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include "study/sweep/crew.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double between_writes = 0.2;  // s: what a killed program has lost at the most, beside the units at work
+constexpr std::size_t ahead = 1 << 14;  // units given to the crew before they are needed
+
+}  // namespace
+
+void SweepCount::count(const UnitOutcome& o) {
+    ++(o.end == UnitEnd::done ? done : o.end == UnitEnd::capped ? capped : lost);
+    steps += o.steps, iterations += o.iterations, alone += o.alone;
+    for (const auto& train : o.spikes) spikes += static_cast<std::int64_t>(train.size());
+}
+
+Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun& run, SweepCount& count) {
+    auto missing = results.missing();
+    if (!missing) return missing.error();
+    UnitQueue queue(std::move(*missing), run.shard);
+    count = {.to_do = queue.left()};
+    if (count.to_do == 0) return {};
+    results.note(count.to_do);
+    Crew crew(sweep, run.threads);
+    bool stopped = false;
+    for (;;) {
+        if (!stopped && crew.waiting() < ahead / 2) crew.give(queue.take(ahead));
+        auto outcomes = crew.collect(between_writes);
+        for (const auto& o : outcomes) count.count(o);
+        if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
+        run.seen(count);
+        if (!stopped && run.stop()) stopped = true, crew.stop();
+        if (crew.is_done() && (stopped || queue.left() == 0 || !crew.fault())) break;
+    }
+    if (auto ok = crew.fault(); !ok) return ok;
+    if (stopped) return Error{Code::interrupted, "interrupted"};
+    return {};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,18 @@
+#pragma once
+// Sobol's points: they fill a cube more evenly than drawn ones do.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace corpuscle::sweeps {
+
+inline constexpr std::size_t sobol_dimensions = 50;
+
+/// The direction numbers of a dimension, counted from 0; each a fraction of 2^32.
+std::array<std::uint32_t, 32> sobol_directions(std::size_t dimension);
+
+/// A coordinate of a point, counted from 0, in Gray's order, of 2^32.
+std::uint32_t sobol_point(const std::array<std::uint32_t, 32>& directions, std::uint32_t number);
+
+}  // namespace corpuscle::sweeps

@@ -1,0 +1,62 @@
+#pragma once
+// A sweep whose units are cheap and known: for tests of what stores and runs them.
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "study/sweep/sweep.hpp"
+
+namespace corpuscle::test {
+
+class PlainSweep : public Sweep {
+    std::int64_t units_;
+    double seconds_;  // a unit
+    std::vector<SweepColumn> axes_ = {{"gain", "", "times the force"}, {"kind", "", "of unit", {"even", "odd"}}};
+    std::vector<SweepColumn> measures_ = {
+        {"rate", "Hz", "of spikes"}, {"Rate", "Hz", "by another name"}, {"why", "", "like a column of every sweep", {}, 0.25, 0.75}};
+    std::vector<std::string> trains_ = {"sa1", "fa1"}, traces_ = {"v(u)"};
+    std::vector<double> times_ = {0, 0.1, 0.2, 0.3};
+
+public:
+    std::vector<Fact> facts_;
+
+    explicit PlainSweep(std::int64_t units, std::string netlist = "a\nb\nc\n", double seconds = 0)
+        : units_(units), seconds_(seconds), facts_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
+
+    std::int64_t units() const override { return units_; }
+    const std::vector<SweepColumn>& axes() const override { return axes_; }
+    const std::vector<SweepColumn>& measures() const override { return measures_; }
+    const std::vector<std::string>& trains() const override { return trains_; }
+    const std::vector<std::string>& traces() const override { return traces_; }
+    const std::vector<double>& trace_times() const override { return times_; }
+    const std::vector<Fact>& facts() const override { return facts_; }
+    std::vector<double> values(std::int64_t unit) const override {
+        return {0.5 + static_cast<double>(unit) / 7, static_cast<double>(unit % 2)};
+    }
+
+    virtual UnitOutcome outcome(std::int64_t unit) const {
+        UnitOutcome o{unit};
+        const auto x = static_cast<double>(unit % 1000) / 1000;
+        if (unit % 97 == 5) o.end = UnitEnd::capped, o.why = "more than 1000 iterations";
+        if (unit % 97 == 6) return o.end = UnitEnd::lost, o.why = "no rest", o;
+        o.measures = {100 * x, unit % 5 == 0 ? std::nan("") : -x, x * x};
+        o.spikes.resize(2);
+        for (std::int64_t k = 0; k < unit % 4; ++k) o.spikes[0].push_back(x + 0.1 * static_cast<double>(k));
+        if (unit % 3 == 0) o.spikes[1] = {1 / (1 + x)};
+        if (unit % 10 == 0) o.traces = {{0, 1, static_cast<float>(x), 3}};
+        o.steps = unit, o.iterations = 3 * unit, o.alone = unit % 50 == 0;
+        return o;
+    }
+
+    Result<void> work(const Next& next, const Told& told, const std::function<bool()>& stop) const override {
+        for (auto unit = next(); unit; unit = next()) {
+            if (stop()) return {};
+            if (seconds_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
+            told(outcome(*unit));
+        }
+        return {};
+    }
+};
+
+}  // namespace corpuscle::test
