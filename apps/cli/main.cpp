@@ -24,6 +24,7 @@ constexpr const char* first_steps = R"(First steps:
   corpuscle compare answer/spikes.csv other/spikes.csv   how two answers differ
   corpuscle run circuits/inverter.cir                    a netlist's analyses, transistor by transistor
   corpuscle export circuits/inverter.cir --for ngspice   the same netlist for another simulator
+  corpuscle sweep chips.toml                             a thousand chips, corners, any grid: --help says how
   corpuscle study --report studies.html                  what others printed, made again
   corpuscle list                                         every afferent, stimulus and parameter
 
@@ -80,6 +81,30 @@ Examples:
   corpuscle run sa1-circuit --corner ff --temp 85 --set summer.N3B=8x4 --trace 'vf,u,i(N3B)' -o sa1.csv
   corpuscle run amplifier.cir -o amplifier.raw
   corpuscle run amplifier.cir -o amplifier.csv --json)";
+
+constexpr const char* sweep_examples =
+    R"(FILE is a sweep file (TOML): what varies, how, how many, what is measured and what would pass; or a netlist with .mc and .step lines.
+Results go into one SQLite file, a row a unit, NAME.sqlite for NAME.toml unless --out says another. A sweep may be stopped or killed at
+any moment: the same command goes on with what is missing. Results are the same whoever ran a unit: threads, lanes, shards or ranks.
+
+  afferent = "sa1-circuit"             # chips.toml
+  force = "press"
+  units = 1000
+  [[vary]]
+  what = "mismatch"
+
+Examples:
+  corpuscle sweep chips.toml                                        on all cores of this machine
+  corpuscle sweep chips.toml --status                               how far it is, also from another window
+  corpuscle sweep show chips.sqlite --report chips.html             means, yields, which device matters
+  corpuscle sweep dump chips.sqlite > chips.csv                     every row, in order
+  corpuscle sweep chips.toml --seed 2 --units 100 -o again.sqlite   other chips, fewer
+  corpuscle sweep chips.toml --shard 1/3                            a third of it, on one of three machines (chips-1of3.sqlite) ...
+  corpuscle sweep merge chips.sqlite chips-?of3.sqlite              ... and all three together
+  mpirun --enable-recovery -n 64 corpuscle sweep chips.toml         64 processes, over machines; one that dies costs its block only
+  sqlite3 chips.sqlite "SELECT ended, count(*) FROM units GROUP BY ended"
+
+Exit status: 0 all units have ended (those capped or lost are told), 1 bad input, 2 bad usage, 3 not one unit converged, 130 interrupted.)";
 
 constexpr const char* export_examples =
     R"(The deck is flat: subcircuits put in place, every parameter worked out. Transistors become subcircuits of formulas that carry what
@@ -278,6 +303,46 @@ void add_export(CLI::App& app, ExportWords& w, Common& common) {
     add_common(verb, common);
 }
 
+void add_sweep(CLI::App& app, SweepWords& w, SweepMergeWords& m, std::string& dumped, Common& common) {
+    auto& verb = *app.add_subcommand("sweep", "Monte Carlo, corners, any grid: many units -> one file of results");
+    verb.footer(sweep_examples);
+    verb.require_subcommand(0, 1);
+    verb.add_option("FILE", w.file, "a sweep file (TOML), or a netlist with .mc and .step lines");
+    verb.add_option("--out,-o", w.out, "the file of results (default: FILE's name, .sqlite, in this directory)")->type_name("RESULTS");
+    verb.add_option("--threads,-j", w.threads,
+                    "how many to use (0: one for each core; under mpirun one a rank); results do not depend on it")
+        ->check(CLI::Range(0U, 1024U))
+        ->capture_default_str()
+        ->type_name("N");
+    verb.add_option("--lanes", w.lanes, "how many chips go side by side on a thread; results do not depend on it")
+        ->check(CLI::IsMember({1, 4, 8}))
+        ->capture_default_str()
+        ->type_name("1|4|8");
+    verb.add_option("--shard", w.shard, "do this part of it alone, the k-th of n: on several machines without MPI")->type_name("K/N");
+    verb.add_option("--seed", w.seed, "in place of the file's")->type_name("N");
+    verb.add_option("--units", w.units, "how many draws, in place of the file's")->check(CLI::PositiveNumber)->type_name("N");
+    verb.add_flag("--status", w.status, "how far it is: what has ended, what is missing, how fast it goes");
+    add_common(verb, common);
+
+    auto& merge = *verb.add_subcommand("merge", "files of results of one sweep, such as its shards -> one file");
+    merge.footer(
+        "Nothing is counted twice: what is there already and the same is left, what differs is named and refused.\n\n"
+        "Example:\n  corpuscle sweep merge chips.sqlite chips-1of3.sqlite chips-2of3.sqlite chips-3of3.sqlite");
+    merge.add_option("OUT", m.out, "the file that all of it goes into; made if it is not there")->required();
+    merge.add_option("IN", m.in, "files of results")->required();
+    add_common(merge, common);
+
+    auto& dump = *verb.add_subcommand("dump", "every row of a file of results as CSV, in order of unit, with spikes");
+    dump.footer(
+        "The same bytes whoever made the file: with 'cmp' or 'sha256sum' two can be held against one another.\n\n"
+        "Example:\n  corpuscle sweep dump chips.sqlite > chips.csv");
+    dump.add_option("RESULTS", dumped, "a file of results")->required();
+    verb.callback([&verb, &w] {
+        if (w.file.empty() && verb.get_subcommands().empty())
+            throw CLI::RequiredError("corpuscle sweep: FILE, or one of merge, show, dump");
+    });
+}
+
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
@@ -296,6 +361,9 @@ int main(int argc, char** argv) {
     StudyWords study_words;
     RunWords run_words;
     ExportWords export_words;
+    SweepWords sweep_words;
+    SweepMergeWords merge_words;
+    std::string dumped;
     ListWords list_words;
 
     CLI::App app(about, "corpuscle");
@@ -307,7 +375,14 @@ int main(int argc, char** argv) {
     add_study(app, study_words, common);
     add_run(app, run_words, common);
     add_export(app, export_words, common);
+    add_sweep(app, sweep_words, merge_words, dumped, common);
     add_list(app, list_words, common);
+    const auto do_sweep = [&] {
+        const auto& verb = *app.get_subcommand("sweep");
+        return verb.got_subcommand("merge")  ? sweep_merge(merge_words, common)
+               : verb.got_subcommand("dump") ? sweep_dump(dumped, common)
+                                             : sweep(sweep_words, common);
+    };
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -321,6 +396,7 @@ int main(int argc, char** argv) {
                : app.got_subcommand("run")     ? run(run_words, common)
                : app.got_subcommand("export")  ? export_to(export_words, common)
                : app.got_subcommand("study")   ? study(study_words, common)
+               : app.got_subcommand("sweep")   ? do_sweep()
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);
     } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory

@@ -18,13 +18,6 @@ bool is_number(std::string_view cell) {
     return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos;
 }
 
-std::string time_text(double seconds) {
-    const auto s = std::lround(seconds);
-    return s < 60     ? fmt::format("{} s", s)
-           : s < 3600 ? fmt::format("{}:{:02} min", s / 60, s % 60)
-                      : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
-}
-
 /// How many columns a UTF-8 text takes, one a character.
 std::size_t width(const std::string& text) {
     return static_cast<std::size_t>(
@@ -48,6 +41,13 @@ void catch_interrupt() {
 }
 
 bool interrupted() { return stop != 0; }
+
+std::string time_text(double seconds) {
+    const auto s = std::lround(seconds);
+    return s < 60     ? fmt::format("{} s", s)
+           : s < 3600 ? fmt::format("{}:{:02} min", s / 60, s % 60)
+                      : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
+}
 
 std::string table(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths;

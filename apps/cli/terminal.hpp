@@ -16,6 +16,9 @@ int fail(const Error&);
 void catch_interrupt();
 bool interrupted();
 
+/// "12 s", "3:05 min", "2:10 h".
+std::string time_text(double seconds);
+
 /// Columns padded to their widest cell; numbers to the right, words to the left.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 

@@ -57,6 +57,21 @@ struct ExportWords {
     std::string netlist, target = "ngspice", out;
 };
 
+struct SweepWords {
+    std::string file, out, shard;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::int64_t> units;
+    std::size_t lanes = 8;
+    std::uint32_t threads = 0;  ///< 0: as many as there are cores; of ranks: one each
+    bool status = false;
+};
+
+/// corpuscle sweep merge OUT IN...
+struct SweepMergeWords {
+    std::string out;
+    std::vector<std::string> in;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
@@ -66,6 +81,9 @@ int compare(const CompareWords&, const Common&);
 int study(const StudyWords&, const Common&);
 int run(const RunWords&, const Common&);
 int export_to(const ExportWords&, const Common&);
+int sweep(const SweepWords&, const Common&);
+int sweep_merge(const SweepMergeWords&, const Common&);
+int sweep_dump(const std::string& results, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle

@@ -56,10 +56,15 @@ Result<void> refuse_differing(sqlite3* file, const ResultsLayout& layout, const 
 
 }  // namespace
 
+Result<void> SweepResults::same_sweep(const SweepResults& as) const {
+    const auto difference = held_->layout.differs_from(as.held_->layout);
+    if (difference.empty()) return {};
+    return bad_input(fmt::format("is of another sweep than {}: {}", as.path(), difference), {path()});
+}
+
 Result<std::int64_t> SweepResults::take(const SweepResults& from) {
     auto& held = *held_;
-    if (const auto difference = from.held_->layout.differs_from(held.layout); !difference.empty())
-        return bad_input(fmt::format("is of another sweep than {}: {}", path(), difference), {from.path()});
+    if (auto same = from.same_sweep(*this); !same) return same.error();
     std::error_code none;
     if (std::filesystem::equivalent(path(), from.path(), none)) return bad_input("is the file that is merged into", {from.path()});
     if (auto ok = held.begin_writing(); !ok) return ok.error();

@@ -30,6 +30,8 @@ bool Ranks::are_started() {
     return size > 1 || (size < 0 && launched("PMIX_RANK") >= 0);
 }
 
+bool Ranks::speaks() { return launched("OMPI_COMM_WORLD_RANK") <= 0 && launched("PMIX_RANK") <= 0; }
+
 #ifdef CORPUSCLE_MPI
 
 namespace {
@@ -174,6 +176,7 @@ void Ranks::forget(int rank) {
 }
 
 void Ranks::leave(bool together) {
+    together_ = together;
     if (together) held_->mpi.finalize();
 }
 

@@ -14,6 +14,8 @@ class Ranks {
 public:
     /// Whether mpirun, or another such launcher, has started more than one of us.
     static bool are_started();
+    /// Whether this one is the first of those, or the only one: it is enough if one says what is wrong with all.
+    static bool speaks();
     /// Waits for all the others.
     static Result<std::unique_ptr<Ranks>> join();
     ~Ranks();
@@ -36,10 +38,12 @@ public:
     void forget(int rank);
     /// Ends this rank's part. `together`: all are there, and leave too; else the process must end without further ado.
     void leave(bool together);
+    bool left_together() const { return together_; }
 
 private:
     struct Held;
     std::unique_ptr<Held> held_;
+    bool together_ = true;
     explicit Ranks(std::unique_ptr<Held>);
 };
 

@@ -38,6 +38,8 @@ public:
     /// Makes one file of it, without a -wal beside it. At the end of a run; add() does so, too, when the -wal has become long. If the disk
     /// has no room for that, nothing is lost.
     Result<void> fold();
+    /// Refuses the file of another sweep than that one's.
+    Result<void> same_sweep(const SweepResults& as) const;
     /// All rows of another file of the same sweep; how many were new. Refuses those of a file in which a unit has other results than here.
     Result<std::int64_t> take(const SweepResults& from);
     /// Says to those who look how much this run is to do.

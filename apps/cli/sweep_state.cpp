@@ -1,0 +1,92 @@
+#include "sweep_state.hpp"
+
+#include <fmt/format.h>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "study/sweep/sqlite.hpp"
+#include "terminal.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Units that have ended a second, since the writer began; nothing can be said yet: 0.
+double rate_of(const SweepState& s) {
+    if (!s.writer || s.written_for < 1) return 0;
+    return static_cast<double>(s.finished - s.writer->finished) / s.written_for;
+}
+
+double seconds_left(const SweepState& s) {
+    const double left = static_cast<double>(s.writer->to_do - (s.finished - s.writer->finished));
+    return left / rate_of(s);
+}
+
+std::string at_work(const SweepState& s) {
+    auto text = fmt::format("At work: process {} on {}", s.writer->process, s.writer->host);
+    if (const auto rate = rate_of(s); rate > 0) text += fmt::format(", {:.3g} units a second, {} left", rate, time_text(seconds_left(s)));
+    return text + "\n";
+}
+
+/// How a shell is told to do it, for the next step.
+std::string next_step(const SweepState& s) {
+    if (s.writer) return "";
+    if (s.missing() > 0)
+        return s.sweep.empty()
+                   ? ""
+                   : fmt::format("{} units are missing: 'corpuscle sweep {}' with the same words goes on\n", s.missing(), s.sweep);
+    if (s.shard.of > 1)
+        return fmt::format("This part is whole. When all {0} are: corpuscle sweep merge ALL.sqlite PART1.sqlite ... PART{0}.sqlite\n",
+                           s.shard.of);
+    return fmt::format("What came out: corpuscle sweep show {0}\nAll rows:      corpuscle sweep dump {0}\n", s.results);
+}
+
+}  // namespace
+
+Result<SweepState> state_of(const SweepResults& results, const Shard& shard) {
+    SweepState out;
+    out.results = results.path(), out.shard = shard, out.units = shard.count(0, results.units());
+    auto* file = results.handle();
+    auto counts = sql::Statement::make(file, results.path(),
+                                       "SELECT count(*), total(ended = 'capped'), total(ended = 'lost'), total(iterations) FROM units");
+    if (!counts) return counts.error();
+    if (const auto row = counts->step(); !row) return row.error();
+    out.finished = counts->integer(0), out.capped = counts->integer(1), out.lost = counts->integer(2), out.iterations = counts->integer(3);
+    if (out.capped + out.lost == 0) return out;
+    auto reasons = sql::Statement::make(file, results.path(),
+                                        "SELECT why, count(*) FROM units WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3");
+    if (!reasons) return reasons.error();
+    for (;;) {
+        const auto more = reasons->step();
+        if (!more) return more.error();
+        if (!*more) return out;
+        out.reasons.emplace_back(reasons->text(0), reasons->integer(1));
+    }
+}
+
+std::string text_of(const SweepState& s) {
+    const auto done = s.finished - s.capped - s.lost;
+    std::vector<std::vector<std::string>> rows = {{"units", "ended", "missing", "done", "capped", "lost"}, {}};
+    for (const auto n : {s.units, s.finished, s.missing(), done, s.capped, s.lost}) rows[1].push_back(fmt::format("{}", n));
+    if (s.now) rows[0].insert(rows[0].begin() + 2, "now"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.now));
+    if (s.iterations > 0) rows[0].push_back("iterations"), rows[1].push_back(fmt::format("{}", s.iterations));
+    auto text = table(rows);
+    for (const auto& [why, units] : s.reasons) text += fmt::format("  {} of them: {}\n", units, why);
+    if (s.writer) text += at_work(s);
+    return text + (s.now ? fmt::format("Written: {}\n", s.results) : "") + next_step(s);
+}
+
+nlohmann::ordered_json document_of(const SweepState& s) {
+    nlohmann::ordered_json out = {{"results", s.results},   {"units", s.units},   {"ended", s.finished},
+                                  {"missing", s.missing()}, {"capped", s.capped}, {"lost", s.lost}};
+    out["iterations"] = s.iterations;
+    if (s.now) out["now"] = *s.now;
+    if (s.shard.of > 1) out["shard"] = {{"part", s.shard.index + 1}, {"of", s.shard.of}};
+    auto& reasons = out["reasons"] = nlohmann::ordered_json::array();
+    for (const auto& [why, units] : s.reasons) reasons.push_back({{"why", why}, {"units", units}});
+    if (!s.writer) return out;
+    auto& writer = out["writer"] = {{"process", s.writer->process}, {"host", s.writer->host}};
+    if (const auto rate = rate_of(s); rate > 0) writer["units_a_second"] = rate, writer["seconds_left"] = seconds_left(s);
+    return out;
+}
+
+}  // namespace corpuscle
