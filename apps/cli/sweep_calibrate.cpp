@@ -92,7 +92,8 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     asked.batch.stop = interrupted;
     if (auto ok = aim(asked, words.like.empty() ? known->model : words.like, words); !ok) return ok;
     std::vector<Trim> trims;
-    for (const auto& text : words.trims.empty() ? std::vector<std::string>(std::begin(known->trims), std::end(known->trims)) : words.trims) {
+    for (const auto& text :
+         words.trims.empty() ? std::vector<std::string>(std::begin(known->trims), std::end(known->trims)) : words.trims) {
         auto trim = trim_said(text, asked);
         if (!trim) return trim.error();
         trims.push_back(std::move(*trim));

@@ -65,7 +65,11 @@ nlohmann::ordered_json document_of(const Calibration& asked, const std::vector<C
             trims.push_back({{"names", t.names}, {"designed", t.designed}, {"range", t.range}, {"whole", t.whole}});
         for (int b = 0; b <= asked.bits; ++b) kept.push_back(set.kept(b));
         for (const auto& c : set.chips)
-            chips.push_back({{"bits", c.bits}, {"presses", c.presses}, {"codes", c.codes.back()}, {"spikes_before", c.spikes_before}, {"spikes", c.spikes}});
+            chips.push_back({{"bits", c.bits},
+                             {"presses", c.presses},
+                             {"codes", c.codes.back()},
+                             {"spikes_before", c.spikes_before},
+                             {"spikes", c.spikes}});
         out["sets"].push_back({{"trims", trims},
                                {"kept", kept},
                                {"bits_worth_having", bits_worth_having(set, asked.bits)},
