@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     std::vector<circuit::Draw> chips;
     for (int k = 0; k < count; ++k) chips.push_back(drawn.draw(static_cast<std::uint64_t>(k)));
 
-    Calibration asked;
+    ChipCalibration asked;
     asked.netlist = std::string(kind->model) + "-circuit", asked.bits = bits;
     asked.knobs = {{"corner", "mc", "corner=mc"}};
     asked.batch.most_iterations = 60'000;

@@ -23,7 +23,7 @@ constexpr UsualTrims usual[] = {
 };
 
 /// "summer.n3b.m=50%": the knobs, joined by +, and the range. Columns (.m) are whole.
-Result<Trim> trim_said(const std::string& text, const Calibration& asked) {
+Result<Trim> trim_said(const std::string& text, const ChipCalibration& asked) {
     const auto equals = text.find('=');
     const auto range = equals == std::string::npos ? std::nullopt : std::optional(text.substr(equals + 1));
     char* end = nullptr;
@@ -42,7 +42,7 @@ Result<Trim> trim_said(const std::string& text, const Calibration& asked) {
 }
 
 /// Model, touch and limits.
-Result<void> aim(Calibration& asked, const std::string& model, const SweepCalibrateWords& words) {
+Result<void> aim(ChipCalibration& asked, const std::string& model, const SweepCalibrateWords& words) {
     const Asked press{model, words.force, {}, 10e3};
     const auto touch = touch_of(press);
     if (!touch) return touch.error();
@@ -61,7 +61,7 @@ Result<void> aim(Calibration& asked, const std::string& model, const SweepCalibr
     return {};
 }
 
-Result<std::vector<CalibrationTold>> work(Calibration& asked, const std::vector<Trim>& trims, const SweepCalibrateWords& words) {
+Result<std::vector<CalibrationTold>> work(ChipCalibration& asked, const std::vector<Trim>& trims, const SweepCalibrateWords& words) {
     const circuit::Chips drawn{static_cast<double>(words.units), words.seed};
     std::vector<circuit::Draw> chips;
     for (std::int64_t k = 0; k < words.units; ++k) chips.push_back(drawn.draw(static_cast<std::uint64_t>(k)));
@@ -85,7 +85,7 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     if (!known && (words.trims.empty() || words.like.empty()))
         return bad_usage(fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE must be said of this netlist", words.netlist));
     if (words.units < 1 || words.units > 1'000'000) return bad_usage(fmt::format("--units {}: 1 to 1000000", words.units));
-    Calibration asked;
+    ChipCalibration asked;
     asked.netlist = words.netlist, asked.bits = words.bits, asked.threads = words.threads;
     asked.knobs = {{"corner", words.corner, "--corner " + words.corner}};
     asked.batch.most_iterations = 60'000;

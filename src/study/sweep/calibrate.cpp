@@ -32,7 +32,7 @@ struct Pressing {
 
 /// Presses chips, many at once; designs are made once for each set of values.
 class TrimmingBench {
-    const Calibration& asked_;
+    const ChipCalibration& asked_;
     const std::vector<Draw>& chips_;
     std::map<std::vector<double>, std::shared_ptr<const CircuitDesign>> designs_;
     Pool pool_;
@@ -64,7 +64,7 @@ class TrimmingBench {
     }
 
 public:
-    TrimmingBench(const Calibration& asked, const std::vector<Draw>& chips) : asked_(asked), chips_(chips), pool_(asked.threads) {}
+    TrimmingBench(const ChipCalibration& asked, const std::vector<Draw>& chips) : asked_(asked), chips_(chips), pool_(asked.threads) {}
 
     /// Whether two codes mean the same chip: whole columns are fewer than codes.
     bool same(const Codes& a, const Codes& b) const { return values(a) == values(b); }
@@ -101,7 +101,7 @@ public:
 
 /// One chip's search.
 class TrimSearch {
-    const Calibration& asked_;
+    const ChipCalibration& asked_;
     const TrimmingBench& bench_;
     std::size_t chip_;
     CalibratedChip out_;
@@ -130,7 +130,7 @@ class TrimSearch {
     }
 
 public:
-    TrimSearch(const Calibration& asked, const TrimmingBench& bench, std::size_t chip)
+    TrimSearch(const ChipCalibration& asked, const TrimmingBench& bench, std::size_t chip)
         : asked_(asked), bench_(bench), chip_(chip), best_(asked.trims.size()) {}
 
     bool over() const { return out_.bits >= 0 || bits_ > asked_.bits; }
@@ -214,7 +214,7 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob
                     names[0], netlist));
 }
 
-Result<std::vector<CalibratedChip>> calibrate(const Calibration& asked, const std::vector<Draw>& chips) {
+Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& asked, const std::vector<Draw>& chips) {
     if (asked.bits < 1 || asked.bits > 12) return bad_input(fmt::format("calibration: {} bits; 1 to 12", asked.bits));
     TrimmingBench bench(asked, chips);
     std::vector<TrimSearch> searches;

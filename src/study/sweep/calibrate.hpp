@@ -24,7 +24,7 @@ struct Trim {
 };
 
 /// Which chips are trimmed, how, and to what.
-struct Calibration {
+struct ChipCalibration {
     std::string netlist;
     std::vector<circuit::Knob> knobs = {};  ///< set of it anyhow: its corner
     std::vector<Trim> trims = {};
@@ -50,7 +50,7 @@ struct CalibratedChip {
 /// Each chip by itself, coarse steps before fine ones: with one bit, then two ..., from the best so far one step up or down with each trim,
 /// then along all that helped together, until nothing is better. A chip that keeps to the limits is let go. So the first steps with many
 /// bits are those with few, and one search tells what each number of bits is worth.
-Result<std::vector<CalibratedChip>> calibrate(const Calibration&, const std::vector<circuit::Draw>& chips);
+Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration&, const std::vector<circuit::Draw>& chips);
 
 /// The trim with what the netlist has of its first name; refused if that is no number there.
 Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>&, std::vector<std::string> names, double range,

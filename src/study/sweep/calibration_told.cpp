@@ -35,7 +35,7 @@ int bits_worth_having(const CalibrationTold& told, int most) {
     return most;
 }
 
-std::string text_of(const Calibration& asked, const std::vector<CalibrationTold>& all) {
+std::string text_of(const ChipCalibration& asked, const std::vector<CalibrationTold>& all) {
     std::size_t width = 5;
     for (const auto& set : all) width = std::max(width, set.names().size());
     std::string out = fmt::format("{}: {} chips; a chip keeps to the limits with {}\n\n{:{}}  as made", asked.netlist,
@@ -57,7 +57,7 @@ std::string text_of(const Calibration& asked, const std::vector<CalibrationTold>
     return out;
 }
 
-nlohmann::ordered_json document_of(const Calibration& asked, const std::vector<CalibrationTold>& all) {
+nlohmann::ordered_json document_of(const ChipCalibration& asked, const std::vector<CalibrationTold>& all) {
     nlohmann::ordered_json out = {{"netlist", asked.netlist}, {"limits", asked.limits.text()}, {"bits", asked.bits}};
     for (const auto& set : all) {
         nlohmann::ordered_json one, trims, kept, chips;

@@ -21,8 +21,8 @@ struct CalibrationTold {
 
 /// A table, a row a set of trims: yield before and with 1, 2 ... bits, presses. Then how many bits are worth having: the fewest with which
 /// the first set keeps as many as with all of them, less one in a hundred.
-std::string text_of(const Calibration&, const std::vector<CalibrationTold>&);
-nlohmann::ordered_json document_of(const Calibration&, const std::vector<CalibrationTold>&);
+std::string text_of(const ChipCalibration&, const std::vector<CalibrationTold>&);
+nlohmann::ordered_json document_of(const ChipCalibration&, const std::vector<CalibrationTold>&);
 
 /// The fewest bits beyond which no more than a hundredth of the chips is gained.
 int bits_worth_having(const CalibrationTold&, int most);
