@@ -366,8 +366,37 @@ void add_sweep(CLI::App& app, SweepWords& w, SweepMergeWords& m, std::string& du
     dump.add_option("RESULTS", dumped, "a file of results")->required();
     verb.callback([&verb, &w] {
         if (w.file.empty() && verb.get_subcommands().empty())
-            throw CLI::RequiredError("corpuscle sweep: FILE, or one of merge, show, dump");
+            throw CLI::RequiredError("corpuscle sweep: FILE, or one of merge, show, dump, calibrate");
     });
+}
+
+void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common) {
+    auto& verb = *sweep.add_subcommand("calibrate", "chips trimmed until they fire as a model does -> yields by the number of bits");
+    verb.footer(
+        "Each chip is pressed and its spikes are counted; those of a phase may be a quarter more or fewer than the model's and at least "
+        "one,\n"
+        "none before the force, the first within 10 ms. A chip beyond that is trimmed, coarse steps before fine ones, and pressed "
+        "again.\n\n"
+        "Examples:\n  corpuscle sweep calibrate sa1-circuit\n  corpuscle sweep calibrate fa1-circuit --units 200 --bits 6 --apart\n"
+        "  corpuscle sweep calibrate own.cir --like sa1 --trim i_leak=50% --trim x1.m3.m+x1.m4.m=25%");
+    verb.add_option("NETLIST", w.netlist, "sa1-circuit, fa1-circuit, or a netlist that is an afferent")->required();
+    verb.add_option("--like", w.like, "the model (default: of sa1-circuit sa1, of fa1-circuit fa1)")->type_name("AFFERENT");
+    verb.add_option(
+            "--trim", w.trims,
+            "what can be set, a .param or a device's number, several joined by +, and how much more the highest code gives; columns "
+            "(.m) are whole (default: I_LEAK, I_BIASB and one gain)")
+        ->type_name("NAME=RANGE");
+    verb.add_option("--bits", w.bits, "of each trim, at the most")->check(CLI::Range(1, 12))->capture_default_str()->type_name("N");
+    verb.add_option("--units", w.units, "how many chips")->check(CLI::PositiveNumber)->capture_default_str()->type_name("N");
+    verb.add_option("--seed", w.seed, "of process and mismatch")->capture_default_str()->type_name("N");
+    verb.add_option("--corner", w.corner, "the section of the card, mc has the spread of the process")->capture_default_str();
+    verb.add_option("--force", w.force, "the stimulus")->capture_default_str()->type_name("STIMULUS");
+    verb.add_flag("--apart", w.apart, "each trim by itself, too");
+    verb.add_option("--threads,-j", w.threads, "how many to use (0: one for each core); results do not depend on it")
+        ->check(CLI::Range(0U, 1024U))
+        ->capture_default_str()
+        ->type_name("N");
+    add_common(verb, common);
 }
 
 void add_list(CLI::App& app, ListWords& w, Common& common) {
@@ -405,13 +434,16 @@ int main(int argc, char** argv) {
     add_export(app, export_words, common);
     add_sweep(app, sweep_words, merge_words, dumped, common);
     add_sweep_show(*app.get_subcommand("sweep"), sweep_show_words, common);
+    SweepCalibrateWords calibrate_words;
+    add_sweep_calibrate(*app.get_subcommand("sweep"), calibrate_words, common);
     add_list(app, list_words, common);
     const auto do_sweep = [&] {
         const auto& verb = *app.get_subcommand("sweep");
-        return verb.got_subcommand("merge")  ? sweep_merge(merge_words, common)
-               : verb.got_subcommand("dump") ? sweep_dump(dumped, common)
-               : verb.got_subcommand("show") ? sweep_show(sweep_show_words, common)
-                                             : sweep(sweep_words, common);
+        return verb.got_subcommand("merge")       ? sweep_merge(merge_words, common)
+               : verb.got_subcommand("dump")      ? sweep_dump(dumped, common)
+               : verb.got_subcommand("show")      ? sweep_show(sweep_show_words, common)
+               : verb.got_subcommand("calibrate") ? sweep_calibrate(calibrate_words, common)
+                                                  : sweep(sweep_words, common);
     };
     try {
         app.parse(argc, argv);

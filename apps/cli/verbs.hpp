@@ -79,6 +79,17 @@ struct SweepShowWords {
     std::vector<double> quantiles;
 };
 
+/// corpuscle sweep calibrate NETLIST
+struct SweepCalibrateWords {
+    std::string netlist, like, force = "press", corner = "mc";
+    std::vector<std::string> trims;
+    int bits = 4;
+    std::int64_t units = 64;
+    std::uint64_t seed = 1;
+    std::uint32_t threads = 0;
+    bool apart = false;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
@@ -90,6 +101,7 @@ int run(const RunWords&, const Common&);
 int export_to(const ExportWords&, const Common&);
 int sweep(const SweepWords&, const Common&);
 int sweep_merge(const SweepMergeWords&, const Common&);
+int sweep_calibrate(const SweepCalibrateWords&, const Common&);
 int sweep_dump(const std::string& results, const Common&);
 int sweep_show(const SweepShowWords&, const Common&);
 int list(const ListWords&, const Common&);

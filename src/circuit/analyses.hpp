@@ -19,7 +19,7 @@ struct Analysis {
 };
 
 inline constexpr Analysis analyses[] = {
-    {"op", ".op", "the operating point, and every device at it", analyse_op},
+    {"op", ".op [states [RISE]]", "the operating point, every device at it, and in which states else it may rest", analyse_op},
     {"dc", ".dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP] [updown]", "operating points along a source, a resistor or temp", analyse_dc},
     {"ac", ".ac dec|oct|lin POINTS FROM TO", "small signals over frequency", analyse_ac},
     {"noise", ".noise v(OUT[,REF]) SOURCE dec|oct|lin POINTS FROM TO", "noise at a node, and each device's part in it", analyse_noise},

@@ -12,14 +12,6 @@ namespace {
 
 constexpr double kick = 10e-3;  // V
 
-Springs held(const TestBench& bench) {
-    Springs out{std::vector<double>(static_cast<std::size_t>(bench.system.nodes())),
-                std::vector<double>(static_cast<std::size_t>(bench.system.size()))};
-    for (const auto& [node, v] : bench.circuit->ic)
-        out.g[static_cast<std::size_t>(node) - 1] = 1e3, out.to[static_cast<std::size_t>(node) - 1] = v;
-    return out;
-}
-
 Error kicked(const TestBench& bench, const Growth& growth) {
     const auto& d = growth.direction;
     const auto most =
@@ -36,11 +28,12 @@ Error kicked(const TestBench& bench, const Growth& growth) {
 }  // namespace
 
 Result<Beginning> beginning(TestBench& bench, bool uic, std::vector<double> from) {
-    const auto springs = held(bench);
     bench.newton.instant.time = 0, bench.newton.instant.charges = false;
-    if (uic) return Beginning{springs.to, false};
     const bool held_there = !bench.circuit->ic.empty();
-    auto rest = operating_point(bench.newton, std::move(from), held_there ? springs : Springs{});
+    auto springs = bench.held();
+    springs.to.resize(static_cast<std::size_t>(bench.system.size()));
+    if (uic) return Beginning{std::move(springs.to), false};
+    auto rest = from.empty() ? bench.rest_held() : operating_point(bench.newton, std::move(from), held_there ? springs : Springs{});
     if (!rest) return rest.error();
     Beginning out{std::move(rest->x)};
     if (held_there || bench.system.linear()) return out;

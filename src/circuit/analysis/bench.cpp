@@ -19,6 +19,15 @@ Result<std::unique_ptr<TestBench>> TestBench::make(std::shared_ptr<const Circuit
     return std::unique_ptr<TestBench>(new TestBench(std::move(circuit), std::move(*system), *tolerances));
 }
 
+Springs TestBench::held() const {
+    if (circuit->ic.empty()) return {};
+    Springs out{std::vector<double>(static_cast<std::size_t>(system.nodes())),
+                std::vector<double>(static_cast<std::size_t>(system.size()))};
+    for (const auto& [node, v] : circuit->ic)
+        out.g[static_cast<std::size_t>(node) - 1] = 1e3, out.to[static_cast<std::size_t>(node) - 1] = v;
+    return out;
+}
+
 Result<OperatingPoint> TestBench::rest() {
     if (rest_) return *rest_;
     auto found = operating_point(newton, designed_);
@@ -26,8 +35,12 @@ Result<OperatingPoint> TestBench::rest() {
     return found;
 }
 
+Result<OperatingPoint> TestBench::rest_held() { return circuit->ic.empty() ? rest() : operating_point(newton, begun_, held()); }
+
 /// Chips are solved from where the circuit rests as designed, along the pivots of its matrix there.
 void TestBench::prepare() {
+    if (!circuit->ic.empty())
+        if (auto begun = rest_held()) begun_ = std::move(begun->x);
     const auto found = rest();
     if (!found) return;
     designed_ = found->x;

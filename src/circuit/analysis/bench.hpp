@@ -25,7 +25,7 @@ struct Findings {
 /// A circuit ready for its analyses; one chip of it after another, if it is drawn.
 class TestBench {
     std::optional<OperatingPoint> rest_;
-    std::vector<double> designed_;  // where the circuit rests as designed: each chip's search begins there
+    std::vector<double> designed_, begun_;  // where the circuit rests as designed, and with .ic held: each chip's search begins there
     std::optional<Draw> drawn_;
 
     TestBench(std::shared_ptr<const Circuit>, System, const Tolerances&);
@@ -48,6 +48,9 @@ public:
     bool stopped(double share) const { return stop && stop(share); }
     /// Where the circuit rests; searched for once.
     Result<OperatingPoint> rest();
+    /// The same with the nodes of .ic held; not kept.
+    Result<OperatingPoint> rest_held();
+    Springs held() const;  ///< by .ic; none if there is no .ic
     void draw(const Draw&);
     const std::optional<Draw>& drawn() const { return drawn_; }
 };

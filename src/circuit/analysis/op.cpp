@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "circuit/analyses.hpp"
+#include "circuit/analysis/rest_states.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -57,19 +58,54 @@ std::optional<Error> other_state(TestBench& bench, const OperatingPoint& found) 
     return {};
 }
 
+/// .op [states [RISE]]
+struct OpWords {
+    bool states = false;
+    double rise = 1e-3;  // s
+};
+Result<OpWords> op_words(const Command& c) {
+    OpWords out;
+    if (c.words.empty()) return out;
+    if (c.words[0] != "states") return error_at(c, 0, fmt::format(".op takes no word but 'states', not '{}'", c.words[0]));
+    if (c.words.size() > 2) return error_at(c, 2, fmt::format(".op: '{}' is one word too many; it is .op states [RISE]", c.words[2]));
+    out.states = true;
+    if (c.words.size() == 1) return out;
+    const auto rise = number_of(c, 1, "a time in which the sources rise");
+    if (!rise) return rise.error();
+    if (!(*rise > 0 && *rise <= 1e3))
+        return error_at(c, 1, fmt::format(".op: the sources rise within {:g} s; above 0, at most 1000", *rise));
+    return out.rise = *rise, out;
+}
+
+/// Numbers, so that .mc counts them over its chips; and a table.
+Result<void> tell_states(TestBench& bench, const OpWords& asked, Findings& out) {
+    const auto states = rest_states(bench, asked.rise);
+    if (!states) return states.error();
+    double stable = 0, unusual = 1;  // unusual: switched on, it comes elsewhere, or nowhere
+    for (const auto& s : *states) stable += s.stable, unusual -= s.usual && s.power_on;
+    out.numbers = {
+        {"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", unusual}};
+    out.table = told(bench, *states);
+    return {};
+}
+
 }  // namespace
 
 Result<Findings> analyse_op(TestBench& bench, const Command& c) {
-    if (!c.words.empty()) return bad_input(fmt::format(".op takes no words, such as '{}'", c.words[0]), c.place);
+    const auto asked = op_words(c);
+    if (!asked) return asked.error();
     const auto found = bench.rest();
     if (!found) return found.error();
     Findings out;
     Plot plot = plot_of(bench.system, "Operating Point", "", "");
     for (std::size_t n = 0; n < found->x.size(); ++n) plot.curves[n].values.emplace_back(found->x[n]);
     out.plots.push_back(std::move(plot));
+    if (asked->states)
+        if (auto done = tell_states(bench, *asked, out); !done) return done.error();
     if (bench.brief) return out;
-    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}", found->how, found->iterations, bench.tolerances.gmin,
-                            table_of(bench.system, found->x));
+    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->how, found->iterations, bench.tolerances.gmin,
+                            out.table, table_of(bench.system, found->x));
+    if (asked->states) return out;
     if (auto other = other_state(bench, *found)) out.remarks.push_back(std::move(*other));
     return out;
 }

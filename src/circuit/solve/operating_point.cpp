@@ -2,12 +2,32 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "circuit/device/values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
+
+/// Tolerances that are wide as long as this lives.
+class Loosened {
+    Tolerances& of_;
+    const Tolerances tight_;
+
+    void loosen() const { of_.reltol = 1e-2, of_.vntol = 1e-3, of_.abstol = 1e-13; }
+
+public:
+    explicit Loosened(Tolerances& of) : of_(of), tight_(of) { loosen(); }
+    Loosened(const Loosened&) = delete;
+    ~Loosened() { of_ = tight_; }
+    bool exactly(const std::function<bool()>& work) const {
+        of_ = tight_;
+        const bool good = work();
+        return loosen(), good;
+    }
+};
 
 /// One way after another, from where the last good answer was.
 class Search {
@@ -27,8 +47,9 @@ class Search {
     }
 
     bool plain(std::vector<double>& x) {
+        constexpr int near = 40;  // steps: from near they arrive within half of these, or never
         newton_.memory = system_.fresh_memory();
-        return newton_.run(x, held_);
+        return newton_.run(x, held_, led_ ? std::min(near, newton_.tolerances.itl1) : 0);
     }
 
     /// Every node hangs at ground by a conductance that is taken away, decade by decade.
@@ -73,24 +94,42 @@ class Search {
         return found && reached >= 1;
     }
 
-    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves.
+    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves. Where something turns over by its
+    /// own gain, a trigger that a chip has on its other side, it moves ever faster: there a step is as long as to move it so far. None but
+    /// the last steps are exact.
     bool by_time(std::vector<double>& x) {
-        double g = 1e-4;
+        constexpr double so_far = 20e-3, still = 2e-3;  // V
+        constexpr int patience = 5;
+        const Loosened loosened(newton_.tolerances);
+        double g = 1e-4, rate = 0, too_small = 0;
+        int careful = 0;  // steps, after one that was too long
         newton_.memory = system_.fresh_memory();
         for (int tries = 0; tries < 2000; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
-            if (newton_.run(next, all(g, x), 20)) {
-                x = next;
-                if (g < 1e-19) return newton_.run(x, held_);
-                g /= 2;
-            } else {
+            const int before = newton_.iterations;
+            if (!newton_.run(next, all(g, x), patience)) {
                 newton_.memory = memory;
-                g *= 8;
+                too_small = g, careful = 20, g *= 3;
                 if (g > 1e6) return false;
+                continue;
             }
+            const double moved = farthest(x, next), faster = rate > 0 ? moved * g / rate : 0;
+            x = std::move(next), rate = moved * g;
+            if (moved < 10 * still && g < 1e-13) {
+                if (auto there = x; loosened.exactly([&] { return newton_.run(there, held_, 20); })) return x = std::move(there), true;
+                if (g < 1e-19) return false;
+            }
+            const bool quick = newton_.iterations - before <= 3;
+            g = faster > 1.03 ? std::max(rate * faster / so_far, g) : g / (moved < still ? 10 : quick ? 4 : 2);
+            if (careful > 0) --careful, g = std::max(g, 1.5 * too_small);
         }
         return false;
+    }
+    double farthest(const std::vector<double>& a, const std::vector<double>& b) const {
+        double most = 0;
+        for (std::size_t n = 0; n < nodes_; ++n) most = std::max(most, std::abs(a[n] - b[n]));
+        return most;
     }
 
     /// Nodes of .nodeset are held there first, then let go.
@@ -118,10 +157,10 @@ public:
             std::string_view name;
             bool (Search::*go)(std::vector<double>&);
         };
-        for (const Way& way : {Way{"newton", &Search::plain},
-                               {"gmin", &Search::by_gmin},
-                               {"source", &Search::by_sources},
-                               {"pseudo-transient", &Search::by_time}}) {
+        const Way newton{"newton", &Search::plain}, gmin{"gmin", &Search::by_gmin}, source{"source", &Search::by_sources},
+            time{"pseudo-transient", &Search::by_time};
+        // From a place that is near, time goes where the circuit itself would; the other two forget where they began.
+        for (const Way& way : led_ ? std::array{newton, time, gmin, source} : std::array{newton, gmin, source, time}) {
             auto x = start_;
             if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
             if (last_.empty()) last_ = std::move(x);

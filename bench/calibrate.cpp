@@ -1,0 +1,92 @@
+// What are trims worth? Chips with mismatch and process, each pressed, its spikes counted and its trims set until it fires as the model.
+//
+//     bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]      TRIM: i_leak i_biasb gain; without: all, then each alone
+//
+// Method: study/sweep/calibrate.hpp. Limits are about the model's spikes (FiringLimits::about). Told are the limits, then for each set of
+// trims how many chips keep to them as they were made and with 1, 2 ... bits, and how many presses it took.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "circuit/variants.hpp"
+#include "corpuscle.hpp"
+#include "study/sweep/calibrate.hpp"
+
+namespace {
+
+using namespace corpuscle;
+
+struct Kind {
+    const char* model;
+    std::vector<std::string> gain;
+};
+const Kind kinds[] = {{"sa1", {"summer.n3b.m"}}, {"fa1", {"rect.p1b.m", "rect.n2b.m"}}};
+
+int fail(const Error& error) { return std::fprintf(stderr, "%s\n", error.text().c_str()), 1; }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const Kind* kind = nullptr;
+    for (const auto& k : kinds)
+        if (argc > 1 && std::strcmp(argv[1], k.model) == 0) kind = &k;
+    if (kind == nullptr) return std::fputs("bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]\n", stderr), 2;
+    const int count = argc > 2 ? std::atoi(argv[2]) : 64, bits = argc > 3 ? std::atoi(argv[3]) : 4;
+    const circuit::Chips drawn{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
+    std::vector<circuit::Draw> chips;
+    for (int k = 0; k < count; ++k) chips.push_back(drawn.draw(static_cast<std::uint64_t>(k)));
+
+    ChipCalibration asked;
+    asked.netlist = std::string(kind->model) + "-circuit", asked.bits = bits;
+    asked.knobs = {{"corner", "mc", "corner=mc"}};
+    asked.batch.most_iterations = 60'000;
+    const auto press = stimulus("press");
+    asked.force = press.force, asked.T = 1 / press.rate;
+    const Stretch phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
+    asked.limits = FiringLimits::about(respond(kind->model, press).spikes, phases, 10e-3);
+    asked.told = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
+    fmt::print("{}, {} chips: {}\n", asked.netlist, count, asked.limits.text());
+
+    const std::vector<std::string> trims[] = {{"i_leak"}, {"i_biasb"}, kind->gain};
+    std::vector<std::vector<int>> sets = {{0, 1, 2}, {0}, {1}, {2}};
+    if (argc > 5) {
+        sets = {{}};
+        for (int a = 5; a < argc; ++a)
+            sets[0].push_back(std::strcmp(argv[a], "gain") == 0 ? 2 : std::strcmp(argv[a], "i_biasb") == 0 ? 1 : 0);
+    }
+    for (const auto& set : sets) {
+        asked.trims.clear();
+        std::string names;
+        for (const int k : set) {
+            const auto& name = trims[k];
+            auto trim = trim_of(asked.netlist, asked.knobs, name, k == 0 ? 1.0 : k == 1 ? 0.25 : 0.5, k == 2);
+            if (!trim) return fail(trim.error());
+            names += (names.empty() ? "" : ", ") + name[0];
+            asked.trims.push_back(*trim);
+        }
+        const auto all = calibrate(asked, chips);
+        if (!all) return fail(all.error());
+        std::vector<int> kept(static_cast<std::size_t>(bits) + 1), presses(kept.size());
+        int total = 0, most = 0, lost = 0;
+        for (const auto& c : *all) {
+            total += c.presses, most = std::max(most, c.presses), lost += c.lost;
+            for (int b = 0; b <= bits; ++b) kept[static_cast<std::size_t>(b)] += c.bits >= 0 && c.bits <= b;
+        }
+        fmt::print("{}: kept to them as made {}", names, kept[0]);
+        for (int b = 1; b <= bits; ++b) fmt::print(", {} bits {}", b, kept[static_cast<std::size_t>(b)]);
+        fmt::print("; {} presses, {} of one chip at the most, {} lost\n", total, most, lost);
+        std::fflush(stdout);
+        if (set.size() == 3)
+            for (std::size_t k = 0; k < all->size(); ++k) {
+                const auto& c = (*all)[k];
+                fmt::print("  chip {:4} {} spikes -> {} with {} bits, codes {}, off {:.2f} -> {:.2f}, {} presses\n", k,
+                           c.spikes_before.size(), c.spikes.size(), c.bits, fmt::join(c.codes.back(), " "), c.distance.front(),
+                           c.distance.back(), c.presses);
+            }
+    }
+}

@@ -1,0 +1,69 @@
+// How do chips with mismatch come to rest: which way is it that finds where, and what does it cost?
+//
+//     bench-rests NETLIST [CHIPS] [SEED]
+//
+// Method: the netlist is read once; each chip draws its mismatch and its process (of the card's section that the netlist names) and is
+// solved, at first as .op has it, then as a transient begins, with the nodes of .ic held. Told are the chips that each way found, Newton's
+// steps (mean, median, most), and microseconds a chip.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "circuit/analysis/beginning.hpp"
+#include "circuit/device/uicm_card.hpp"
+#include "circuit/variants.hpp"
+
+namespace {
+
+using namespace corpuscle;
+using namespace corpuscle::circuit;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+struct Way {
+    std::vector<int> steps;
+    double seconds = 0;
+};
+
+void tell(const char* what, std::map<std::string, Way>& ways) {
+    std::printf("%s\n", what);
+    for (auto& [name, way] : ways) {
+        auto& s = way.steps;
+        std::sort(s.begin(), s.end());
+        double sum = 0;
+        for (const int n : s) sum += n;
+        const double count = static_cast<double>(s.size());
+        std::printf("  %-18s %6zu chips  steps mean %.1f median %d most %d  %.0f us each\n", name.c_str(), s.size(), sum / count,
+                    s[s.size() / 2], s.back(), 1e6 * way.seconds / count);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) return std::fputs("bench-rests NETLIST [CHIPS] [SEED]\n", stderr), 2;
+    const double chips = argc > 2 ? std::atof(argv[2]) : 1000;
+    const auto netlist = Netlist::read(argv[1]);
+    if (!netlist) return std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), 1;
+    auto circuit = netlist->elaborate();
+    if (!circuit) return std::fprintf(stderr, "%s\n", circuit.error().text().c_str()), 1;
+    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
+    const Chips drawn{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
+    for (const bool held : {false, true}) {
+        std::map<std::string, Way> ways;
+        for (std::uint64_t k = 0; static_cast<double>(k) < chips; ++k) {
+            (*bench)->draw(drawn.draw(k));
+            const double start = now();
+            const auto found = held ? (*bench)->rest_held() : (*bench)->rest();
+            auto& way = ways[found ? std::string(found->how) : "lost"];
+            way.seconds += now() - start;
+            way.steps.push_back((*bench)->newton.iterations);
+        }
+        tell(held ? "with .ic held" : "as .op", ways);
+    }
+}

@@ -1,0 +1,154 @@
+// Which transistors' mismatch decides how often a chip fires, and is it so?
+//
+//     bench-worst sa1|fa1 [CHIPS] [SEED]
+//
+// Method: chips with mismatch alone, each under the press; the spikes' ranks over the chips are correlated with each transistor's two
+// deviates (threshold, current), drawn again as the chip drew them. A transistor's share is the sum of both squares. The three with the
+// greatest shares are made four times as large (W and L doubled), and the same chips are pressed again. Told are mean and deviation of the
+// number of spikes, before and after, of each of the three enlarged alone and of all together; and how many chips keep to the limits of
+// FiringLimits::about the model.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <numeric>
+
+#include "circuit/batch/chips.hpp"
+#include "circuit/device/uicm_card.hpp"
+#include "circuit/knobs.hpp"
+#include "corpuscle.hpp"
+#include "signal/pool.hpp"
+#include "study/sweep/pattern.hpp"
+
+namespace {
+
+using namespace corpuscle;
+using namespace corpuscle::circuit;
+using Trains = std::vector<std::vector<double>>;
+
+std::shared_ptr<const CircuitDesign> design_of(const std::string& name, const std::vector<Knob>& knobs) {
+    const auto netlist = tuned(name, knobs);
+    if (!netlist) std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), std::exit(1);
+    auto design = CircuitDesign::of(*netlist);
+    if (!design) std::fprintf(stderr, "%s\n", design.error().text().c_str()), std::exit(1);
+    return *design;
+}
+
+Trains pressed(const std::shared_ptr<const CircuitDesign>& design, const Chips& chips, const Touch& press) {
+    Trains out(static_cast<std::size_t>(chips.count));
+    std::mutex guard;
+    std::size_t next = 0;
+    BatchOptions options;
+    options.most_iterations = 200'000;
+    Pool pool;
+    pool.each(pool.threads(), [&](std::size_t, unsigned) {
+        const auto done = run_chips(
+            design,
+            [&]() -> std::optional<Chip> {
+                const std::lock_guard lock(guard);
+                if (next == out.size()) return {};
+                const auto k = next++;
+                return Chip{static_cast<std::int64_t>(k), design, chips.draw(k), press.force, 1 / press.rate};
+            },
+            [&](const Chip& chip, ChipAnswer&& answer) {
+                if (answer.error)
+                    std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.number), answer.error->text().c_str());
+                out[static_cast<std::size_t>(chip.number)] = std::move(answer.spikes);
+            },
+            options);
+        if (!done) std::fprintf(stderr, "%s\n", done.error().text().c_str());
+    });
+    return out;
+}
+
+/// Ranks of these numbers, equal ones in the middle of theirs, as deviations from their mean.
+std::vector<double> ranks(const std::vector<double>& x) {
+    std::vector<double> out;
+    for (const double v : x) {
+        double rank = -0.5 * static_cast<double>(x.size());
+        for (const double w : x) rank += w < v ? 1 : w == v ? 0.5 : 0;
+        out.push_back(rank);
+    }
+    return out;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto product = [](const auto& u, const auto& v) { return std::inner_product(u.begin(), u.end(), v.begin(), 0.0); };
+    return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+}
+
+void tell(const char* what, const Trains& trains, const FiringLimits& limits) {
+    double sum = 0, squares = 0;
+    long kept = 0;
+    for (const auto& t : trains) {
+        const auto n = static_cast<double>(t.size());
+        sum += n, squares += n * n, kept += limits.kept(t);
+    }
+    const auto count = static_cast<double>(trains.size());
+    fmt::print("{:40} {:6.2f} spikes, deviation {:6.3f}; {} of {} chips keep to the limits\n", what, sum / count,
+               std::sqrt(squares / count - sum * sum / count / count), kept, trains.size());
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2 || (std::strcmp(argv[1], "sa1") != 0 && std::strcmp(argv[1], "fa1") != 0))
+        return std::fputs("bench-worst sa1|fa1 [CHIPS] [SEED]\n", stderr), 2;
+    const std::string model = argv[1], netlist = model + "-circuit";
+    const Chips chips{argc > 2 ? std::atof(argv[2]) : 200, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, false, true};
+    const auto press = stimulus("press");
+    const Stretch phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
+    const auto limits = FiringLimits::about(respond(model, press).spikes, phases, 10e-3);
+    fmt::print("{}: {}\n", netlist, limits.text());
+
+    const auto designed = design_of(netlist, {});
+    const auto before = pressed(designed, chips, press);
+    tell("as designed", before, limits);
+    std::vector<double> counts;
+    for (const auto& t : before) counts.push_back(static_cast<double>(t.size()));
+    const auto order = ranks(counts);
+
+    struct Share {
+        const Element* device;
+        double by_threshold, by_current;
+        double all() const { return by_threshold * by_threshold + by_current * by_current; }
+    };
+    std::vector<Share> shares;
+    UicmCard card;
+    card.A_VT = card.A_IS = 1;
+    UicmInstance square;
+    square.W = square.L = 1;
+    std::uint32_t number = 0;
+    for (const auto& e : designed->circuit->elements) {
+        if (e.letter != 'm') continue;
+        std::vector<double> threshold, current;
+        for (std::size_t k = 0; k < before.size(); ++k) {
+            const auto own = mismatch(card, square, chips.seed, number, k);
+            threshold.push_back(own.V_T), current.push_back(std::log(own.factor));
+        }
+        shares.push_back({&e, correlation(order, threshold), correlation(order, current)});
+        ++number;
+    }
+    std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.all() > b.all(); });
+    std::vector<Knob> all;
+    for (std::size_t k = 0; k < 8; ++k)
+        fmt::print("  {:20} threshold {:+.2f}, current {:+.2f}\n", shares[k].device->name, shares[k].by_threshold, shares[k].by_current);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto& e = *shares[k].device;
+        std::vector<Knob> own;
+        for (const char* side : {"w", "l"}) own.push_back({e.name + "." + side, fmt::format("{:.17g}", 2 * e.values.at(side)), e.name});
+        all.insert(all.end(), own.begin(), own.end());
+        tell(fmt::format("{} four times as large", e.name).c_str(), pressed(design_of(netlist, own), chips, press), limits);
+    }
+    const auto larger = design_of(netlist, all);
+    tell("all three", pressed(larger, chips, press), limits);
+    const auto plain = [&](const std::shared_ptr<const CircuitDesign>& design) {
+        return run_chip_alone({0, design, {}, press.force, 1 / press.rate}, {}).spikes.size();
+    };
+    fmt::print("without mismatch: {} spikes as designed, {} with all three\n", plain(designed), plain(larger));
+}

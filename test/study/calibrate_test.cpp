@@ -1,0 +1,109 @@
+// Trims: what a chip's limits are, and whether the search finds codes that are known.
+
+#include "study/sweep/calibration_told.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Under 2 N/s the node passes its level at 0.5 s * 1 mA / g, in however many steps.
+ChipCalibration ramp(double meant, double off) {
+    const auto path = std::filesystem::temp_directory_path() / "corpuscle-calibrate-test.cir";
+    std::ofstream(path) << "a ramp\n.param g=1m\niin 0 a force {g}\nra a 0 1k\nca a 0 1p\n.spike v(a) 1\n.end\n";
+    ChipCalibration out;
+    out.netlist = path.string(), out.T = 1e-2, out.threads = 1;
+    for (int k = 0; k <= 100; ++k) out.force.push_back(2 * 1e-2 * k);
+    const Stretch whole[] = {{0, 1}};
+    const double spike[] = {meant};
+    out.limits = FiringLimits::about(spike, whole, off);
+    return out;
+}
+
+TEST(Calibrate, FindsTheCodeThatIsKnown) {
+    for (const auto& [meant, off, bits, share] :
+         {std::tuple{0.4, 4e-3, 3, 0.25}, {0.5, 4e-3, 0, 0.0}, {0.25, 4e-3, 1, 1.0}, {0.8, 2e-3, 4, -0.375}}) {
+        auto asked = ramp(meant, off);
+        asked.bits = 6;
+        const auto trim = trim_of(asked.netlist, {}, {"g"}, 1, false);
+        ASSERT_TRUE(trim) << trim.error().text();
+        EXPECT_DOUBLE_EQ(trim->designed, 1e-3);
+        asked.trims = {*trim};
+        const auto done = calibrate(asked, {circuit::Draw{1, 0}});
+        ASSERT_TRUE(done) << done.error().text();
+        const auto& chip = done->at(0);
+        EXPECT_EQ(chip.bits, bits) << meant;
+        EXPECT_EQ(chip.codes.back().at(0), share * 32) << meant;
+        ASSERT_EQ(chip.spikes.size(), 1U);
+        EXPECT_NEAR(chip.spikes[0], 0.5 / (1 + share), 1e-4);
+        EXPECT_LE(chip.presses, 1 + 3 * bits) << "two neighbours at each width, and once more where it moved";
+    }
+}
+
+TEST(Calibrate, TellsWhatCannotBeReached) {
+    auto asked = ramp(0.15, 4e-3);  // twice as much is 0.25 s
+    asked.bits = 4;
+    asked.trims = {*trim_of(asked.netlist, {}, {"g"}, 1, false)};
+    const auto done = calibrate(asked, {circuit::Draw{1, 0}, circuit::Draw{1, 1}});
+    ASSERT_TRUE(done);
+    const CalibrationTold told{asked.trims, *done};
+    EXPECT_EQ(told.kept(4), 0U);
+    EXPECT_EQ(done->at(1).bits, -1);
+    EXPECT_EQ(done->at(1).codes.back().at(0), 8) << "as near as it gets";
+    EXPECT_LT(done->at(1).distance.back(), done->at(1).distance.front());
+    EXPECT_NE(text_of(asked, {told}).find("0.0 %"), std::string::npos);
+}
+
+TEST(Calibrate, RefusesTrimsThatAreNoNumbers) {
+    const auto asked = ramp(0.4, 1e-3);
+    for (const char* wrong : {"h", "ra.w", "zz.m", ""}) {
+        const auto trim = trim_of(asked.netlist, {}, {wrong}, 1, false);
+        ASSERT_FALSE(trim) << wrong;
+        EXPECT_NE(trim.error().sentence.find(wrong), std::string::npos);
+    }
+}
+
+TEST(Calibrate, CodesGoAroundWhatWasDesignedAndColumnsAreWhole) {
+    const Trim current{{"i"}, 8, 0.5, false}, columns{{"x.m"}, 12, 0.5, true};
+    EXPECT_DOUBLE_EQ(current.value(0, 4), 8);
+    EXPECT_DOUBLE_EQ(current.value(8, 4), 12);
+    EXPECT_DOUBLE_EQ(current.value(-7, 4), 8 * (1 - 7.0 / 16));
+    EXPECT_DOUBLE_EQ(columns.value(1, 4), 13);  // 12.75
+    EXPECT_DOUBLE_EQ((Trim{{"x.m"}, 1, 1, true}.value(-7, 4)), 1) << "one column at least";
+}
+
+TEST(FiringLimits, AreAboutAModelsSpikes) {
+    const std::vector<double> model = {0.31, 0.33, 0.35, 0.40, 0.44, 0.5, 0.55, 0.6, 0.65, 0.66, 0.67, 0.68};
+    const Stretch phases[] = {{0, 0.3}, {0.3, 0.38}, {0.38, 0.7}, {0.7, 1}};
+    const auto limits = FiringLimits::about(model, phases, 10e-3);
+    EXPECT_TRUE(limits.kept(model));
+    EXPECT_LT(limits.distance(model), 1e-20);
+    auto other = model;
+    other.insert(other.begin(), 0.1);
+    EXPECT_FALSE(limits.kept(other)) << "none before the force";
+    other = model, other.push_back(0.9);
+    EXPECT_TRUE(limits.kept(other)) << "one more, where the model has none after it has fired";
+    other.push_back(0.95);
+    EXPECT_FALSE(limits.kept(other));
+    other.assign(model.begin() + 2, model.end());
+    EXPECT_FALSE(limits.kept(other)) << "two of three are missing, and the first is late";
+    EXPECT_FALSE(limits.kept({}));
+    EXPECT_GT(limits.distance({}), limits.distance(other));
+}
+
+TEST(FiringLimits, EachSpikeIsSpreadOverItsInterval) {
+    const double spikes[] = {1, 2, 4};
+    EXPECT_DOUBLE_EQ(spread_count(spikes, {0, 5}), 3);
+    EXPECT_DOUBLE_EQ(spread_count(spikes, {1.5, 3}), 0.5 + 0.5);
+    EXPECT_DOUBLE_EQ(spread_count(spikes, {3, 5}), 0.5 + 1);
+    EXPECT_DOUBLE_EQ(spread_count({}, {0, 5}), 0);
+}
+
+}  // namespace
+}  // namespace corpuscle
