@@ -13,6 +13,7 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 constexpr std::size_t most_devices = 5;
+constexpr double least_told = 0.0005;  // of shares: less reads 0.0 %
 
 /// How the numbers of one measure are written: all with the same prefix, as finely as its deviation asks for.
 class Writing {
@@ -136,7 +137,7 @@ void put_dependence(Rows& rows, const SweepTable& from, const SweepSummary& s, c
     };
     for (const auto& [axis, between] : d.points) line({from.axes[axis].name, "point of the grid", "", percent(between.share), "", "", ""});
     for (const auto& i : d.influences)
-        if (i.device < 0 && i.found.share.value > 0) line({i.name, "drawn", "", percent(i.found.share.value), "", "", ""});
+        if (i.device < 0 && i.found.share.value >= least_told) line({i.name, "drawn", "", percent(i.found.share.value), "", "", ""});
     for (std::size_t k = 0; k < std::min(d.devices.size(), most_devices); ++k) {
         const auto& share = d.devices[k];
         const auto& device = s.drawn->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];

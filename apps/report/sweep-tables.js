@@ -81,7 +81,7 @@ function showDependences(host) {
         const add = (name, what, share, rest) => rows.push(first() + word(name) + cell(what, "unit") + cell(share) + rest);
         const blank = cell("") + cell("") + cell("");
         for (const {axis, share} of points) add(axis, "point of the grid, share of all", `${percent(share)} %`, blank);
-        for (const {axis, share} of influences) if (axis && share.value > 0) add(axis, "drawn", `${percent(share.value)} %${range(share, percent)}`, blank);
+        for (const {axis, share} of influences) if (axis && share.value >= 0.0005) add(axis, "drawn", `${percent(share.value)} %${range(share, percent)}`, blank);
         for (const one of devices.slice(0, 8))
             add(one.device, escaped(data.sizes[one.device] || ""), `${percent(one.share)} %`, cell(percent(one.share_V_T)) + cell(percent(one.share_I_S)) +
                 cell(measure === "yield" ? "" : `${(100 * (one.sigma_with_four_times_the_area - 1)).toFixed(1).replace("-", "−")} %`));
