@@ -30,6 +30,7 @@ constexpr Named units[] = {
     {"\u03a9", {1, 0, 0, 0, 1, -1}},
     {"S", {1, 0, 0, 0, -1, 1}},
     {"F", {1, 1, 0, 0, -1, 1}},
+    {"W", {1, 0, 0, 0, 1, 1}},
     {"%", {0.01, 0, 0, 0, 0, 0}},
     {"1", {1, 0, 0, 0, 0, 0}},
 };
@@ -68,7 +69,8 @@ std::string_view kind_of(const Unit& u) {
     };
     constexpr Kind kinds[] = {{"s", "a time"},        {"Hz", "a frequency"},  {"m", "a length"},       {"N", "a force"},
                               {"V", "a voltage"},     {"A", "a current"},     {"ohm", "a resistance"}, {"S", "a conductance"},
-                              {"F", "a capacitance"}, {"", "a plain number"}, {"m/s", "a speed"}};
+                              {"F", "a capacitance"}, {"", "a plain number"}, {"m/s", "a speed"},
+                              {"W", "a power"}};
     for (const auto& k : kinds)
         if (parse_unit(k.unit)->same_kind(u)) return k.name;
     return {};

@@ -8,7 +8,7 @@
 #include "circuit/curves.hpp"
 #include "circuit/knobs.hpp"
 #include "circuit/variants.hpp"
-#include "signal/text.hpp"
+#include "study/orders.hpp"
 
 namespace corpuscle {
 namespace {
@@ -25,27 +25,6 @@ using circuit::tuned;
 using circuit::Values;
 using circuit::values_of;
 using circuit::Variants;
-
-bool is_order(std::string_view line) {
-    if (!line.starts_with('.')) return false;
-    const auto word = lower(line.substr(1, line.find_first_of(" \t\r") - 1));
-    constexpr std::string_view others[] = {"meas", "print", "plot", "save", "step", "mc", "expect", "end"};
-    return analysis_of(word) != nullptr || std::find(std::begin(others), std::end(others), word) != std::end(others);
-}
-
-/// The text without its orders, and these lines in their place.
-std::string with_orders(const std::string& text, const std::string& orders) {
-    std::string out;
-    bool left_out = false, first = true;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto end = std::min(text.find('\n', at), text.size());
-        const auto line = std::string_view(text).substr(at, end - at);
-        if (!line.starts_with('+')) left_out = !first && is_order(line);
-        if (!left_out) out.append(line) += '\n';
-        first = false, at = end + 1;
-    }
-    return out + orders + "\n.end\n";
-}
 
 Result<Netlist> netlist_of(const Deck& deck) {
     const bool own = deck.circuit.find('\n') != std::string::npos;

@@ -38,6 +38,8 @@ public:
     Newton newton;
     std::function<bool(double share)> stop{};  ///< asked now and then, told how far the work is; true: stop
     PointSink* points = nullptr;               ///< takes what is too long to be kept; null: it is kept
+    long most_iterations = 0;                  ///< of a transient: one that takes more is stopped; 0: as many as it takes
+    bool capped = false;                       ///< the last one was
     bool brief = false;                        ///< one of many: tables for people and warnings are not wanted
 
     static Result<std::unique_ptr<TestBench>> make(std::shared_ptr<const Circuit>);

@@ -12,6 +12,7 @@
 #include "circuit/force_order.hpp"
 #include "circuit/spike_output.hpp"
 #include "circuit/within.hpp"
+#include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -61,10 +62,14 @@ Result<std::vector<double>> spikes_of(TestBench& bench, const Asked& asked, Tran
         if (time < t.time()) return true;  // within a step
         if (asked.output)
             if (const auto spike = asked.output->within(t); spike && *spike >= asked.times.start) out.push_back(*spike);
-        return !(stopped = bench.stopped(time / asked.times.stop));
+        bench.capped = bench.most_iterations > 0 && t.work().iterations > bench.most_iterations;
+        return !bench.capped && !(stopped = bench.stopped(time / asked.times.stop));
     });
     if (!done) return done.error();
     if (stopped) return interruption();
+    if (bench.capped)
+        return Error{Code::not_converged,
+                     fmt::format("stopped at {} after {} iterations", format_quantity(t.time(), "s"), t.work().iterations)};
     return out;
 }
 
@@ -116,6 +121,7 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
     auto ranges = within_of(bench.system);
     if (!ranges) return ranges.error();
     Watch watch(std::move(*ranges));
+    bench.capped = false;
     const auto force = force_order(*bench.circuit);
     if (!force) return force.error();
     if (*force && !bench.system.hear(&**force))

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
+#include <mutex>
 
 #include "circuit/analyses.hpp"
 #include "circuit/curves.hpp"
@@ -23,11 +23,15 @@ constexpr std::string_view of_spikes[] = {"spikes", "first_spike", "last_spike",
 class AnalysesSweep final : public PlannedSweep {
     NetlistMaker netlist_{};
     std::shared_ptr<const Circuit> nominal_;
+    long most_ = 0;  // iterations that the file allows; 0: it says nothing
+    mutable std::mutex guard_;
+    mutable std::optional<long> most_by_nominal_;
 
+    long most_iterations(const std::function<bool()>& stop) const;
     Result<void> choose(const SweepText&);
     Result<void> keep(const SweepText&);
     Result<std::shared_ptr<const Circuit>> circuit(std::span<const double> values) const;
-    UnitOutcome outcome(std::int64_t unit, const Result<RunOutcome>&) const;
+    UnitOutcome outcome(std::int64_t unit, const Result<RunOutcome>&, bool capped = false) const;
 
     /// What one thread works on, and for which values it is made.
     struct Bench {
@@ -145,7 +149,7 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& said, const 
          {std::pair{"force", &said.force}, {"rate", &said.rate}, {"channel", &said.channel}, {"every", &said.every}})
         if (*value)
             return (*value)->wrong(fmt::format("{} is of an afferent = ...; a netlist's own .tran takes its force from .force", name));
-    auto netlist = NetlistMaker::of(*said.netlist, folder);
+    auto netlist = NetlistMaker::of(*said.netlist, folder, said.orders ? said.orders->text : "");
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
     for (const auto& setting : said.set)
@@ -166,10 +170,16 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& said, const 
     s.plan_ = std::move(*units);
     if (s.plan_.draws_chips() && s.nominal_->mismatch)
         return bad_input("[set] chooses one chip by mismatch = ..., and the sweep draws others; leave one of them out", {said.file});
+    if (said.iterations) {
+        const auto most = whole_of(*said.iterations, "iterations", 1, 1e12);
+        if (!most) return most.error();
+        s.most_ = static_cast<long>(*most);
+    }
     if (auto ok = s.choose(said); !ok) return ok.error();
     if (auto ok = s.keep(said); !ok) return ok.error();
     s.facts_ = first_facts(said, s.nominal_->title);
     for (auto& fact : s.netlist_.facts()) s.facts_.push_back(std::move(fact));
+    s.tell_draws(s.netlist_.name(), *s.nominal_);
     return std::unique_ptr<Sweep>(std::move(out));
 }
 
@@ -191,13 +201,30 @@ Result<void> AnalysesSweep::prepare(Bench& at, std::span<const double> values) c
     return {};
 }
 
-UnitOutcome AnalysesSweep::outcome(std::int64_t unit, const Result<RunOutcome>& found) const {
+/// What a unit's transients may cost, each: what the file says, else many times what they take as designed.
+long AnalysesSweep::most_iterations(const std::function<bool()>& stop) const {
+    if (most_ > 0 || !has(*nominal_, "tran")) return most_;
+    const std::lock_guard lock(guard_);
+    if (most_by_nominal_) return *most_by_nominal_;
+    auto bench = TestBench::make(nominal_);
+    if (!bench) return 0;
+    (*bench)->brief = true;
+    circuit::RunOrders orders;
+    orders.keep = orders.print = false;
+    orders.stop = [&](std::string_view, double) { return stop(); };
+    const auto found = circuit::run(**bench, orders);
+    if (!found && found.error().code == Code::interrupted) return 0;
+    most_by_nominal_ = found ? static_cast<long>(many_times_nominal * static_cast<double>(outcome(0, found).iterations)) : 0;
+    return *most_by_nominal_;
+}
+
+UnitOutcome AnalysesSweep::outcome(std::int64_t unit, const Result<RunOutcome>& found, bool capped) const {
     UnitOutcome out;
     out.unit = unit;
     out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
     out.spikes.resize(trains_.size());
     if (!found) {
-        out.end = UnitEnd::lost, out.why = found.error().text();
+        out.end = capped ? UnitEnd::capped : UnitEnd::lost, out.why = found.error().text();
         return out;
     }
     for (std::size_t k = 0; k < measures_.size(); ++k)
@@ -215,6 +242,7 @@ UnitOutcome AnalysesSweep::outcome(std::int64_t unit, const Result<RunOutcome>& 
 
 Result<void> AnalysesSweep::work(const Next& next, const Told& told, const std::function<bool()>& stop) const {
     Bench at;
+    const auto most = most_iterations(stop);
     circuit::RunOrders orders;
     orders.keep = orders.print = false;
     orders.stop = [&](std::string_view, double) { return stop(); };
@@ -229,10 +257,11 @@ Result<void> AnalysesSweep::work(const Next& next, const Told& told, const std::
             at.bench->draw(circuit::Chips{1, *seed}.draw(0));
         else if (const auto draw = plan_.draw(*unit))
             at.bench->draw(*draw);
+        at.bench->most_iterations = most, at.bench->capped = false;
         const auto found = circuit::run(*at.bench, orders);
         if (!found && found.error().code == Code::interrupted) return {};
         if (!found && found.error().code != Code::not_converged) return found.error();
-        told(outcome(*unit, found));
+        told(outcome(*unit, found, at.bench->capped));
     }
     return {};
 }

@@ -193,7 +193,7 @@ public:
 
 bool is_drawn(const SaidAxis& said) {
     const auto way = way_of(said);
-    return way != "grid" && way != "list";
+    return way == "uniform" || way == "normal" || way == "latin" || way == "sobol";
 }
 
 Result<SweepAxis> axis_of(const SaidAxis& said, const Target& target, Drawing& drawing) { return AxisReader(said, target).read(drawing); }

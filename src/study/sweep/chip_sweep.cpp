@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "circuit/batch/chips.hpp"
@@ -20,7 +19,6 @@ using circuit::CircuitDesign;
 using DesignPointer = std::shared_ptr<const CircuitDesign>;
 
 constexpr std::size_t designs_kept = 16;
-constexpr double many_times = 20;  // a chip that takes this many iterations of the nominal one's is stopped
 
 class ChipSweep final : public PlannedSweep {
     NetlistMaker netlist_{};
@@ -32,8 +30,8 @@ class ChipSweep final : public PlannedSweep {
 
     mutable std::mutex guard_;
     mutable std::map<std::vector<double>, Result<DesignPointer>> designs_;
-    mutable std::once_flag nominal_run_;
-    mutable long nominal_iterations_ = 0;
+    mutable std::mutex nominal_guard_;
+    mutable std::optional<long> most_by_nominal_;
 
     /// A chip at work, and what it needs until it has ended.
     struct AtWork {
@@ -46,7 +44,7 @@ class ChipSweep final : public PlannedSweep {
     Result<void> show(const SweepText&);
     Result<DesignPointer> design(std::span<const double> values) const;
     std::optional<circuit::Draw> draw(std::int64_t unit, const CircuitDesign&) const;
-    long most_iterations() const;
+    long most_iterations(const std::function<bool()>& stop) const;
     UnitOutcome outcome(std::int64_t unit, const AtWork&, ChipAnswer&&) const;
     UnitOutcome lost(std::int64_t unit, const Error&) const;
 
@@ -104,6 +102,7 @@ Result<void> ChipSweep::show(const SweepText& said) {
 Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& said, const std::string& folder) {
     auto out = std::make_unique<ChipSweep>();
     auto& s = *out;
+    if (said.orders) return said.orders->wrong("orders are those of a netlist = ...; an afferent = ... answers to its force");
     auto netlist = NetlistMaker::of(*said.afferent, folder);
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
@@ -145,6 +144,7 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& said, const std:
     s.facts_ = first_facts(said, s.nominal_->circuit->title);
     for (auto& fact : s.netlist_.facts()) s.facts_.push_back(std::move(fact));
     if (auto recorded = s.force_.recorded(); !recorded.empty()) s.facts_.push_back({"recording " + s.force_.name(), std::move(recorded)});
+    s.tell_draws(s.netlist_.name(), *s.nominal_->circuit);
     return std::unique_ptr<Sweep>(std::move(out));
 }
 
@@ -169,17 +169,19 @@ std::optional<circuit::Draw> ChipSweep::draw(std::int64_t unit, const CircuitDes
 }
 
 /// What a unit may cost: what the file says, else many times what the nominal chip takes under the nominal force.
-long ChipSweep::most_iterations() const {
+long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
     if (most_ > 0) return most_;
-    std::call_once(nominal_run_, [this] {
-        const auto& force = *force_.nominal();
-        const auto answer =
-            circuit::run_chip_alone({0, nominal_, draw(0, *nominal_) && nominal_->circuit->mismatch ? draw(0, *nominal_) : std::nullopt,
-                                     force.samples, force.clock.T()},
-                                    {});
-        nominal_iterations_ = answer.error ? 0 : static_cast<long>(many_times * static_cast<double>(answer.work.iterations));
-    });
-    return nominal_iterations_;
+    const std::lock_guard lock(nominal_guard_);
+    if (most_by_nominal_) return *most_by_nominal_;
+    const auto& force = *force_.nominal();
+    const auto& seed = nominal_->circuit->mismatch;
+    const auto chip = seed ? std::optional(circuit::Chips{1, *seed}.draw(0)) : std::nullopt;
+    circuit::BatchOptions options;
+    options.stop = stop;
+    const auto answer = circuit::run_chip_alone({0, nominal_, chip, force.samples, force.clock.T()}, options);
+    if (answer.error && answer.error->code == Code::interrupted) return 0;
+    most_by_nominal_ = answer.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(answer.work.iterations));
+    return *most_by_nominal_;
 }
 
 UnitOutcome ChipSweep::lost(std::int64_t unit, const Error& error) const {
@@ -218,7 +220,7 @@ UnitOutcome ChipSweep::outcome(std::int64_t unit, const AtWork& at, ChipAnswer&&
 Result<void> ChipSweep::work(const Next& next, const Told& told, const std::function<bool()>& stop) const {
     circuit::BatchOptions options;
     options.stop = stop, options.show_every = every_, options.lanes = lanes_;
-    options.most_iterations = most_iterations();
+    options.most_iterations = most_iterations(stop);
     std::map<std::int64_t, AtWork> at_work;
     std::optional<Error> fault;
     const auto chip_of = [&](std::int64_t unit, AtWork& at) {

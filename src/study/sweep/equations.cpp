@@ -123,6 +123,7 @@ Result<void> EquationsSweep::show(const SweepText& said) {
 Result<std::unique_ptr<Sweep>> EquationsSweep::make(const SweepText& said, const std::string& folder) {
     auto out = std::make_unique<EquationsSweep>();
     auto& s = *out;
+    if (said.orders) return said.orders->wrong("orders are those of a netlist = ...; an afferent = ... answers to its force");
     const auto& asked = said.afferent->text;
     if (said.iterations)
         return said.iterations->wrong(fmt::format("{} is made of equations and takes no iterations; leave them out", asked));

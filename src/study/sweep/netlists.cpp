@@ -8,6 +8,7 @@
 
 #include "signal/field.hpp"
 #include "signal/text.hpp"
+#include "study/orders.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
@@ -62,9 +63,9 @@ struct NetlistMaker::Files {
     std::map<std::string, Netlist> by_corner;
 };
 
-Result<NetlistMaker> NetlistMaker::of(const Said& said, const std::string& folder) {
+Result<NetlistMaker> NetlistMaker::of(const Said& said, const std::string& folder, const std::string& orders) {
     NetlistMaker out;
-    out.name_ = out.file_ = said.text, out.folder_ = folder, out.files_ = std::make_shared<Files>();
+    out.name_ = out.file_ = said.text, out.folder_ = folder, out.orders_ = orders, out.files_ = std::make_shared<Files>();
     std::error_code status;
     if (const auto* carried = circuit::carried_netlist(said.text)) {
         out.file_ = carried->file, out.name_ = carried->name, out.carried_ = true;
@@ -106,6 +107,7 @@ Result<Netlist> NetlistMaker::open(const std::string& corner) const {
     }
     auto text = text_of(file_);
     if (!text) return text.error();
+    if (!orders_.empty()) text = with_orders(*text, orders_);
     auto netlist = Netlist::parse(std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
     if (!netlist) return netlist;
     const std::lock_guard lock(files_->guard);

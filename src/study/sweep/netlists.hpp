@@ -13,7 +13,7 @@ namespace corpuscle::sweeps {
 
 class NetlistMaker {
     struct Files;
-    std::string name_, folder_, file_;
+    std::string name_, folder_, file_, orders_;
     bool carried_ = false;
     std::vector<circuit::Knob> set_;
     struct Varied {
@@ -30,8 +30,8 @@ class NetlistMaker {
     Result<circuit::Netlist> tuned(std::span<const circuit::Knob>) const;
 
 public:
-    /// "sa1-circuit", a path as seen from the folder, or that of a netlist that the program carries.
-    static Result<NetlistMaker> of(const Said& name, const std::string& folder);
+    /// "sa1-circuit", a path as seen from the folder, or that of a netlist that the program carries; `orders` go in place of its own.
+    static Result<NetlistMaker> of(const Said& name, const std::string& folder, const std::string& orders = "");
 
     const std::string& name() const { return name_; }
     Result<void> set(const SaidSetting&);

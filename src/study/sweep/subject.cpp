@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "circuit/knobs.hpp"
-#include "model/catalog.hpp"
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
+#include "study/sweep/drawn.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
@@ -173,6 +173,14 @@ Result<void> set_limit(const SaidLimit& limit, const Limiting& limiting, std::ve
 }
 
 }  // namespace
+
+void PlannedSweep::tell_draws(const std::string& subject, const circuit::Circuit& circuit) {
+    if (!plan_.chips().mismatch) return;
+    Drawn drawn;
+    drawn.seed = plan_.chips().seed, drawn.chips = plan_.draws();
+    drawn.subjects.push_back({subject, drawn_devices(circuit)});
+    facts_.push_back({drawn_fact, text_of(drawn)});
+}
 
 Result<std::uint64_t> seed_of(const SweepText& said) {
     if (!said.seed) return std::uint64_t{0};

@@ -10,6 +10,9 @@ namespace corpuscle::sweeps {
 /// Results of another number are of a program that answers otherwise.
 inline constexpr int results_format = 1;
 
+/// A unit that takes this many times the nominal one's iterations is stopped, unless the file says when.
+inline constexpr double many_times_nominal = 20;
+
 class PlannedSweep : public Sweep {
 protected:
     SweepPlan plan_;
@@ -17,6 +20,9 @@ protected:
     std::vector<std::string> trains_, traces_;
     std::vector<double> trace_times_;
     std::vector<Fact> facts_;
+
+    /// The last fact, where mismatch is drawn: what each transistor of the chips draws.
+    void tell_draws(const std::string& subject, const circuit::Circuit&);
 
 public:
     std::int64_t units() const override { return plan_.units(); }

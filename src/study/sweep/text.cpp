@@ -15,8 +15,8 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-const Names known_keys = {"title", "afferent",   "netlist", "force", "channel", "rate",     "unit", "scale",  "seed",
-                          "units", "iterations", "every",   "set",   "vary",    "measures", "keep", "traces", "limits"};
+const Names known_keys = {"title",      "afferent", "netlist", "force", "channel", "rate",     "unit", "scale",  "seed",  "units",
+                          "iterations", "every",    "orders",  "set",   "vary",    "measures", "keep", "traces", "limits"};
 const Names axis_keys = {"what", "how", "from", "to", "count", "log", "list", "mean", "sigma", "at_least", "at_most"};
 const Names limit_keys = {"at_least", "at_most", "like", "within"};
 
@@ -162,16 +162,30 @@ SweepText text_from(const toml::table& top, Reading& reading) {
     out.force = reading.scalar(top, "force"), out.channel = reading.scalar(top, "channel"), out.rate = reading.scalar(top, "rate");
     out.unit = reading.scalar(top, "unit"), out.scale = reading.scalar(top, "scale");
     out.seed = reading.scalar(top, "seed"), out.units = reading.scalar(top, "units"), out.every = reading.scalar(top, "every");
-    out.iterations = reading.scalar(top, "iterations");
+    out.iterations = reading.scalar(top, "iterations"), out.orders = reading.scalar(top, "orders");
     out.measures = reading.list(top, "measures"), out.keep = reading.list(top, "keep");
     if (auto traces = reading.list(top, "traces")) out.traces = std::move(*traces);
     if (const auto* set = reading.table(top, "set")) reading.settings(*set, "", out.set);
     if (const auto* limits = reading.table(top, "limits")) reading.limits(*limits, "", out.limits);
     reading.axes(top, out.vary);
-    std::ostringstream canonical;
-    canonical << toml::toml_formatter{top} << '\n';
-    out.canonical = canonical.str();
     return out;
+}
+
+/// Tables as tables, whichever way they were written.
+void lay_out(toml::node& node) {
+    if (auto* table = node.as_table()) {
+        table->is_inline(false);
+        for (auto&& [key, value] : *table) lay_out(value);
+    }
+    if (auto* array = node.as_array())
+        for (auto& value : *array) lay_out(value);
+}
+
+std::string canonical_text(toml::table top) {
+    lay_out(top);
+    std::ostringstream out;
+    out << toml::toml_formatter{top} << '\n';
+    return out.str();
 }
 
 }  // namespace
@@ -179,9 +193,10 @@ SweepText text_from(const toml::table& top, Reading& reading) {
 Result<SweepText> read_sweep_text(std::string_view text, const std::string& file) {
     Reading reading(file);
     try {
-        auto out = text_from(toml::parse(text), reading);
+        const toml::table top = toml::parse(text);
+        auto out = text_from(top, reading);
         if (reading.wrong) return *reading.wrong;
-        out.file = file;
+        out.file = file, out.canonical = canonical_text(top);
         return out;
     } catch (const toml::parse_error& error) {
         return bad_input(std::string(error.description()), reading.place(error.source()));

@@ -39,7 +39,7 @@ struct SaidLimit {
 
 struct SweepText {
     std::string file;
-    MaybeSaid title, afferent, netlist, force, channel, rate, unit, scale, seed, units, iterations, every;
+    MaybeSaid title, afferent, netlist, force, channel, rate, unit, scale, seed, units, iterations, every, orders;
     std::vector<SaidSetting> set;
     std::vector<SaidAxis> vary;
     std::optional<std::vector<Said>> measures, keep;

@@ -1,0 +1,56 @@
+// Any bytes as a sweep file: a sweep whose units have finite values and whose facts say what it is, or an error with a sentence and a
+// place.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "study/sweep/subject.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::sweeps;
+
+namespace {
+
+void must(bool ok) {
+    if (!ok) std::abort();
+}
+
+void check(const Error& e) { must(!e.sentence.empty()); }
+
+void check(const Sweep& s) {
+    must(s.units() >= 1 && !s.facts().empty());
+    for (const auto& f : s.facts()) must(!f.name.empty());
+    for (const auto unit : {std::int64_t{0}, s.units() / 2, s.units() - 1}) {
+        const auto values = s.values(unit);
+        must(values.size() == s.axes().size());
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            must(std::isfinite(values[k]));
+            const auto& words = s.axes()[k].words;
+            must(words.empty() || static_cast<std::size_t>(values[k]) < words.size());
+        }
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto said = read_sweep_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml");
+    if (!said) {
+        must(said.error().place.file == "fuzz.toml");
+        return check(said.error()), 0;
+    }
+    // The words of the file are what is looked at; netlists and recordings have fuzzers of their own, and forces may be long.
+    const bool known = said->afferent ? said->afferent->text == "sa1" || said->afferent->text == "sa1-macro"
+                                      : said->netlist && said->netlist->text == "circuits/bias.cir";
+    if (!known || said->force || said->rate || (said->afferent && said->netlist)) return 0;
+    for (const auto& s : said->set)
+        if (s.name.find(".t_") != std::string::npos) return 0;
+    for (const auto& a : said->vary)
+        if (a.count && a.count->text.size() > 3) return 0;
+    const auto sweep = said->netlist                   ? analyses_sweep(*said, "/nowhere")
+                       : said->afferent->text == "sa1" ? equations_sweep(*said, "/nowhere")
+                                                       : chips_sweep(*said, "/nowhere");
+    sweep ? check(**sweep) : check(sweep.error());
+    return 0;
+}

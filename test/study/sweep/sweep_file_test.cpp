@@ -1,0 +1,371 @@
+// Sweep files: what is drawn, that a unit is the same whoever runs it and however it is asked for, and what is refused, and where.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <regex>
+#include <set>
+
+#include "circuit/run.hpp"
+#include "circuit/variants.hpp"
+#include "study/sweep/sampling.hpp"
+#include "study/sweep/sobol.hpp"
+#include "study/sweep/sweep.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using sweeps::Sampling;
+using sweeps::UnitNumbers;
+
+/// What is said of a sweep in a folder of the test's own.
+class Written {
+    test::Folder folder_;
+
+public:
+    std::string path(const std::string& name) const { return folder_ / name; }
+    std::string put(const std::string& name, const std::string& text) const {
+        std::ofstream(path(name), std::ios::binary) << text;
+        return path(name);
+    }
+    std::unique_ptr<Sweep> sweep(const std::string& text, const std::string& name = "x.toml") const {
+        return test::sure(read_sweep(put(name, text)));
+    }
+    /// "3:8: what is wrong"
+    std::string refusal(const std::string& text) const {
+        const auto read = read_sweep(put("x.toml", text));
+        if (read) return "";
+        auto said = read.error().text();
+        if (const auto at = said.find("x.toml:"); at != std::string::npos) said = said.substr(at + 7);
+        return said;
+    }
+};
+
+using Outcomes = std::map<std::int64_t, UnitOutcome>;
+
+/// These units, one call.
+Outcomes worked(const Sweep& sweep, std::vector<std::int64_t> units) {
+    Outcomes out;
+    std::size_t at = 0;
+    const auto next = [&]() -> std::optional<std::int64_t> { return at < units.size() ? std::optional(units[at++]) : std::nullopt; };
+    const auto done = sweep.work(next, [&](UnitOutcome&& o) { out[o.unit] = std::move(o); }, [] { return false; });
+    EXPECT_TRUE(done) << done.error().text();
+    return out;
+}
+Outcomes worked(const Sweep& sweep) {
+    std::vector<std::int64_t> all(static_cast<std::size_t>(sweep.units()));
+    std::iota(all.begin(), all.end(), 0);
+    return worked(sweep, all);
+}
+
+template <class T>
+void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// In order, and backwards in several calls.
+void expect_the_same_whoever_runs(const Sweep& sweep) {
+    const auto forth = worked(sweep);
+    ASSERT_EQ(forth.size(), static_cast<std::size_t>(sweep.units()));
+    Outcomes back;
+    for (auto to = sweep.units(); to > 0;) {
+        const auto from = std::max<std::int64_t>(to - 3, 0);
+        std::vector<std::int64_t> few;
+        for (auto u = to; u-- > from;) few.push_back(u);
+        back.merge(worked(sweep, few));
+        to = from;
+    }
+    for (const auto& [unit, one] : forth) {
+        const auto& other = back.at(unit);
+        EXPECT_EQ(one.end, other.end);
+        expect_same_bytes(one.measures, other.measures);
+        ASSERT_EQ(one.spikes.size(), other.spikes.size());
+        for (std::size_t k = 0; k < one.spikes.size(); ++k) expect_same_bytes(one.spikes[k], other.spikes[k]);
+        for (std::size_t k = 0; k < one.traces.size(); ++k) expect_same_bytes(one.traces[k], other.traces[k]);
+    }
+}
+
+TEST(Sampling, ALatinHypercubeHasOneDrawInEachStratum) {
+    for (const std::uint64_t n : {1, 2, 7, 64, 1000}) {
+        const UnitNumbers one(Sampling::latin, 5, "a", 0, n), other(Sampling::latin, 5, "b", 0, n);
+        std::set<std::uint64_t> strata;
+        bool alike = true;
+        for (std::uint64_t k = 0; k < n; ++k) {
+            const double u = one.at(k);
+            ASSERT_GT(u, 0);
+            ASSERT_LT(u, 1);
+            strata.insert(static_cast<std::uint64_t>(u * static_cast<double>(n)));
+            alike = alike && static_cast<int>(u * 7) == static_cast<int>(other.at(k) * 7);
+        }
+        EXPECT_EQ(strata.size(), n);
+        EXPECT_TRUE(n <= 2 || !alike) << "two axes go hand in hand";
+    }
+}
+
+TEST(Sampling, SobolsPointsAreThoseOfJoeAndKuo) {
+    const double printed[8][3] = {{0, 0, 0},
+                                  {0.5, 0.5, 0.5},
+                                  {0.75, 0.25, 0.25},
+                                  {0.25, 0.75, 0.75},
+                                  {0.375, 0.375, 0.625},
+                                  {0.875, 0.875, 0.125},
+                                  {0.625, 0.125, 0.875},
+                                  {0.125, 0.625, 0.375}};
+    for (std::size_t d = 0; d < 3; ++d) {
+        const auto v = sweeps::sobol_directions(d);
+        for (std::uint32_t k = 0; k < 8; ++k) EXPECT_EQ(sweeps::sobol_point(v, k) * 0x1p-32, printed[k][d]) << k << " " << d;
+    }
+    std::set<std::vector<std::uint32_t>> kinds;
+    for (std::size_t d = 0; d < sweeps::sobol_dimensions; ++d) {  // each 256 points hit each 256th once, and no two dimensions are alike
+        const auto v = sweeps::sobol_directions(d);
+        std::set<std::uint32_t> strata;
+        std::vector<std::uint32_t> points;
+        for (std::uint32_t k = 256; k < 512; ++k) points.push_back(sweeps::sobol_point(v, k)), strata.insert(points.back() >> 24);
+        EXPECT_EQ(strata.size(), 256u) << d;
+        EXPECT_TRUE(kinds.insert(points).second) << d;
+    }
+}
+
+TEST(Sampling, NormalDeviatesHaveTheirMomentsAndTheirTails) {
+    EXPECT_NEAR(sweeps::normal_quantile(0.975), 1.959963984540054, 1e-14);
+    EXPECT_NEAR(sweeps::normal_quantile(1e-10), -6.361340902404056, 1e-13);
+    EXPECT_NEAR(sweeps::normal_share(-1), 0.15865525393145707, 1e-15);
+    for (const auto how : {Sampling::random, Sampling::latin, Sampling::sobol}) {
+        const UnitNumbers u(how, 3, "f_B", 4, 20000);
+        double sum = 0, squares = 0, fourth = 0;
+        for (std::uint64_t k = 0; k < 20000; ++k) {
+            const double x = sweeps::normal_quantile(u.at(k));
+            sum += x / 20000, squares += x * x / 20000, fourth += x * x * x * x / 20000;
+        }
+        const double most = how == Sampling::random ? 4 : 0.2;  // of 20000 draws' own deviation, 0.007; the others are more even
+        EXPECT_NEAR(sum, 0, most * 0.0071);
+        EXPECT_NEAR(squares, 1, most * 0.01);
+        EXPECT_NEAR(fourth, 3, most * 0.07 + 0.02);
+    }
+}
+
+TEST(SweepFile, ANormalAxisKeepsToItsLimitsAndTheSameDrawIsTheSameAtEachPoint) {
+    const Written w;
+    const auto s = w.sweep(
+        "afferent = 'sa1'\nunits = 200\nseed = 9\n[[vary]]\nwhat = 'press.F_max'\nlist = ['1N', 2]\n[[vary]]\nwhat = 'f_B'\nmean = "
+        "'20Hz'\nsigma = '50%'\nat_least = '15Hz'\nat_most = '26Hz'\n");
+    ASSERT_EQ(s->units(), 400);
+    std::set<double> seen;
+    for (std::int64_t k = 0; k < 200; ++k) {
+        const auto one = s->values(k), other = s->values(200 + k);
+        EXPECT_EQ(one[0], 1);
+        EXPECT_EQ(other[0], 2);
+        EXPECT_EQ(one[1], other[1]);
+        EXPECT_GE(one[1], 15);
+        EXPECT_LE(one[1], 26);
+        seen.insert(one[1]);
+    }
+    EXPECT_EQ(seen.size(), 200u);
+    EXPECT_EQ(s->axes()[1].unit, "Hz");
+}
+
+constexpr const char* stepped =
+    "Two dividers and a mirror\n.lib '../process/tsmc180.lib' mc\n.param r=1k supply=0.7\nvdd d 0 {supply}\nibias g 0 100n\n"
+    "m1 g g d d pch w=6u l=0.5u m=2 stack=8\nm2 o g d d pch w=6u l=0.5u m=2 stack=8\nr1 o 0 {r*1k}\n.op\n.meas op out find v(o)\n"
+    ".step param r list 1k 1.5k\n.step temp -40 85 62.5\n.mc 3 seed=11\n.end\n";
+
+/// What `corpuscle run` finds, variant by variant.
+std::vector<double> ran(const std::string& path) {
+    auto variants = test::sure(circuit::Variants::of(test::sure(circuit::Netlist::read(path))));
+    std::vector<double> out;
+    std::unique_ptr<circuit::TestBench> bench;
+    for (std::size_t k = 0; k < variants.count(); ++k) {
+        const auto variant = test::sure(variants.at(k));
+        if (!bench || bench->circuit != variant.circuit) bench = test::sure(circuit::TestBench::make(variant.circuit));
+        if (variant.draw) bench->draw(*variant.draw);
+        out.push_back(*test::sure(circuit::run(*bench)).number("out"));
+    }
+    return out;
+}
+
+std::vector<double> first_measures(const Sweep& sweep) {
+    std::vector<double> out;
+    for (const auto& [unit, o] : worked(sweep)) out.push_back(o.measures.at(0));
+    return out;
+}
+
+TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
+    const Written w;
+    std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
+    w.put("process/tsmc180.lib", test::read_file(test::root() + "/process/tsmc180.lib"));
+    const auto path = w.put("mine/x.cir", stepped);
+    const auto expected = ran(path);
+    ASSERT_EQ(expected.size(), 18u);
+    EXPECT_EQ(std::set<double>(expected.begin(), expected.end()).size(), 18u);
+    const auto of_netlist = test::sure(read_sweep(path));
+    expect_same_bytes(first_measures(*of_netlist), expected);
+    EXPECT_EQ(of_netlist->values(17)[0], 1.5e3);
+    EXPECT_EQ(of_netlist->values(17)[1], 85);
+    const std::string bare(stepped, std::strstr(stepped, ".step"));
+    w.put("mine/bare.cir", bare);
+    expect_same_bytes(
+        first_measures(*w.sweep("netlist = 'mine/bare.cir'\nunits = 3\nseed = 11\n[[vary]]\nwhat = 'r'\nlist = ['1k', '1.5kohm']\n"
+                                "[[vary]]\nwhat = 'temp'\nfrom = -40\nto = '85C'\ncount = 3\n[[vary]]\nwhat = 'process'\n"
+                                "[[vary]]\nwhat = 'mismatch'\n")),
+        expected);
+    // What the file says goes before what the netlist says, word by word.
+    const auto fewer = w.sweep("netlist = 'mine/x.cir'\nunits = 2\n[[vary]]\nwhat = 'temp'\nlist = [85]\n");
+    expect_same_bytes(first_measures(*fewer), std::vector<double>{expected[6], expected[7], expected[15], expected[16]});
+    for (const auto& f : fewer->facts()) {
+        EXPECT_EQ(f.name.find(w.path("")), std::string::npos) << f.name;
+        EXPECT_EQ(f.text.find(w.path("")), std::string::npos) << f.name;
+    }
+}
+
+TEST(SweepFile, AUnitIsTheSameWhoeverRunsItAndWhateverRanBefore) {
+    const Written w;
+    expect_the_same_whoever_runs(
+        *w.sweep("netlist = 'circuits/quiescent.cir'\nunits = 40\nmeasures = ['v(qa)', 'i(visa)']\nset.corner = 'mc'\n"
+                 "[[vary]]\nwhat = 'process'\n[[vary]]\nwhat = 'mismatch'\n"));
+    expect_the_same_whoever_runs(
+        *w.sweep("afferent = 'sa1'\nunits = 100\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\nhow = 'latin'\n[[vary]]\n"
+                 "what = 'press.t_hold'\nhow = 'uniform'\nfrom = '0.1s'\nto = '0.3s'\n"));
+    expect_the_same_whoever_runs(
+        *w.sweep("afferent = 'fsr+sa1'\nunits = 4\ntraces = ['u']\nevery = '10ms'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n"));
+}
+
+TEST(SweepFile, UnitsOnLanesAnswerAsOneAfferentAloneDoes) {
+    const Written w;
+    const auto s =
+        w.sweep("afferent = 'sa1'\nunits = 70\n[[vary]]\nwhat = 'sa1.f_B'\nsigma = '10%'\n[[vary]]\nwhat = 'press.F_max'\nlist = [1, 3]\n");
+    const auto all = worked(*s);
+    for (const std::int64_t unit : {0, 69, 70, 139}) {
+        const auto values = s->values(unit);
+        const auto expected =
+            test::train("sa1", "press", {{fmt::format("sa1.f_B={}", values[0]), fmt::format("press.F_max={}", values[1])}});
+        expect_same_bytes(all.at(unit).spikes.at(0), expected);
+        EXPECT_EQ(all.at(unit).measures.at(0), static_cast<double>(expected.size()));
+    }
+}
+
+TEST(SweepFile, ChipsOfANetlistDrawAlikeWithinAndWithoutADesignOfTheirOwn) {
+    const Written w;
+    const std::string chip =
+        "A relaxer\n.lib '../process/tsmc180.lib' tt\n.param c=10n\niin 0 a dc 0.1u force 1u\nca a 0 {c}\n"
+        "b1 a 0 i={1m*v(a)*0.5*(1+tanh((v(s)-0.5)*20))}\nb2 t 0 v={0.5*(1+tanh((v(a)-1+0.8*v(s))*20))}\nr2 t s 1k\n"
+        "c2 s 0 10n\nm1 a 0 0 0 nch w=50u l=1u\n.spike v(s) 0.5\n.tran 1m 1 0 5m uic\n.end\n";
+    std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
+    w.put("process/tsmc180.lib", test::read_file(test::root() + "/process/tsmc180.lib"));
+    w.put("mine/x.cir", chip);
+    const std::string head =
+        "afferent = 'mine/x.cir'\nforce = 'step'\nrate = '1kHz'\nunits = 3\ntraces = ['a']\n"
+        "measures = ['spikes', 'spikes.hold', 'first_spike', 'power']\n[set]\nstep.t_rest = '10ms'\nstep.t_hold = '50ms'\n"
+        "step.t_post = '10ms'\n[[vary]]\nwhat = 'mismatch'\n";
+    const auto plain = w.sweep(head), wider = w.sweep(head + "[[vary]]\nwhat = 'c'\nlist = ['10nF', '20nF']\n");
+    const auto one = worked(*plain), more = worked(*wider);
+    for (std::int64_t unit = 0; unit < 3; ++unit) {
+        ASSERT_GT(one.at(unit).spikes.at(0).size(), 3u) << one.at(unit).why;
+        expect_same_bytes(one.at(unit).spikes[0], more.at(unit).spikes.at(0));
+        expect_same_bytes(one.at(unit).measures, more.at(unit).measures);
+        EXPECT_LT(more.at(3 + unit).spikes.at(0).size(), one.at(unit).spikes[0].size());
+        EXPECT_EQ(one.at(unit).traces.at(0).size(), plain->trace_times().size());
+    }
+    EXPECT_NE(one.at(0).spikes[0], one.at(1).spikes[0]);
+    EXPECT_EQ(worked(*w.sweep("iterations = 20\n" + head)).at(2).end, UnitEnd::capped);
+    EXPECT_EQ(plain->facts().back().name, "drawn");
+    expect_the_same_whoever_runs(*wider);
+}
+
+TEST(SweepFile, ALimitIsTwoNumbersOrWhatAModelSaysUnderTheSameForce) {
+    const Written w;
+    const auto s = w.sweep(
+        "afferent = 'sa1b+lif-b'\nmeasures = ['first_spike']\n[limits]\nspikes = {like = 'sa1', within = 3}\nfirst_spike = "
+        "{at_most = '320ms'}\npeak_rate.plateau = ['1Hz', '1kHz']\nlast_spike = {like = 'sa1', within = '10%'}\n");
+    const auto model = test::train("sa1");
+    std::map<std::string, SweepColumn> columns;
+    for (const auto& c : s->measures()) columns[c.name] = c;
+    EXPECT_EQ(s->measures()[0].name, "first_spike");
+    EXPECT_EQ(columns.at("spikes").at_least, static_cast<double>(model.size()) - 3);
+    EXPECT_EQ(columns.at("spikes").at_most, static_cast<double>(model.size()) + 3);
+    EXPECT_FALSE(columns.at("first_spike").at_least);
+    EXPECT_EQ(columns.at("first_spike").at_most, 0.32);
+    EXPECT_EQ(columns.at("peak_rate.plateau").at_most, 1000);
+    EXPECT_DOUBLE_EQ(*columns.at("last_spike").at_least, 0.9 * model.back());
+}
+
+TEST(SweepFile, ErrorsSayWhereAndWhatWouldBeRight) {
+    const Written w;
+    const std::pair<const char*, const char*> wrong[] = {
+        {"afferent = 'sa1'\nunit = 3\n[[vari]]\n", "3:3: there is no 'vari'; did you mean 'vary'?"},
+        {"afferent = sa1\n", "1:12: "},
+        {"afferent = 'sa3'\n", "1:12: unknown afferent 'sa3'"},
+        {"units = 3\n", "nothing says what the sweep is of"},
+        {"afferent = 'sa1'\nnetlist = 'x.cir'\n", "2:11: a sweep is of one thing"},
+        {"netlist = 'circuits/bais.cir'\n",
+         "1:11: there is no netlist 'circuits/bais.cir' beside the sweep file, nor does the program carry one "
+         "of this name; did you mean 'circuits/bias.cir'?"},
+        {"afferent = 'sa1'\nunits = 2.5\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "2:9: units = 2.5 is no whole number"},
+        {"afferent = 'sa1'\nunits = [1]\n", "2:9: units is a list; a text or a number is wanted"},
+        {"afferent = 'sa1'\nunits = 5\n", "2:9: units = 5, but nothing is drawn"},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "3:8: f_B is drawn, but nobody says how often"},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_BB'\nlist = [1]\n", "3:8: sa1: unknown parameter 'f_BB'; did you mean 'f_B'?"},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nlist = ['20Hz', '-3Hz']\n", "4:17: f_B: -3 Hz is outside ["},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nlist = ['20V']\n", "4:9: f_B: "},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nfrom = 1\nto = 2\n", "3:8: f_B: count is missing"},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nfrom = 1\ncount = 2\n", "3:8: f_B: to is missing"},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nhow = 'sobl'\n", "4:7: f_B: how = \"sobl\" is unknown; did you mean 'sobol'?"},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nlist = [1]\nsigma = 2\n", "5:9: f_B: 'sigma' has no meaning for how = \"list\""},
+        {"afferent = 'sa1'\n[[vary]]\nlist = [1]\n", "2:1: [[vary]]: what varies is missing"},
+        {"afferent = 'sa1'\nunits = 2\n[[vary]]\nwhat = 'process'\n", "4:8: sa1 is made of equations; 'process' is of a circuit's chips"},
+        {"afferent = 'sa1'\nset.press.F_mox = 2\n", "2:19: press: unknown parameter 'F_mox'; did you mean 'F_m"},
+        {"afferent = 'sa1'\nmeasures = ['spikes', 'spikes.plato']\n",
+         "2:23: there is no measure 'spikes.plato'; did you mean 'spikes.plateau'?"},
+        {"afferent = 'sa1'\n[limits]\nspiks = [1, 2]\n", "3:1: there is no measure 'spiks'; did you mean 'spikes'?"},
+        {"afferent = 'sa1'\n[limits]\nspikes = [3, 2]\n", "3:11: spikes: nothing is at least this and at most that"},
+        {"afferent = 'sa1'\n[limits]\nspikes = {lik = 'sa1'}\n", "3:11: spikes: there is no 'lik'; did you mean 'like'?"},
+        {"afferent = 'sa1'\nforce = 'pres'\n", "2:9: unknown stimulus 'pres'; did you mean 'press'? (and there is no file 'pres')"},
+        {"afferent = 'sa1'\ntraces = ['w']\n", "2:11: traces: sa1 has no 'w'"},
+        {"netlist = 'circuits/bias.cir'\n[[vary]]\nwhat = 'suply'\nlist = [1]\n",
+         "3:8: suply: circuits/bias.cir has no parameter or device 'suply'; "
+         "did you mean 'supply'?"},
+        {"netlist = 'circuits/bias.cir'\n[[vary]]\nwhat = 'corner'\nlist = ['tt', 'sx']\n", "4:15: "},
+        {"netlist = 'circuits/bias.cir'\nmeasures = ['v(qq)']\n", "2:13: the netlist has no number 'v(qq)'; did you mean 'v(q)'?"},
+        {"netlist = 'circuits/bias.cir'\nunits = 2\nset.mismatch = 7\n[[vary]]\nwhat = 'mismatch'\n", "[set] chooses one chip"},
+    };
+    for (const auto& [text, expected] : wrong) {
+        const auto said = w.refusal(text);
+        EXPECT_NE(said.find(expected), std::string::npos) << text << "\n  says  " << said << "\n  not   " << expected;
+    }
+}
+
+TEST(SweepFile, WhatIsLaidOutOtherwiseIsTheSameSweep) {
+    const Written w;
+    const auto a = w.sweep("# one\nunits = 3\nafferent = 'sa1'\n[set]\n'press.F_max' = 2\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
+    const auto b =
+        w.sweep("afferent   = \"sa1\"  # two\nunits = 3\nset = {'press.F_max' = 2}\n\n[[vary]]\nsigma = '5%'\nwhat = 'f_B'\n", "y.toml");
+    ASSERT_EQ(a->facts().size(), b->facts().size());
+    for (std::size_t k = 0; k < a->facts().size(); ++k) EXPECT_EQ(a->facts()[k].text, b->facts()[k].text) << a->facts()[k].name;
+    const auto c = w.sweep("afferent = 'sa1'\nunits = 3\n[set]\n'press.F_max' = 3\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
+    EXPECT_NE(a->facts().at(2).text, c->facts().at(2).text);
+}
+
+/// The examples, with few units.
+TEST(SweepFile, TheExamplesRun) {
+    const Written w;
+    int count = 0;
+    for (const auto& file : std::filesystem::directory_iterator(test::root() + "/examples/sweeps")) {
+        const auto whole = test::read_file(file.path().string());
+        EXPECT_GT(test::sure(read_sweep(file.path().string()))->units(), 50);
+        const auto s = w.sweep(std::regex_replace(whole, std::regex("units( *)= [0-9]+"), "units = 2"));
+        const auto all = worked(*s, {0, s->units() - 1});
+        for (const auto& [unit, o] : all) {
+            EXPECT_EQ(o.end, UnitEnd::done) << file.path() << o.why;
+            EXPECT_TRUE(std::isfinite(o.measures.at(0))) << file.path();
+        }
+        EXPECT_EQ(all.size(), 2u);
+        ++count;
+    }
+    EXPECT_GE(count, 5);
+}
+
+}  // namespace
+}  // namespace corpuscle
