@@ -1,5 +1,5 @@
 // What do rank 0's parts of a sweep cost: a row written, an outcome in a message, a message, a block? And what is a file of 1e6 rows like?
-//   bench-sweep [UNITS]                 rows: 1e6 units, 6 axes, 10 measures, a train of 15 spikes; random numbers
+//   bench-sweep [UNITS [FOLDER]]        rows: 1e6 units, 6 axes, 10 measures, a train of 15 spikes; random numbers
 //   mpirun -n 2 bench-sweep             messages between two ranks (what -n 2 binds to different cores)
 // Rows go through SweepResults::add in batches of 8192, each a transaction on disk; then the file is folded, and asked. One run; times of
 // the wall, and of the processor, which is what rank 0 has to give: others at work on the machine change it less. Messages: the mean of
@@ -76,8 +76,8 @@ void ask(const SweepResults& results, const char* query) {
     fmt::print("  {:.3f} s  {}  ({})\n", since(begun), query, answer ? *answer : -1);
 }
 
-int rows(std::int64_t units) {
-    const std::string path = "bench-sweep.sqlite";
+int rows(std::int64_t units, const std::string& folder) {
+    const std::string path = folder + "/bench-sweep.sqlite";
     std::filesystem::remove(path);
     const Drawn sweep(units);
     auto results = SweepResults::open(path, sweep);
@@ -101,8 +101,9 @@ int rows(std::int64_t units) {
     const auto begun = Clock::now();
     const auto folded = results->fold();
     const auto n = static_cast<double>(units);
-    fmt::print("{} rows: {:.2f} us a row ({:.0f} a second); to pack an outcome {:.2f} us, to unpack it {:.2f} us\n", units,
-               writing / n * 1e6, n / writing, packing / n * 1e6, unpacking / n * 1e6);
+    fmt::print("{} rows: {:.2f} us of the processor a row, {:.2f} us of the wall ({:.0f} a second)\n", units, writing / n * 1e6,
+               writing_wall / n * 1e6, n / writing_wall);
+    fmt::print("to pack an outcome {:.2f} us, to unpack it {:.2f} us of the processor\n", packing / n * 1e6, unpacking / n * 1e6);
     fmt::print("folded in {:.2f} s{}: {:.0f} MB, {:.0f} bytes a row; memory {:.0f} MB after a tenth, {:.0f} MB in the end\n", since(begun),
                folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
                static_cast<double>(std::filesystem::file_size(path)) / n, at_tenth, memory_MB());
@@ -142,7 +143,7 @@ int messages() {
         while (ranks.unsent() > 0) {
         }
         if (first)
-            fmt::print("a message of {} bytes: {:.2f} us there, {:.2f} us of rank 0 to receive one and send one\n", size,
+            fmt::print("a message of {} bytes: {:.2f} us there; {:.2f} us of rank 0's processor to receive one and send one\n", size,
                        since(begun) / count / 2 * 1e6, at_work / count * 1e6);
     }
     ranks.leave(true);
@@ -151,4 +152,6 @@ int messages() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return Ranks::are_started() ? messages() : rows(argc > 1 ? std::atoll(argv[1]) : 1'000'000); }
+int main(int argc, char** argv) {
+    return Ranks::are_started() ? messages() : rows(argc > 1 ? std::atoll(argv[1]) : 1'000'000, argc > 2 ? argv[2] : ".");
+}

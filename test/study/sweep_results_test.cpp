@@ -207,8 +207,12 @@ TEST(SweepResults, OnAFullDiskKeepWhatWasWrittenAndSayWhatToDo) {
         const rlimit limit{400'000, 400'000};
         ::setrlimit(RLIMIT_FSIZE, &limit);
         auto results = sure(SweepResults::open(path, sweep));
-        SweepCount count;
-        const auto ok = run_sweep(sweep, results, {.between_writes = 0.02}, count);
+        Result<void> ok;
+        for (std::int64_t unit = 0; ok && unit < sweep.units(); unit += 100) {
+            std::vector<UnitOutcome> some;
+            for (std::int64_t k = unit; k < unit + 100; ++k) some.push_back(sweep.outcome(k));
+            ok = results.add(sweep, std::move(some));
+        }
         if (ok || ok.error().text().find("the disk is full; all that was written before is kept: make room") == std::string::npos)
             throw std::runtime_error(ok ? "all of it fitted" : ok.error().text());
         const rlimit less{40'000, 40'000};

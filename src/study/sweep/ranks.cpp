@@ -120,13 +120,13 @@ Result<std::unique_ptr<Ranks>> Ranks::join() {
 void Ranks::Held::begin_receiving() {
     for (;;) {
         int there = 0;
-        MPI_Message message = {};
+        MPI_Message found = {};
         MPI_Status status = {};
-        if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &there, &message, &status) != MPI_SUCCESS || !there) return;
+        if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &there, &found, &status) != MPI_SUCCESS || !there) return;
         int size = 0;
         mpi.count(&status, mpi.byte, &size);
         auto& m = coming.emplace_back(UnderWay{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0'), {}});
-        if (mpi.imrecv(m.bytes.data(), size, mpi.byte, &message, &m.request) != MPI_SUCCESS) coming.pop_back();
+        if (mpi.imrecv(m.bytes.data(), size, mpi.byte, &found, &m.request) != MPI_SUCCESS) coming.pop_back();
     }
 }
 

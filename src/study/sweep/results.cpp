@@ -76,7 +76,10 @@ Result<void> SweepResults::Held::open_file(int flags) {
 Result<void> SweepResults::Held::begin_writing() {
     if (writing) return {};
     if (!lock) return bad_input("was opened to be looked at, not to be written", {path});
-    if (auto ok = sql::run(file.get(), path, "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL"); !ok)
+    if (auto ok =
+            sql::run(file.get(), path,
+                     "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL; PRAGMA cache_size = -32768");
+        !ok)
         return ok;
     const auto make = [&](const std::string& text, sql::Statement& out) -> Result<void> {
         auto made = sql::Statement::make(file.get(), path, text);
