@@ -42,6 +42,8 @@ Result<Trim> trim_said(const std::string& text, const ChipCalibration& asked) {
 }
 
 /// Model, touch and limits.
+constexpr double first = 20e-3;  // s, that the first spike may be off
+
 Result<void> aim(ChipCalibration& asked, const std::string& model, const SweepCalibrateWords& words) {
     const Asked press{model, words.force, {}, 10e3};
     const auto touch = touch_of(press);
@@ -57,7 +59,7 @@ Result<void> aim(ChipCalibration& asked, const std::string& model, const SweepCa
     }
     const double end = static_cast<double>(asked.force.size()) * asked.T;
     if (end > from) phases.push_back({from, end});
-    asked.limits = FiringLimits::about(*train, phases, 10e-3);
+    asked.limits = FiringLimits::about(*train, phases, first);
     return {};
 }
 

@@ -35,7 +35,7 @@ Result<OperatingPoint> TestBench::rest() {
     return found;
 }
 
-Result<OperatingPoint> TestBench::rest_held() { return circuit->ic.empty() ? rest() : operating_point(newton, begun_, held()); }
+Result<OperatingPoint> TestBench::rest_held() { return operating_point(newton, circuit->ic.empty() ? designed_ : begun_, held()); }
 
 /// Chips are solved from where the circuit rests as designed, along the pivots of its matrix there.
 void TestBench::prepare() {

@@ -48,7 +48,7 @@ public:
     bool stopped(double share) const { return stop && stop(share); }
     /// Where the circuit rests; searched for once.
     Result<OperatingPoint> rest();
-    /// The same with the nodes of .ic held; not kept.
+    /// As its sources stand now, with the nodes of .ic held; not kept.
     Result<OperatingPoint> rest_held();
     Springs held() const;  ///< by .ic; none if there is no .ic
     void draw(const Draw&);
