@@ -19,8 +19,8 @@ namespace {
 
 using test::Folder, test::MadeSweep, test::sure;
 
-std::vector<Factor> noise_factors(std::uint64_t seed, std::size_t units, std::size_t factors) {
-    std::vector<Factor> out(factors);
+std::vector<SweepFactor> noise_factors(std::uint64_t seed, std::size_t units, std::size_t factors) {
+    std::vector<SweepFactor> out(factors);
     for (std::size_t f = 0; f < factors; ++f)
         for (std::size_t k = 0; k < units; ++k) out[f].push_back(normal(seed, static_cast<std::uint32_t>(f), 1, k));
     return out;
@@ -77,7 +77,7 @@ TEST(Sensitivity, AFactorThatIsMadeOfOthersOrNeverChangesDoesNoHarm) {
     EXPECT_NEAR(s.influences[0].share.value, 1, 1e-9);
     EXPECT_NEAR(s.explained, 1, 1e-9);
     EXPECT_TRUE(sensitivity_of(std::vector<double>(200, 3.0), factors).influences.empty());
-    EXPECT_TRUE(sensitivity_of(std::vector<double>{1, 2}, std::vector<Factor>{{1, 2}}).influences.empty());
+    EXPECT_TRUE(sensitivity_of(std::vector<double>{1, 2}, std::vector<SweepFactor>{{1, 2}}).influences.empty());
 }
 
 TEST(Sensitivity, FourTimesTheAreaHalvesWhatADeviceBrings) {

@@ -113,7 +113,7 @@ bool take(Plane& plane, std::vector<Candidate>&& found, std::size_t most, const 
 
 }  // namespace
 
-Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Factor> factors) {
+Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors) {
     std::vector<std::size_t> units;
     for (std::size_t k = 0; k < measure.size(); ++k)
         if (std::isfinite(measure[k])) units.push_back(k);

@@ -11,7 +11,7 @@
 namespace corpuscle {
 
 /// What a measure may depend on: a number a unit.
-using Factor = std::vector<double>;
+using SweepFactor = std::vector<double>;
 
 /// A factor that is found to matter.
 struct Influence {
@@ -35,7 +35,7 @@ inline constexpr double false_discoveries = 0.01;
 /// ones are taken whose correlation with what is not yet explained is beyond chance; then a plane is laid through all that were taken.
 /// For a factor that is a normal deviate the chance is exact however the measure is distributed: given the measure, the correlation of
 /// independent normal numbers follows Student's t.
-Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Factor> factors);
+Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors);
 
 /// What points of a grid bring: the share of the variance that lies between groups (omega squared), and its chance by Fisher's F.
 struct Between {

@@ -111,10 +111,10 @@ std::ptrdiff_t subject_of(const std::string& measure, const Drawn& drawn) {
 
 /// All that may matter, as factors; those of axes for every measure, those of devices for measures of their own netlist.
 struct Factors {
-    std::vector<Factor> axes;
+    std::vector<SweepFactor> axes;
     std::vector<NamedInfluence> axis_names;
     struct OfSubject {
-        std::vector<Factor> values;
+        std::vector<SweepFactor> values;
         std::vector<NamedInfluence> names;
     };
     std::vector<OfSubject> subjects;
@@ -135,7 +135,7 @@ Factors factors_of(const SweepTable& table, const std::optional<Drawn>& drawn, c
             if (devices[d].sigma_VT == 0 && devices[d].sigma_IS == 0) continue;
             auto own = deviates_of(devices[d], drawn->seed, means.chips());
             const NamedInfluence name{devices[d].name, "", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
-            const auto add = [&](double sigma, const char* part, Factor& values) {
+            const auto add = [&](double sigma, const char* part, SweepFactor& values) {
                 if (sigma == 0) return;
                 of.values.push_back(std::move(values)), of.names.push_back(name);
                 of.names.back().part = part;
@@ -154,8 +154,9 @@ std::vector<DeviceShare> device_shares(const std::vector<NamedInfluence>& influe
         if (at == out.end()) at = out.insert(at, {i.subject, i.device});
         (i.part.starts_with("V_T") ? at->V_T : at->I_S) += i.found.share.value;
     }
-    std::sort(out.begin(), out.end(),
-              [](const auto& a, const auto& b) { return std::tuple(-a.share(), a.subject, a.device) < std::tuple(-b.share(), b.subject, b.device); });
+    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+        return std::tuple(-a.share(), a.subject, a.device) < std::tuple(-b.share(), b.subject, b.device);
+    });
     return out;
 }
 
@@ -172,7 +173,7 @@ struct Searched {
 void add_squares(Factors::OfSubject& own) {
     const auto count = own.values.size();
     for (std::size_t f = 0; f < count; ++f) {
-        Factor squares;
+        SweepFactor squares;
         for (const double x : own.values[f]) squares.push_back(x * x);
         own.values.push_back(std::move(squares)), own.names.push_back(own.names[f]);
         own.names.back().part += " squared";
