@@ -3,6 +3,7 @@
 #include "study/sweep/results.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <csignal>
