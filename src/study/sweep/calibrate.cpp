@@ -213,8 +213,8 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob
     std::vector<std::string_view> parameters;
     for (const auto& [parameter, value] : circuit->parameters) parameters.push_back(parameter);
     return bad_input(
-        fmt::format("trim '{}': {} says no such number{}; it is a .param of the top level, or one of a device, such as 'summer.n3b.m'",
-                    names[0], netlist, did_you_mean(wanted, parameters)));
+        fmt::format("trim '{}': {} says no such number, a .param of the top level or one of a device, such as 'summer.n3b.m'{}", names[0],
+                    netlist, did_you_mean(wanted, parameters)));
 }
 
 Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& asked, const std::vector<Draw>& chips) {
