@@ -134,7 +134,8 @@ int main(int argc, char** argv) {
         shares.push_back({&e, correlation(order, threshold), correlation(order, current)});
         ++number;
     }
-    std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.all() > b.all(); });
+    std::sort(shares.begin(), shares.end(),
+              [](const Share& a, const Share& b) { return std::pair(-a.all(), a.device) < std::pair(-b.all(), b.device); });
     std::vector<Knob> all;
     for (std::size_t k = 0; k < 8; ++k)
         fmt::print("  {:20} threshold {:+.2f}, current {:+.2f}\n", shares[k].device->name, shares[k].by_threshold, shares[k].by_current);

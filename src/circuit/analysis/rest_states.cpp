@@ -57,7 +57,7 @@ public:
         return out;
     }
     std::vector<RestState> take() {
-        std::stable_sort(found_.begin(), found_.end(), [](const RestState& a, const RestState& b) {
+        std::sort(found_.begin(), found_.end(), [](const RestState& a, const RestState& b) {
             return std::tuple(!a.usual, !a.stable, a.x) < std::tuple(!b.usual, !b.stable, b.x);
         });
         return std::move(found_);
@@ -108,7 +108,7 @@ std::vector<std::size_t> differing(const TestBench& bench, const RestState& a, c
     std::vector<std::size_t> out;
     for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n)
         if (off(n) > apart) out.push_back(n);
-    std::stable_sort(out.begin(), out.end(), [&](std::size_t m, std::size_t n) { return off(m) > off(n); });
+    std::sort(out.begin(), out.end(), [&](std::size_t m, std::size_t n) { return std::pair(-off(m), m) < std::pair(-off(n), n); });
     return out;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "circuit/path_names.hpp"
+#include "signal/field.hpp"
 #include "signal/pool.hpp"
 #include "signal/text.hpp"
 
@@ -209,9 +210,11 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob
         const auto& values = circuit->elements[found[0]].values;
         if (const auto v = values.find(wanted.substr(dot + 1)); v != values.end()) return Trim{std::move(names), v->second, range, whole};
     }
+    std::vector<std::string_view> parameters;
+    for (const auto& [parameter, value] : circuit->parameters) parameters.push_back(parameter);
     return bad_input(
-        fmt::format("trim '{}': {} says no such number; it is a .param of the top level, or one of a device, such as 'summer.n3b.m'",
-                    names[0], netlist));
+        fmt::format("trim '{}': {} says no such number, a .param of the top level or one of a device, such as 'summer.n3b.m'{}", names[0],
+                    netlist, did_you_mean(wanted, parameters)));
 }
 
 Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& asked, const std::vector<Draw>& chips) {
