@@ -140,7 +140,7 @@ void add_netlist_words(CLI::App& verb, NetlistWords& w) {
         ->type_name("CORNER")
         ->group(group);
     verb.add_option("--mismatch", w.mismatch, "one chip, each transistor with a threshold and current of its own, in place of .mc")
-        ->type_name("SEED")
+        ->type_name("SEED[/CHIP]")
         ->group(group);
     verb.add_option("--trace", w.traces,
                     "show these in place of what .save names: vf, v(a,b), i(vdd), i(N3B): into a device's drain or first end, channel and "

@@ -8,6 +8,7 @@
 #include "report/sweep_plots.hpp"
 #include "report/template.hpp"
 #include "signal/version.hpp"
+#include "study/sweep/drawn.hpp"
 #include "study/sweep/sweep_document.hpp"
 
 namespace corpuscle {
@@ -132,6 +133,10 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
         for (const auto& one : g.by.groups) labels.push_back(one.label.empty() ? "all units" : one.label);
         page["groupings"].push_back({{"name", g.name}, {"groups", labels}});
     }
+    if (const auto drawn = drawn_of(results.about(drawn_fact)))
+        page["alone"] = fmt::format(
+            "One chip by itself: corpuscle respond or run with the sweep's settings and --mismatch {}/CHIP; CHIP is the unit's number{}.",
+            drawn->seed, drawn->chips > 0 ? fmt::format(" modulo {}", drawn->chips) : "");
     page["histograms"] = Json::array(), page["normal_plots"] = Json::array(), page["extremes"] = Json::array();
     ShownRows shown(table);
     for (const auto& values : table.measure_values) {

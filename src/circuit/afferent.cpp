@@ -188,7 +188,7 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
         if (!times) return times.error();
         design->times = *times;
     }
-    if (circuit->mismatch) design->chips = Chips{1, *circuit->mismatch};
+    if (circuit->mismatch) design->chips = Chips{1, *circuit->mismatch, true, true, circuit->chip};
     if (shown->empty()) shown->push_back({output->value().text, output->value().of});
     design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown),
     design->kept = std::move(*kept);

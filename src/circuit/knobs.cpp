@@ -192,11 +192,18 @@ Result<double> temperature_of(const Knob& knob) {
     return *value;
 }
 
-Result<std::uint64_t> seed_of(const Knob& knob) {
-    const auto value = parse_quantity(knob.value, "");
-    if (!value || !(*value >= 0 && *value < 0x1p53) || *value != std::floor(*value))
-        return refused(knob, fmt::format("'{}' is no seed; write a whole number from 0 to 2^53", knob.value));
-    return static_cast<std::uint64_t>(*value);
+/// "7", or "7/41": a seed, and the number of the chip, from 0.
+Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const Knob& knob) {
+    const std::string_view text = knob.value;
+    const auto slash = text.find('/');
+    std::uint64_t out[2] = {};
+    for (std::size_t k = 0; k < (slash == text.npos ? 1u : 2u); ++k) {
+        const auto value = parse_quantity(k == 0 ? text.substr(0, slash) : text.substr(slash + 1), "");
+        if (!value || !(*value >= 0 && *value < 0x1p53) || *value != std::floor(*value))
+            return refused(knob, fmt::format("'{}' is no seed; write a whole number from 0 to 2^53, or SEED/CHIP", knob.value));
+        out[k] = static_cast<std::uint64_t>(*value);
+    }
+    return std::pair(out[0], out[1]);
 }
 
 /// The error of a corner that no library has, under the knob's own name.
@@ -251,9 +258,9 @@ Result<Netlist> tuned(const NetlistOpener& open, const std::string& name, std::s
             if (!value) return value.error();
             changes.temperature = *value;
         } else if (what == "mismatch") {
-            const auto value = seed_of(knob);
-            if (!value) return value.error();
-            changes.mismatch = *value;
+            const auto chip = chip_of(knob);
+            if (!chip) return chip.error();
+            changes.mismatch = chip->first, changes.chip = chip->second;
         } else if (std::find(parameters.begin(), parameters.end(), what) != parameters.end()) {
             if (auto ok = set_parameter(knob, what, changes); !ok) return ok.error();
         } else if (knob.parameter_alone) {

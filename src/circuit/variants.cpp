@@ -71,9 +71,14 @@ Result<Chips> chips_of(const Command& c) {
 }
 
 Draw Chips::draw(std::uint64_t chip) const {
-    Draw out{seed, chip, mismatch, {}};
-    if (process) std::copy_n(process_deviates(seed, chip).of, 4, out.process);
+    Draw out{seed, first + chip, mismatch, {}};
+    if (process) std::copy_n(process_deviates(seed, first + chip).of, 4, out.process);
     return out;
+}
+
+std::optional<Draw> own_draw(const Circuit& c) {
+    if (!c.mismatch) return {};
+    return Chips{1, *c.mismatch, true, true, c.chip}.draw(0);
 }
 
 Result<Variants> Variants::of(const Netlist& netlist) {
@@ -155,7 +160,7 @@ Result<Variant> Variants::at(std::size_t number) {
     const std::size_t draws = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % draws;
     if (auto ok = step(number / draws); !ok) return ok.error();
     Variant out{last_->label, last_->circuit, {}};
-    if (out.circuit->mismatch) out.draw = Chips{1, *out.circuit->mismatch}.draw(0);
+    out.draw = own_draw(*out.circuit);
     if (!this->draws()) return out;
     out.draw = chips_.draw(chip);
     out.label += fmt::format("{}mc={}", out.label.empty() ? "" : " ", chip + 1);

@@ -19,10 +19,13 @@ struct Chips {
     double count = 0;
     std::uint64_t seed = 0;
     bool process = true, mismatch = true;
+    std::uint64_t first = 0;  ///< the number of the first
 
-    Draw draw(std::uint64_t chip) const;  ///< of the first, 0, and so on
+    Draw draw(std::uint64_t chip) const;  ///< 0: of the first, and so on
 };
 Result<Chips> chips_of(const Command&);
+/// The chip that a circuit is, if its mismatch is set.
+std::optional<Draw> own_draw(const Circuit&);
 
 /// .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS; NAME may be temp (without
 /// param). Several .step lines: every value of the first with every of the second. .mc COUNT [seed=S] [process=0] [mismatch=0]: each

@@ -58,6 +58,7 @@ Result<void> tell(AfferentPlan& plan, const CircuitDesign& design) {
     if (changes.mismatch)
         told->add("mismatch", "seed of the chip's own thresholds and currents", static_cast<double>(*changes.mismatch),
                   static_cast<double>(*changes.mismatch), true);
+    if (changes.chip > 0) told->add("chip", "its number among those of the seed", 0, static_cast<double>(changes.chip), true);
     plan.values = told->values;
     plan.parameters = {told, &told->parameters};
     return {};

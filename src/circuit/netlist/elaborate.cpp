@@ -201,7 +201,7 @@ private:
             c.temperature = *value;
         }
         c.temperature = flat_.changes.temperature.value_or(c.temperature);
-        c.mismatch = flat_.changes.mismatch;
+        c.mismatch = flat_.changes.mismatch, c.chip = flat_.changes.chip;
         return {};
     }
 

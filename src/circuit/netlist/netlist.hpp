@@ -72,7 +72,8 @@ struct Circuit {
     std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
     std::vector<Error> remarks;                                    ///< what deserves a warning, such as "1F is a femtofarad"
     Values parameters;                                             ///< .param of the top level
-    std::optional<std::uint64_t> mismatch;                         ///< it is the first chip of a draw of this seed
+    std::optional<std::uint64_t> mismatch;                         ///< it is a chip of a draw of this seed,
+    std::uint64_t chip = 0;                                        ///< the one of this number; copies are those that follow
 
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< by name, as elaborate() leaves them
 
@@ -87,6 +88,7 @@ struct Changes {
     std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by their names with their paths; "" is the value of R C L V I ...
     std::optional<double> temperature;                   ///< C
     std::optional<std::uint64_t> mismatch;               ///< the seed of the chip that is drawn; then .mc is left out
+    std::uint64_t chip = 0;                              ///< its number
     std::vector<std::string> saved;                      ///< as if a .save named them
     bool numbers_changed() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch; }
     bool saved_alone = false;  ///< in place of every .save

@@ -253,8 +253,8 @@ Result<void> AnalysesSweep::work(const Next& next, const Told& told, const std::
             told(outcome(*unit, ok.error()));
             continue;
         }
-        if (const auto& seed = at.bench->circuit->mismatch)
-            at.bench->draw(circuit::Chips{1, *seed}.draw(0));
+        if (const auto own = circuit::own_draw(*at.bench->circuit))
+            at.bench->draw(*own);
         else if (const auto draw = plan_.draw(*unit))
             at.bench->draw(*draw);
         at.bench->most_iterations = most, at.bench->capped = false;

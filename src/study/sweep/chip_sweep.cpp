@@ -164,7 +164,7 @@ Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
 }
 
 std::optional<circuit::Draw> ChipSweep::draw(std::int64_t unit, const CircuitDesign& design) const {
-    if (design.circuit->mismatch) return circuit::Chips{1, *design.circuit->mismatch}.draw(0);
+    if (auto own = circuit::own_draw(*design.circuit)) return own;
     return plan_.draw(unit);
 }
 
@@ -174,11 +174,10 @@ long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
     const std::lock_guard lock(nominal_guard_);
     if (most_by_nominal_) return *most_by_nominal_;
     const auto& force = *force_.nominal();
-    const auto& seed = nominal_->circuit->mismatch;
-    const auto chip = seed ? std::optional(circuit::Chips{1, *seed}.draw(0)) : std::nullopt;
     circuit::BatchOptions options;
     options.stop = stop;
-    const auto answer = circuit::run_chip_alone({0, nominal_, chip, force.samples, force.clock.T()}, options);
+    const auto answer =
+        circuit::run_chip_alone({0, nominal_, circuit::own_draw(*nominal_->circuit), force.samples, force.clock.T()}, options);
     if (answer.error && answer.error->code == Code::interrupted) return 0;
     most_by_nominal_ = answer.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(answer.work.iterations));
     return *most_by_nominal_;
