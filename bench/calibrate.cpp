@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     const auto press = stimulus("press");
     asked.force = press.force, asked.T = 1 / press.rate;
     const Stretch phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
-    asked.limits = FiringLimits::about(respond(kind->model, press).spikes, phases, 20e-3);
+    asked.limits = FiringLimits::about(respond(kind->model, press).spikes, phases, 10e-3);
     asked.told = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
     fmt::print("{}, {} chips: {}\n", asked.netlist, count, asked.limits.text());
 

@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     const Chips chips{argc > 2 ? std::atof(argv[2]) : 200, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, false, true};
     const auto press = stimulus("press");
     const Stretch phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
-    const auto limits = FiringLimits::about(respond(model, press).spikes, phases, 20e-3);
+    const auto limits = FiringLimits::about(respond(model, press).spikes, phases, 10e-3);
     fmt::print("{}: {}\n", netlist, limits.text());
 
     const auto designed = design_of(netlist, {});

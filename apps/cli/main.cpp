@@ -375,7 +375,7 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common
     verb.footer(
         "Each chip is pressed and its spikes are counted; those of a phase may be a quarter more or fewer than the model's and at least "
         "one,\n"
-        "none before the force, the first within 20 ms. A chip beyond that is trimmed, coarse steps before fine ones, and pressed "
+        "none before the force, the first within 10 ms. A chip beyond that is trimmed, coarse steps before fine ones, and pressed "
         "again.\n\n"
         "Examples:\n  corpuscle sweep calibrate sa1-circuit\n  corpuscle sweep calibrate fa1-circuit --units 200 --bits 6 --apart\n"
         "  corpuscle sweep calibrate own.cir --like sa1 --trim i_leak=50% --trim x1.m3.m+x1.m4.m=25%");

@@ -42,7 +42,7 @@ Result<Trim> trim_said(const std::string& text, const ChipCalibration& asked) {
 }
 
 /// Model, touch and limits.
-constexpr double first = 20e-3;  // s, that the first spike may be off
+constexpr double first = 10e-3;  // s, that the first spike may be off
 
 Result<void> aim(ChipCalibration& asked, const std::string& model, const SweepCalibrateWords& words) {
     const Asked press{model, words.force, {}, 10e3};
