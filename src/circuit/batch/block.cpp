@@ -1,6 +1,7 @@
 #include "circuit/batch/block.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "circuit/device/transistor.hpp"
 #include "circuit/device/uicm.hpp"
@@ -42,26 +43,37 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     : terminals_(terminals_of(system)), transistors_(terminals_.size() / 4), alone_(others_of(system)) {
     const auto& p = system.pattern();
     const auto n = static_cast<std::size_t>(system.size()), entries = p.entries();
+    const auto list = elimination.list();
+    std::vector<std::size_t> order(entries);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return list.entry_slot[a] < list.entry_slot[b]; });
+    std::vector<int> columns(entries);
     for (int column = 0; column < p.size(); ++column)
         for (int e = p.begin()[static_cast<std::size_t>(column)]; e < p.begin()[static_cast<std::size_t>(column) + 1]; ++e)
-            row_.push_back(p.rows()[static_cast<std::size_t>(e)]), column_.push_back(column);
+            columns[static_cast<std::size_t>(e)] = column;
+    entry_.resize(entries + 1, entries);
+    for (const auto place : order) {
+        entry_[place] = row_.size();
+        row_.push_back(p.rows()[place]), column_.push_back(columns[place]), slot_.push_back(list.entry_slot[place]);
+    }
     for (int u = 0; u < system.size(); ++u) voltage_.push_back(system.is_voltage(u));
-    for (const auto& group : system.groups()) places_.insert(places_.end(), group.places.begin(), group.places.end());
+    for (const auto& group : system.groups())
+        for (const auto place : group.places) places_.push_back(entry_[place]);
     auto& b = block;
-    b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = elimination.list();
-    b.row = row_.data(), b.column = column_.data(), b.voltage = voltage_.data(), b.terminals = terminals_.data();
+    b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = list;
+    b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.voltage = voltage_.data(), b.terminals = terminals_.data();
     Rows rows;
-    for (auto* at : {&b.I, &b.Q, &b.q, &b.base, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.per_pivot, &b.work, &b.scale,
-                     &b.per_allowed, &b.relative, &b.floor})
+    for (auto* at : {&b.q, &b.base, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.per_pivot, &b.work, &b.scale, &b.per_allowed,
+                     &b.relative, &b.floor})
         rows.want(*at, n);
-    rows.want(b.x, n + 1);
-    for (auto* at : {&b.G, &b.C}) rows.want(*at, entries);
+    for (auto* at : {&b.x, &b.I, &b.Q}) rows.want(*at, n + 1);
+    for (auto* at : {&b.G, &b.C}) rows.want(*at, entries + 1);
     rows.want(b.slots, b.list.slots);
     for (auto* at : {&b.past_x, &b.past_q}) rows.want(*at, points * n);
     rows.want(b.looked, 4 * transistors_);
     rows.give(rows_);
     std::vector<char> stands(b.list.slots);
-    for (std::size_t e = 0; e < entries; ++e) stands[static_cast<std::size_t>(b.list.entry_slot[e])] = 1;
+    for (std::size_t e = 0; e < entries; ++e) stands[static_cast<std::size_t>(slot_[e])] = 1;
     for (std::size_t k = 0; k < b.list.slots; ++k)
         if (!stands[k]) fill_.push_back(static_cast<int>(k));
     b.fill = fill_.data(), b.fills = fill_.size();
@@ -82,7 +94,7 @@ void ChipMemory::set_linear(const System& system, std::size_t chip, const Instan
         const Device& d = *system.devices()[k];
         const auto n = d.unknowns.size();
         OtherDevice other{k, d.unknowns, {}, std::vector<double>(n), {}, std::vector<double>(2 * n + 2 * n * n), {}};
-        other.places.assign(system.places(k).begin(), system.places(k).end());
+        for (const auto place : system.places(k)) other.places.push_back(entry_[place]);
         if (!d.linear()) {
             other.before = other.line;
             others_[chip].push_back(std::move(other));
@@ -130,27 +142,38 @@ void ChipMemory::freshen(std::size_t chip) {
 }
 
 void ChipMemory::renew(std::size_t device, std::size_t chip, const double* now, std::size_t room) {
+    constexpr std::size_t row = lanes::chips;  // from one row to the next
     const double *const v = now, *const f = v + 4 * room, *const q = f + 4 * room, *const df = q + 4 * room, *const dq = df + 16 * room;
+    double *const I = block.I->of + chip, *const Q = block.Q->of + chip, *const G = block.G->of + chip, *const C = block.C->of + chip;
     StraightLine& old = lines_[chip * transistors_ + device];
-    const int* const terminal = terminals_.data() + 4 * device;
-    const std::size_t* const place = places_.data() + 16 * device;
-    for (std::size_t row = 0; row < 4; ++row) {
-        double i = f[row * room], charge = q[row * room];
-        for (std::size_t column = 0; column < 4; ++column) {
-            const std::size_t e = 4 * row + column;
-            const double g = df[e * room], c = dq[e * room];
-            i -= g * v[column * room], charge -= c * v[column * room];
-            if (place[e] < block.entries) {
-                if (row != Terminals::G) block.G[place[e]].of[chip] += g - old.g[e];  // no current goes into a gate
-                block.C[place[e]].of[chip] += c - old.c[e];
-            }
-            old.g[e] = g, old.c[e] = c;
+    double* const looked = block.looked[4 * device].of + chip;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const int* const terminal = terminals_.data() + 4 * device;
+        const std::size_t* const place = places_.data() + 16 * device + 4 * k;
+        double i = f[k * room], charge = q[k * room], *const g_old = old.g + 4 * k, *const c_old = old.c + 4 * k;
+        for (std::size_t j = 0; j < 4; ++j) {
+            const double g = df[(4 * k + j) * room], c = dq[(4 * k + j) * room];
+            i -= g * v[j * room], charge -= c * v[j * room];
+            if (k != Terminals::G) G[place[j] * row] += g - g_old[j];  // no current goes into a gate
+            C[place[j] * row] += c - c_old[j];
+            g_old[j] = g, c_old[j] = c;
         }
-        if (terminal[row] < static_cast<int>(block.unknowns))
-            block.I[terminal[row]].of[chip] += i - old.i[row], block.Q[terminal[row]].of[chip] += charge - old.q[row];
-        old.i[row] = i, old.q[row] = charge;
-        block.looked[4 * device + row].of[chip] = v[row * room];
+        const auto u = static_cast<std::size_t>(terminal[k]);
+        I[u * row] += i - old.i[k], Q[u * row] += charge - old.q[k];
+        old.i[k] = i, old.q[k] = charge;
+        looked[k * row] = v[k * room];
     }
+}
+
+/// What renew() will need next: most of it stands in a farther cache.
+void ChipMemory::fetch(const Picked& p) const {
+    const std::size_t* const place = places_.data() + 16 * p.device;
+    for (std::size_t e = 0; e < 16; ++e) {
+        __builtin_prefetch(block.G[place[e]].of, 1);
+        __builtin_prefetch(block.C[place[e]].of, 1);
+    }
+    const auto* const line = reinterpret_cast<const char*>(&lines_[p.chip * transistors_ + p.device]);
+    for (std::size_t at = 0; at < sizeof(StraightLine); at += 64) __builtin_prefetch(line + at, 1);
 }
 
 void ChipMemory::look(const lanes::ChipLanes& kernels, std::uint8_t chips, double gmin) {
@@ -170,7 +193,10 @@ void ChipMemory::look(const lanes::ChipLanes& kernels, std::uint8_t chips, doubl
         for (std::size_t j = 0; j < 4; ++j) v[j * room + k] = block.x[terminals_[4 * p.device + j]].of[p.chip];
     }
     kernels.picked({picked_of_.data(), picked_.size(), room, v, gmin, f, q, df, df + 16 * room});
-    for (std::size_t k = 0; k < picked_.size(); ++k) renew(picked_[k].device, picked_[k].chip, v + k, room);
+    for (std::size_t k = 0; k < picked_.size(); ++k) {
+        if (k + 1 < picked_.size()) fetch(picked_[k + 1]);
+        renew(picked_[k].device, picked_[k].chip, v + k, room);
+    }
 }
 
 bool ChipMemory::look_at_others(std::size_t chip, const System& system, const Instant& at, std::vector<double>& memory) {

@@ -19,17 +19,18 @@ struct StraightLine {
 struct OtherDevice {
     std::size_t number;  ///< in the system
     std::vector<int> unknowns;
-    std::vector<std::size_t> places;              ///< of its slopes; beyond all entries: of ground
+    std::vector<std::size_t> places;              ///< of its slopes, as entries; the last is of ground
     std::vector<double> v, looked, line, before;  ///< line: i, q, g, c, as in StraightLine
 };
 
 class ChipMemory {
     std::vector<lanes::Row> rows_;
-    std::vector<int> terminals_, row_, column_, fill_;  // terminals: of transistors
+    std::vector<int> terminals_, row_, column_, slot_, fill_;  // terminals: of transistors
     std::size_t transistors_;
     std::vector<std::vector<int>> alone_;  // unknowns of each device that is no transistor
     std::vector<char> voltage_;
-    std::vector<std::size_t> places_;       // of transistors' slopes
+    std::vector<std::size_t> entry_;        // of each place of the pattern, and of ground
+    std::vector<std::size_t> places_;       // of transistors' slopes, as entries
     std::vector<StraightLine> lines_;       // [chip][transistor]
     std::vector<lanes::Row> still_;         // I, G, C of linear devices
     std::vector<const UicmConstants*> of_;  // [chip][transistor]
@@ -45,6 +46,7 @@ class ChipMemory {
     std::vector<Line> numbers_;
     std::vector<OtherDevice> others_[lanes::chips];
 
+    void fetch(const Picked&) const;
     void renew(std::size_t device, std::size_t chip, const double* of_picked, std::size_t room);
     void set_linear(const System&, std::size_t chip, const Instant&);
 

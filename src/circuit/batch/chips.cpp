@@ -48,7 +48,7 @@ public:
     Result<void> run();
 };
 
-constexpr double doubtful_growth = 1e4, doubtful_rest = 1e-9;  // of an elimination: when its answer is looked at, what it may leave over
+constexpr double doubtful_growth = 1e6, doubtful_rest = 1e-9;  // of an elimination: when its answer is looked at, what it may leave over
 
 bool has(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
 std::uint8_t only(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
@@ -189,9 +189,9 @@ Result<void> Batch::run() {
 }
 
 /// V: how far a transistor may go along its straight line. What it is off there is a part of its current, (far / n phi_t)^2 / 2 or less,
-/// as if its gate stood that much of n phi_t elsewhere: a fiftieth of what a step may err.
+/// as if its gate stood that much of n phi_t elsewhere: a sixteenth of what a step may err.
 double far_of(const TransientPlan& plan) {
-    constexpr double phi_t = 0.026, part = 0.02;
+    constexpr double phi_t = 0.026, part = 1.0 / 16;
     return std::sqrt(2 * phi_t * part * (plan.reltol * 0.5 + plan.vntol));
 }
 

@@ -32,12 +32,12 @@ struct EliminationList {
 struct ChipBlock {
     std::size_t unknowns, entries, points, devices;
     EliminationList list;
-    const int *row, *column;  // of each entry
-    const char* voltage;      // of each unknown: it is one
-    const int* fill;          // slots of the list that no entry stands in
+    const int *row, *column, *slot;  // of each entry; entries are in the order of their slots
+    const char* voltage;             // of each unknown: it is one
+    const int* fill;                 // slots of the list that no entry stands in
     std::size_t fills;
     const int* terminals;        // [devices][4]: unknowns; ground is the last of x
-    Row *I, *Q, *G, *C;          // [unknowns], [entries]
+    Row *I, *Q, *G, *C;          // [unknowns], [entries], and one more, of ground
     Row *x, *q;                  // of the step at work; x has one row more, of ground, 0
     Row *base, *history, *rate;  // currents of sources at its end; what dq/dt has beside a q; dq/dt at the last point
     Row *r, *step, *error;       // what is left over, Newton's step, a step's error

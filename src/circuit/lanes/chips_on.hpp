@@ -64,7 +64,8 @@ template <class T>
 }
 
 template <class T>
-void predict(const ChipBlock& b, const PredictCall& call) {
+void predict(const ChipBlock& block, const PredictCall& call) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     const Wide<T> begins(call.begins);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         Wide<T> x(0.0), q(0.0);
@@ -83,7 +84,8 @@ inline std::uint8_t bits_of(xsimd::batch_bool<double> m) { return static_cast<st
 #endif
 
 template <class T>
-void moved(const ChipBlock& b, double far, std::uint8_t* of_device) {
+void moved(const ChipBlock& block, double far, std::uint8_t* of_device) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     for (std::size_t d = 0; d < b.devices; ++d) {
         Wide<T> most(0.0);
         for (std::size_t j = 0; j < 4; ++j) most = max((row<T>(b.x[b.terminals[4 * d + j]]) - row<T>(b.looked[4 * d + j])).abs(), most);
@@ -97,7 +99,7 @@ void moved(const ChipBlock& b, double far, std::uint8_t* of_device) {
 /// L U of what stands in the slots, along the list; growth.
 template <class T>
 [[gnu::always_inline]] inline Wide<T> factor(const ChipBlock& b) {
-    const EliminationList& list = b.list;
+    const EliminationList list = b.list;
     Row* const s = b.slots;
     Wide<T> most(0.0);
     const int* target = list.updates;
@@ -118,7 +120,7 @@ template <class T>
 /// x with J x = v, in place.
 template <class T>
 [[gnu::always_inline]] inline void solve_for(const ChipBlock& b, Row* v) {
-    const EliminationList& list = b.list;
+    const EliminationList list = b.list;
     Row *const s = b.slots, *const y = b.work;
     for (std::size_t k = 0; k < list.size; ++k) (row<T>(v[list.rows[k]]) * Wide<T>(list.scale[list.rows[k]])).to(y[k]);
     for (std::size_t k = 0; k < list.size; ++k) {
@@ -140,13 +142,14 @@ template <class T>
 
 /// r at x and its slopes J, and step with J step + r = 0.
 template <class T>
-void solve(const ChipBlock& b, SolveCall& call) {
+void solve(const ChipBlock& block, SolveCall& call) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     const Wide<T> a(call.a);
     for (std::size_t n = 0; n < b.unknowns; ++n)
         (row<T>(b.base[n]) + row<T>(b.history[n]) + row<T>(b.I[n]) + a * row<T>(b.Q[n])).to(b.r[n]);
     for (std::size_t e = 0; e < b.entries; ++e) {
         const Wide<T> J = row<T>(b.G[e]) + a * row<T>(b.C[e]);
-        (J * Wide<T>(b.list.scale[b.row[e]])).to(b.slots[b.list.entry_slot[e]]);
+        (J * Wide<T>(b.list.scale[b.row[e]])).to(b.slots[b.slot[e]]);
         (row<T>(b.r[b.row[e]]) + J * row<T>(b.x[b.column[e]])).to(b.r[b.row[e]]);
     }
     for (std::size_t k = 0; k < b.fills; ++k) Wide<T>(0.0).to(b.slots[b.fill[k]]);
@@ -156,7 +159,8 @@ void solve(const ChipBlock& b, SolveCall& call) {
 }
 
 template <class T>
-void left_over(const ChipBlock& b, const SolveCall& call, Row& worst) {
+void left_over(const ChipBlock& block, const SolveCall& call, Row& worst) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     const Wide<T> a(call.a);
     Row *const left = b.error, *const largest = b.work;
     for (std::size_t n = 0; n < b.unknowns; ++n) left[n] = b.r[n], row<T>(b.r[n]).abs().to(largest[n]);
@@ -171,7 +175,8 @@ void left_over(const ChipBlock& b, const SolveCall& call, Row& worst) {
 }
 
 template <class T>
-void go(const ChipBlock& b, StepCall& call) {
+void go(const ChipBlock& block, StepCall& call) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     constexpr double most_volts = 0.5;
     const Wide<T> moves(call.moves), zero(0.0);
     Wide<T> size(0.0), clamped(0.0), bad(0.0);
@@ -190,13 +195,15 @@ void go(const ChipBlock& b, StepCall& call) {
 }
 
 template <class T>
-void charges(const ChipBlock& b) {
+void charges(const ChipBlock& block) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     for (std::size_t n = 0; n < b.unknowns; ++n) row<T>(b.Q[n]).to(b.q[n]);
     for (std::size_t e = 0; e < b.entries; ++e) (row<T>(b.q[b.row[e]]) + row<T>(b.C[e]) * row<T>(b.x[b.column[e]])).to(b.q[b.row[e]]);
 }
 
 template <class T>
-void error(const ChipBlock& b, ErrorCall& call) {
+void error(const ChipBlock& block, ErrorCall& call) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     const Wide<T> of_q(call.of_q), of_rate(call.of_rate);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         Wide<T> e = of_q * row<T>(b.q[n]) + of_rate * row<T>(b.rate[n]);
@@ -210,7 +217,8 @@ void error(const ChipBlock& b, ErrorCall& call) {
 }
 
 template <class T>
-void accept(const ChipBlock& b, const AcceptCall& call) {
+void accept(const ChipBlock& block, const AcceptCall& call) {
+    const ChipBlock b = block;  // a copy, which no store can reach
     const Wide<T> taken(call.taken), a(call.a), none(0.0);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         Wide<T>::where(taken, a * row<T>(b.q[n]) + row<T>(b.history[n]), row<T>(b.rate[n])).to(b.rate[n]);
