@@ -79,7 +79,7 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     b.fill = fill_.data(), b.fills = fill_.size();
     lines_.resize(lanes::chips * transistors_), of_.resize(lines_.size()), moved_.resize(transistors_);
     still_.resize(n + 2 * entries);
-    numbers_.resize((4 + 4 + 4 + 16 + 16) * transistors_);  // a row is eight chips of every transistor, or more than are picked
+    at_.resize(4 * transistors_), fresh_.resize(lanes::chips * transistors_);
 }
 
 bool ChipMemory::fits(const System& system) const {
@@ -141,27 +141,22 @@ void ChipMemory::freshen(std::size_t chip) {
     for (auto& other : others_[chip]) std::fill(other.before.begin(), other.before.end(), 0.0);
 }
 
-void ChipMemory::renew(std::size_t device, std::size_t chip, const double* now, std::size_t room) {
+void ChipMemory::renew(const Picked& p, const StraightLine& now) {
     constexpr std::size_t row = lanes::chips;  // from one row to the next
-    const double *const v = now, *const f = v + 4 * room, *const q = f + 4 * room, *const df = q + 4 * room, *const dq = df + 16 * room;
-    double *const I = block.I->of + chip, *const Q = block.Q->of + chip, *const G = block.G->of + chip, *const C = block.C->of + chip;
-    StraightLine& old = lines_[chip * transistors_ + device];
-    double* const looked = block.looked[4 * device].of + chip;
+    StraightLine &old = lines_[p.chip * transistors_ + p.device], change;
+    for (std::size_t k = 0; k < 4; ++k) change.i[k] = now.i[k] - old.i[k], change.q[k] = now.q[k] - old.q[k];
+    for (std::size_t e = 0; e < 16; ++e) change.g[e] = now.g[e] - old.g[e], change.c[e] = now.c[e] - old.c[e];
+    old = now;
+    double *const I = block.I->of + p.chip, *const Q = block.Q->of + p.chip, *const G = block.G->of + p.chip,
+                  *const C = block.C->of + p.chip;
+    const std::size_t* const place = places_.data() + 16 * p.device;
+    for (std::size_t e = 0; e < 16; ++e) C[place[e] * row] += change.c[e];
+    for (std::size_t e = 0; e < 16; ++e)
+        if (e / 4 != Terminals::G) G[place[e] * row] += change.g[e];  // no current goes into a gate
     for (std::size_t k = 0; k < 4; ++k) {
-        const int* const terminal = terminals_.data() + 4 * device;
-        const std::size_t* const place = places_.data() + 16 * device + 4 * k;
-        double i = f[k * room], charge = q[k * room], *const g_old = old.g + 4 * k, *const c_old = old.c + 4 * k;
-        for (std::size_t j = 0; j < 4; ++j) {
-            const double g = df[(4 * k + j) * room], c = dq[(4 * k + j) * room];
-            i -= g * v[j * room], charge -= c * v[j * room];
-            if (k != Terminals::G) G[place[j] * row] += g - g_old[j];  // no current goes into a gate
-            C[place[j] * row] += c - c_old[j];
-            g_old[j] = g, c_old[j] = c;
-        }
-        const auto u = static_cast<std::size_t>(terminal[k]);
-        I[u * row] += i - old.i[k], Q[u * row] += charge - old.q[k];
-        old.i[k] = i, old.q[k] = charge;
-        looked[k * row] = v[k * room];
+        const std::size_t u = static_cast<std::size_t>(terminals_[4 * p.device + k]);
+        I[u * row] += change.i[k], Q[u * row] += change.q[k];
+        block.looked[4 * p.device + k].of[p.chip] = block.x[u].of[p.chip];
     }
 }
 
@@ -187,15 +182,15 @@ void ChipMemory::look(const lanes::ChipLanes& kernels, std::uint8_t chips, doubl
     if (picked_.empty()) return;
     const std::size_t room = (picked_.size() + lanes::chips - 1) / lanes::chips * lanes::chips;
     picked_of_.resize(room, picked_of_.back());
-    double *const v = numbers_[0].of, *const f = v + 4 * room, *const q = f + 4 * room, *const df = q + 4 * room;
+    double* const v = at_[0].of;
     for (std::size_t k = 0; k < room; ++k) {
         const auto& p = picked_[std::min(k, picked_.size() - 1)];
         for (std::size_t j = 0; j < 4; ++j) v[j * room + k] = block.x[terminals_[4 * p.device + j]].of[p.chip];
     }
-    kernels.picked({picked_of_.data(), picked_.size(), room, v, gmin, f, q, df, df + 16 * room});
+    kernels.picked({picked_of_.data(), picked_.size(), room, v, gmin, fresh_.data()});
     for (std::size_t k = 0; k < picked_.size(); ++k) {
         if (k + 1 < picked_.size()) fetch(picked_[k + 1]);
-        renew(picked_[k].device, picked_[k].chip, v + k, room);
+        renew(picked_[k], fresh_[k]);
     }
 }
 

@@ -10,10 +10,7 @@
 
 namespace corpuscle::circuit {
 
-/// A device's currents and charges about where it was looked at: i + g v + d/dt (q + c v).
-struct StraightLine {
-    double i[4] = {}, q[4] = {}, g[16] = {}, c[16] = {};
-};
+using lanes::StraightLine;
 
 /// A device that no kernel knows, as a chip has it; looked at anew each time.
 struct OtherDevice {
@@ -40,14 +37,12 @@ class ChipMemory {
     };
     std::vector<Picked> picked_;
     std::vector<const UicmConstants*> picked_of_;
-    struct alignas(64) Line {
-        double of[8];
-    };
-    std::vector<Line> numbers_;
+    std::vector<lanes::Row> at_;       // where those that are picked stand: drains, gates, sources, bulks
+    std::vector<StraightLine> fresh_;  // theirs
     std::vector<OtherDevice> others_[lanes::chips];
 
     void fetch(const Picked&) const;
-    void renew(std::size_t device, std::size_t chip, const double* of_picked, std::size_t room);
+    void renew(const Picked&, const StraightLine& now);
     void set_linear(const System&, std::size_t chip, const Instant&);
 
 public:

@@ -70,13 +70,18 @@ struct AcceptCall {
     Row taken, a;
 };
 
-/// Transistors picked here and there: `of` points to each one's numbers. Arrays have `room` numbers in a row, one a transistor.
+/// A transistor's currents and charges about where it was looked at: i + g v + d/dt (q + c v); g[4 a + b]: of a by the voltage of b.
+struct StraightLine {
+    double i[4], q[4], g[16], c[16];
+};
+
+/// Transistors picked here and there: `of` points to each one's numbers, rounded up to all lanes.
 struct PickedCall {
     const UicmConstants* const* of;
     std::size_t count, room;
     const double* v;  // [4][room]
     double gmin;
-    double *f, *q, *df, *dq;  // [4][room], [16][room]
+    StraightLine* out;  // [room]
 };
 
 /// What one instruction set offers.

@@ -236,6 +236,27 @@ template <class T, std::size_t... l>
     return T{of[l]->*field...};
 }
 
+/// Four numbers of each lane, side by side: at `first` of the first lane, in the next StraightLine of the next.
+template <class T>
+[[gnu::always_inline]] inline void store_across(const T (&x)[4], double* first) {
+    constexpr std::size_t far = sizeof(StraightLine) / sizeof(double);
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    if constexpr (width<T>() == 4) {
+        const __m256d a = _mm256_unpacklo_pd(x[0], x[1]), b = _mm256_unpackhi_pd(x[0], x[1]);
+        const __m256d c = _mm256_unpacklo_pd(x[2], x[3]), d = _mm256_unpackhi_pd(x[2], x[3]);
+        _mm256_storeu_pd(first, _mm256_permute2f128_pd(a, c, 0x20));
+        _mm256_storeu_pd(first + far, _mm256_permute2f128_pd(b, d, 0x20));
+        _mm256_storeu_pd(first + 2 * far, _mm256_permute2f128_pd(a, c, 0x31));
+        _mm256_storeu_pd(first + 3 * far, _mm256_permute2f128_pd(b, d, 0x31));
+        return;
+    }
+#endif
+    alignas(64) double lanes[4][width<T>()];
+    for (std::size_t j = 0; j < 4; ++j) store(x[j], lanes[j]);
+    for (std::size_t l = 0; l < width<T>(); ++l)
+        for (std::size_t j = 0; j < 4; ++j) first[l * far + j] = lanes[j][l];
+}
+
 template <class T>
 void picked(const PickedCall& call) {
     const std::size_t room = call.room;
@@ -248,13 +269,14 @@ void picked(const PickedCall& call) {
         UicmAnswer<T> a;
         model.eval(v, a);
         add_gmin(a, v, gmin);
-        for (std::size_t i = 0; i < 4; ++i) {
-            store(a.i[i], call.f + i * room + k), store(a.q[i], call.q + i * room + k);
+        for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t j = 0; j < 4; ++j) {
-                store(a.di[i][j], call.df + (4 * i + j) * room + k);
-                store(a.dq[i][j], call.dq + (4 * i + j) * room + k);
+                a.i[i] = a.i[i] - a.di[i][j] * v[j];
+                a.q[i] = a.q[i] - a.dq[i][j] * v[j];
             }
-        }
+        StraightLine* const out = call.out + k;
+        store_across(a.i, out->i), store_across(a.q, out->q);
+        for (std::size_t i = 0; i < 4; ++i) store_across(a.di[i], out->g + 4 * i), store_across(a.dq[i], out->c + 4 * i);
     }
 }
 
