@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "circuit/device/values.hpp"
 
@@ -104,7 +105,7 @@ class Search {
         double g = 1e-4, rate = 0, too_small = 0;
         int careful = 0;  // steps, after one that was too long
         newton_.memory = system_.fresh_memory();
-        for (int tries = 0; tries < 2000; ++tries) {
+        for (int tries = 0; tries < 600; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
             const int before = newton_.iterations;
@@ -123,6 +124,25 @@ class Search {
             const bool quick = newton_.iterations - before <= 3;
             g = faster > 1.03 ? std::max(rate * faster / so_far, g) : g / (moved < still ? 10 : quick ? 4 : 2);
             if (careful > 0) --careful, g = std::max(g, 1.5 * too_small);
+        }
+        return false;
+    }
+    /// The same, every step exact and shorter steps only where one fails: slow, and arrives where little else does.
+    bool by_exact_time(std::vector<double>& x) {
+        double g = 1e-4;
+        newton_.memory = system_.fresh_memory();
+        for (int tries = 0; tries < 2000; ++tries) {
+            auto next = x;
+            const auto memory = newton_.memory;
+            if (newton_.run(next, all(g, x), 20)) {
+                x = next;
+                if (g < 1e-19) return newton_.run(x, held_);
+                g /= 2;
+            } else {
+                newton_.memory = memory;
+                g *= 8;
+                if (g > 1e6) return false;
+            }
         }
         return false;
     }
@@ -152,24 +172,34 @@ public:
     }
 
     Result<OperatingPoint> run() {
-        if (!led_) hold(start_);
-        struct Way {
-            std::string_view name;
-            bool (Search::*go)(std::vector<double>&);
-        };
-        const Way newton{"newton", &Search::plain}, gmin{"gmin", &Search::by_gmin}, source{"source", &Search::by_sources},
-            time{"pseudo-transient", &Search::by_time};
-        // From a place that is near, time goes where the circuit itself would; the other two forget where they began.
-        for (const Way& way : led_ ? std::array{newton, time, gmin, source} : std::array{newton, gmin, source, time}) {
-            auto x = start_;
-            if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
-            if (last_.empty()) last_ = std::move(x);
-            if (system_.linear()) break;
+        if (led_)
+            if (auto found = from_start()) return *found;
+        if (led_ && !system_.linear()) led_ = false, start_.assign(start_.size(), 0.0);  // as if nobody had known
+        if (!led_) {
+            hold(start_);
+            if (auto found = from_start()) return *found;
         }
         return failure();
     }
 
 private:
+    std::optional<OperatingPoint> from_start() {
+        struct Way {
+            std::string_view name;
+            bool (Search::*go)(std::vector<double>&);
+        };
+        const Way newton{"newton", &Search::plain}, gmin{"gmin", &Search::by_gmin}, source{"source", &Search::by_sources},
+            time{"pseudo-transient", &Search::by_time}, exact_time{"pseudo-transient", &Search::by_exact_time};
+        // From a place that is near, time goes where the circuit itself would; gmin and source forget where they began.
+        for (const Way& way : led_ ? std::array{newton, time, gmin, source} : std::array{newton, gmin, source, exact_time}) {
+            auto x = start_;
+            if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
+            if (last_.empty()) last_ = std::move(x);
+            if (system_.linear()) break;
+        }
+        return {};
+    }
+
     Error failure() {
         const auto& c = system_.circuit();
         if (system_.linear() && newton_.singular >= 0)
