@@ -123,10 +123,10 @@ void Ranks::Held::begin_receiving() {
         MPI_Message found = {};
         MPI_Status status = {};
         if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &there, &found, &status) != MPI_SUCCESS || !there) return;
-        int size = 0;
-        mpi.count(&status, mpi.byte, &size);
-        auto& m = coming.emplace_back(UnderWay{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0'), {}});
-        if (mpi.imrecv(m.bytes.data(), size, mpi.byte, &found, &m.request) != MPI_SUCCESS) coming.pop_back();
+        int bytes = 0;
+        mpi.count(&status, mpi.byte, &bytes);
+        auto& m = coming.emplace_back(UnderWay{status.MPI_SOURCE, std::string(static_cast<std::size_t>(bytes), '\0'), {}});
+        if (mpi.imrecv(m.bytes.data(), bytes, mpi.byte, &found, &m.request) != MPI_SUCCESS) coming.pop_back();
     }
 }
 

@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "spikes and traces stand in the file as they do in memory");
 
-constexpr std::array<std::string_view, 3> ends = {"done", "capped", "lost"};
+constexpr std::array<std::string_view, 3> unit_ends = {"done", "capped", "lost"};
 
 UnitEnd end_of(std::string_view word) {
-    const auto* at = std::find(ends.begin(), ends.end(), word);
-    return at == ends.end() ? UnitEnd::lost : static_cast<UnitEnd>(at - ends.begin());
+    const auto* at = std::find(unit_ends.begin(), unit_ends.end(), word);
+    return at == unit_ends.end() ? UnitEnd::lost : static_cast<UnitEnd>(at - unit_ends.begin());
 }
 
 std::string insertion(std::size_t columns) {
@@ -64,7 +64,7 @@ Error not_alone(const std::string& path) {
 
 }  // namespace
 
-std::string_view word_of(UnitEnd end) { return ends[static_cast<std::size_t>(end)]; }
+std::string_view word_of(UnitEnd end) { return unit_ends[static_cast<std::size_t>(end)]; }
 
 Result<void> SweepResults::Held::open_file(int flags) {
     auto opened = sql::open(path, flags);
