@@ -27,7 +27,8 @@ TEST(Readme, EveryCommandItShowsRuns) {
     std::string touch = "time_s,fz\n";
     for (int k = 0; k < 1000; ++k) touch += fmt::format("{},{}\n", k / 1e3, k < 200 ? 0 : 2000);
     folder.write("touch.csv", touch);
-    for (const auto* part : {"circuits", "process"}) std::filesystem::copy(root + "/" + part, folder / part);
+    for (const auto* part : {"circuits", "process", "examples"})
+        std::filesystem::copy(root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
     const bool real = std::filesystem::exists(press);
     if (real) std::filesystem::copy(press, folder / "fbg_press_S6_T16.csv");
     const auto shown = commands();
