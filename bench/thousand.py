@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""How long does a thousand chips of SA-I take under the press, and how does that go with cores and lanes?
+
+    bench/thousand.py CORPUSCLE [CHIPS]
+
+Method: examples/sweeps/sa1-chips.toml as it stands (process and mismatch, 1.0 s of press, spikes and ten measures stored), into a file on
+disk, wall time of the whole command. On two threads with all its chips; a tenth of them on one thread, and on one thread with 4 lanes and
+with 1, whose results must be the same. bench-batch has the same by iteration, and beside chips alone; peers/chip.py a chip in ngspice.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+program, chips = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 1000
+sweep = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../examples/sweeps/sa1-chips.toml")
+
+
+def run(units, *options):
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, "r.sqlite")
+        began = time.perf_counter()
+        subprocess.run([program, "sweep", sweep, "--quiet", "--out", out, "--units", str(units), *options], check=True, stdout=subprocess.DEVNULL)
+        took = time.perf_counter() - began
+        rows = subprocess.run([program, "sweep", "dump", out], check=True, capture_output=True).stdout
+        print(f"{units} chips, {' '.join(options)}: {took:.1f} s, {took / units * 1e3:.1f} ms a chip, {os.path.getsize(out) / units:.0f} bytes a chip")
+        return rows
+
+
+run(chips, "-j", "2")
+few = max(chips // 10, 8)
+one = run(few, "-j", "1", "--lanes", "8")
+for lanes in ("4", "1"):
+    assert run(few, "-j", "1", "--lanes", lanes) == one, "the answer depends on the lanes"
