@@ -135,12 +135,24 @@ TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
     says("temp=hot", "'hot' is no temperature");
     says("temp=-300", "-300 C is outside");
     says("mismatch=-1", "'-1' is no seed");
+    says("mismatch=7/half", "'7/half' is no seed; write a whole number from 0 to 2^53, or SEED/CHIP");
     says("corner=ss", "no line .lib 'file' section, so there is no corner 'ss' to be had");
 }
 
 constexpr const char* cards =
     ".lib tt\n.param shift=0\n.lib 'card.lib' devices\n.endl\n.lib ss\n.param shift=40m\n.lib 'card.lib' devices\n.endl\n"
     ".lib devices\n.model nm nmos (level=80 vto='0.4+shift')\n.endl\n";
+
+TEST(Knobs, AChipOfASeedIsTheOneThatADrawOfManyHas) {
+    const Files files("t\nm1 a a 0 0 nm\n.model nm nmos (level=80 avt=1n)\nv1 a 0 1\n.op\n", {});
+    const auto chip = own_draw(sure(files.set({"mismatch=7/5"})));
+    ASSERT_TRUE(chip);
+    EXPECT_EQ(chip->seed, 7U);
+    EXPECT_EQ(chip->chip, 5U);
+    EXPECT_TRUE(std::ranges::equal(chip->process, Chips{10, 7}.draw(5).process));
+    EXPECT_EQ(own_draw(sure(files.set({"mismatch=7"})))->chip, 0U);
+    EXPECT_FALSE(own_draw(sure(files.set({}))));
+}
 
 TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
     const std::string netlist = "t\n.lib 'card.lib' tt\nm1 a a 0 0 nm\nv1 a 0 1\n.op\n";
