@@ -39,16 +39,6 @@ std::vector<Card> cards(StimulusList<S...>) {
     return {card_of<S>()...};
 }
 
-std::vector<std::string_view> members(std::string_view text) {
-    std::vector<std::string_view> out;
-    for (;;) {
-        const auto plus = text.find('+');
-        out.push_back(text.substr(0, plus));
-        if (plus == std::string_view::npos) return out;
-        text.remove_prefix(plus + 1);
-    }
-}
-
 std::optional<Card> named(std::string_view name) {
     for (auto& card : stimulus_cards())
         if (card.name == name) return card;
@@ -72,7 +62,7 @@ public:
     const std::vector<Channel>& channels() const override { return channels_; }
     std::string sentence() const override {
         std::vector<std::string_view> all;
-        for (const auto member : members(name_)) all.push_back(named(member)->sentence);
+        for (const auto member : stimulus_members(name_)) all.push_back(named(member)->sentence);
         return fmt::format("{}", fmt::join(all, "; "));
     }
     double done() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
@@ -108,10 +98,20 @@ public:
 
 }  // namespace
 
+std::vector<std::string_view> stimulus_members(std::string_view text) {
+    std::vector<std::string_view> out;
+    for (;;) {
+        const auto plus = text.find('+');
+        out.push_back(text.substr(0, plus));
+        if (plus == std::string_view::npos) return out;
+        text.remove_prefix(plus + 1);
+    }
+}
+
 std::vector<Card> stimulus_cards() { return cards(Stimuli{}); }
 
 bool is_stimulus(std::string_view text) {
-    const auto names = members(text);
+    const auto names = stimulus_members(text);
     return std::all_of(names.begin(), names.end(), [](auto n) { return named(n).has_value(); });
 }
 
@@ -121,7 +121,7 @@ Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<c
     std::vector<Shape> shapes;
     std::vector<Fact> facts;
     double duration = 0;
-    for (const auto name : members(text)) {
+    for (const auto name : stimulus_members(text)) {
         const auto card = named(name);
         if (!card) {
             std::vector<std::string_view> names;

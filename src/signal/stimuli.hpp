@@ -21,6 +21,9 @@ using Stimuli = StimulusList<Press, RampHold, Step, Sine, Chirp, Noise, Grating>
 /// Name, sentence and rows of each, in the list's order.
 std::vector<Card> stimulus_cards();
 
+/// The parts of a sum, "press+noise".
+std::vector<std::string_view> stimulus_members(std::string_view text);
+
 /// Whether the text reads as a stimulus or a sum of stimuli, "press", "press+noise".
 bool is_stimulus(std::string_view text);
 

@@ -15,16 +15,6 @@ namespace {
 constexpr double most_samples = 1e9;  // of one force
 constexpr std::size_t forces_kept = 8;
 
-std::vector<std::string_view> members_of(std::string_view text) {
-    std::vector<std::string_view> out;
-    for (;;) {
-        const auto plus = text.find('+');
-        out.push_back(text.substr(0, plus));
-        if (plus == std::string_view::npos) return out;
-        text.remove_prefix(plus + 1);
-    }
-}
-
 Result<std::shared_ptr<const FeltForce>> read_whole(Source& source) {
     auto force = std::make_shared<FeltForce>();
     force->clock = source.clock(), force->clock.t0 = 0;
@@ -97,7 +87,7 @@ Result<ForceMaker> ForceMaker::of(const SweepText& said, const std::string& fold
 bool ForceMaker::owns(std::string_view name) const {
     const auto dot = name.find('.');
     if (recording_ || dot == std::string_view::npos) return false;
-    const auto all = members_of(text_);
+    const auto all = stimulus_members(text_);
     return std::find(all.begin(), all.end(), name.substr(0, dot)) != all.end();
 }
 
