@@ -23,11 +23,11 @@ public:
     Bins() = default;
     Bins(std::vector<Row> rows, const Clock& clock, double bin);
     void count(const Spike& s, std::size_t row);
-    /// No spike will come that is earlier than this sample.
+    /// What comes from now on is behind this sample.
     void known_to(std::int64_t sample);
-    /// The input had so many samples; what came later is in its last bin.
+    /// The input had so many samples.
     void end(std::int64_t samples);
-    /// The lines of the bins that are done since the last call: name,from_s,to_s,spikes,rate_Hz.
+    /// The lines of the bins that were done since the last call: name,from_s,to_s,spikes,rate_Hz. Valid until more is counted.
     std::string_view lines();
 
 private:
@@ -37,6 +37,7 @@ private:
     std::int64_t at_ = 0;            // the bin that fills
     std::vector<std::int64_t> now_;  // spikes in it, of each row
     fmt::memory_buffer text_;
+    bool told_ = false;
 
     std::int64_t bin_of(double t) const;
     void put(double to);

@@ -32,13 +32,16 @@ struct SkinRow {
     double seconds = 0;              ///< of the phase
     double touched_rate = no_value;  ///< Hz: spikes of touched units, by the time that each was touched
     double busiest = 0;              ///< Hz: the unit with most spikes, over the phase
-    double first = no_value;         ///< s since the start: the earliest spike of them
-    double median_first = no_value;  ///< ... the median of the units' own first spikes; of rows over all phases
+    double first = no_value;         ///< s since the start: the earliest spike of them; of rows over all phases
+    double median_first = no_value;  ///< ... the median of the units' own first spikes
     double rate() const { return seconds > 0 && active > 0 ? static_cast<double>(spikes) / (static_cast<double>(active) * seconds) : 0; }
 };
 
 class SkinSummary final : public SkinListener {
 public:
+    /// With more phases times units than this, phases are not told apart.
+    static constexpr std::size_t most_phase_counts = std::size_t{1} << 26;
+
     /// A unit's first spike.
     struct First {
         std::size_t unit = 0;
@@ -85,13 +88,15 @@ private:
     std::vector<std::uint32_t> phase_counts_;  // [phase][unit]
     std::vector<double> first_times_, unit_touched_;
     std::vector<std::uint32_t> felt_most_;    // of each unit, the site
-    std::vector<std::int64_t> site_touched_;  // [phase, and behind the last: all][site], samples
+    std::vector<std::int64_t> site_touched_;  // [phase; behind the last: no phase][site], samples
     std::vector<SkinRow> rows_;
-    std::size_t phase_at_ = 0;  // of the spike before
 
-    void add(const Spike&);
+    void add(std::span<const Spike>);
+    void add_touch(const SkinAnswered&);
     std::size_t phase_of(double t) const;
-    SkinRow row(std::size_t of, std::size_t region, std::size_t phase) const;
+    std::int64_t touched_samples(std::size_t unit, std::size_t phase) const;
+    void add_rows(std::size_t of, std::size_t region, const std::vector<std::uint32_t>& units);
+    SkinRow row(std::size_t of, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const;
 };
 
 }  // namespace corpuscle
