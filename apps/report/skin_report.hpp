@@ -29,18 +29,21 @@ public:
 
 private:
     SkinReportLimits most_;
-    Envelope forces_;                                     // of all sites together, N
-    Framed<std::uint32_t> classes_, marks_;               // spikes of each class in bins, of each mark in frames
-    Framed<double> sites_;                                // force of each mark of sites, summed over a frame's samples, N
-    std::vector<std::uint32_t> class_of_, mark_of_;       // of each unit
-    std::vector<std::uint32_t> mark_class_, mark_first_;  // of each mark; behind the last the end
-    std::uint32_t sites_a_mark_ = 1;
+    Clock clock_;
+    std::int64_t samples_ = 0, shown_samples_ = 0, spikes_ = 0;  // shown: spikes may come after the force
+    std::size_t sites_count_ = 0;
+    Envelope forces_;                                // of all sites together, N
+    Framed<std::uint32_t> classes_, marks_;          // spikes of each class in bins, of each mark in frames
+    Framed<double> sites_;                           // force of each mark of sites, summed over a frame's samples, N
+    std::vector<std::uint32_t> class_of_, mark_of_;  // of each unit
+    std::vector<std::uint32_t> mark_first_;          // the first unit of each mark; behind the last the end
+    std::uint32_t units_a_mark_ = 1, sites_a_mark_ = 1;
     std::vector<std::uint32_t> spike_units_;  // in order of time
     std::vector<std::int64_t> spike_ticks_;   // tenths of a sample
-    std::int64_t spikes_ = 0;
 
     void add(const Spike&);
     void add_force(const SkinAnswered&);
+    nlohmann::ordered_json spikes_document() const;
 };
 
 }  // namespace corpuscle
