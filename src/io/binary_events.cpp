@@ -50,6 +50,7 @@ public:
     explicit AerEvents(const EventUnits& units) : units_(units) {}
     std::string_view name() const override { return "aer"; }
     std::size_t most_bytes() const override { return aer::spike_bytes; }
+    bool same_size() const override { return true; }
 
     std::string header() const override {
         std::string names;
@@ -85,6 +86,7 @@ public:
     explicit Aedat2Events(const EventUnits& units) : time_(units.clock), addresses_(units.addresses) {}
     std::string_view name() const override { return "aedat2"; }
     std::size_t most_bytes() const override { return 8; }
+    bool same_size() const override { return true; }
     std::string header() const override { return "#!AER-DAT2.0\r\n# spikes of afferents: address, microseconds modulo 2^32\r\n"; }
     std::size_t put(const Spike& s, char* at) const override {
         put_big(addresses_[s.unit], at);
