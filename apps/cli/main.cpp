@@ -1,4 +1,4 @@
-// The command line: words in, verbs called. Only this and sweep_verbs.cpp include CLI11.
+// The command line: words in, verbs called. Only this, sweep_verbs.cpp and stream_verbs.cpp include CLI11.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -7,6 +7,7 @@
 #include "model/spread.hpp"
 #include "signal/version.hpp"
 #include "study/studies.hpp"
+#include "stream_verbs.hpp"
 #include "sweep_verbs.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -26,6 +27,7 @@ constexpr const char* first_steps = R"(First steps:
   corpuscle run circuits/inverter.cir                    a netlist's analyses, transistor by transistor
   corpuscle export circuits/inverter.cir --for ngspice   the same netlist for another simulator
   corpuscle sweep chips.toml                             a thousand chips, corners, any grid: --help says how
+  corpuscle stream --population hand --rate 1kHz         forces in as they come, spikes out as they happen
   corpuscle study --report studies.html                  what others printed, made again
   corpuscle list                                         every afferent, stimulus and parameter
 
@@ -306,6 +308,8 @@ int main(int argc, char** argv) {
     add_export(app, export_words, common);
     SweepVerbs sweeps;
     sweeps.add_to(app, common);
+    StreamVerb live;
+    live.add_to(app, common);
     add_list(app, list_words, common);
     try {
         app.parse(argc, argv);
@@ -321,6 +325,7 @@ int main(int argc, char** argv) {
                : app.got_subcommand("export")  ? export_to(export_words, common)
                : app.got_subcommand("study")   ? study(study_words, common)
                : app.got_subcommand("sweep")   ? sweeps.run(common)
+               : app.got_subcommand("stream")  ? live.run(common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);
     } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory

@@ -90,6 +90,18 @@ struct SweepCalibrateWords {
     bool apart = false;
 };
 
+struct StreamWords {
+    std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real", layout;
+    std::vector<std::string> settings, channels;
+    std::optional<std::string> rate, scale, offset, unit;
+    std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M";
+    std::string out = "-", to, format = "lines", save, resume;
+    std::size_t count = 1;     ///< channels
+    std::int64_t clients = 0;  ///< 0: without end
+    long baud = 115200;
+    bool sampled = false;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
@@ -104,6 +116,7 @@ int sweep_merge(const SweepMergeWords&, const Common&);
 int sweep_calibrate(const SweepCalibrateWords&, const Common&);
 int sweep_dump(const std::string& results, const Common&);
 int sweep_show(const SweepShowWords&, const Common&);
+int stream(const StreamWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle
