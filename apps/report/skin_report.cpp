@@ -88,7 +88,8 @@ Json force_document(const Framed<double>& sites, double T, std::int64_t samples)
 Result<void> SkinReport::begin(const SkinInput& input) {
     const auto& skin = input.skin;
     clock_ = input.clock;
-    const auto width = std::max<std::int64_t>(std::llround(clock_.rate() / 1000), 1);
+    const auto samples_of = [&](double seconds) { return std::max<std::int64_t>(std::llround(clock_.rate() * seconds), 1); };
+    const auto bin = samples_of(1e-3), frame = samples_of(10e-3);  // a rate of one unit in less than this says little
     units_a_mark_ = a_mark(skin.units.size(), most_.marks), sites_a_mark_ = a_mark(skin.plan.sites.size(), most_.marks);
     class_of_.clear(), mark_of_.clear(), mark_first_.clear();
     for (std::uint32_t c = 0; c + 1 < skin.first.size(); ++c)
@@ -99,9 +100,9 @@ Result<void> SkinReport::begin(const SkinInput& input) {
     mark_first_.push_back(static_cast<std::uint32_t>(skin.units.size()));
     sites_count_ = skin.plan.sites.size();
     forces_ = Envelope(std::size_t{1} << 16);
-    classes_ = Framed<std::uint32_t>(skin.plan.classes.size(), most_.bins, width);
-    marks_ = Framed<std::uint32_t>(mark_first_.size() - 1, most_.frames, width);
-    sites_ = Framed<double>(a_mark(skin.plan.sites.size(), sites_a_mark_), most_.frames, width);
+    classes_ = Framed<std::uint32_t>(skin.plan.classes.size(), most_.bins, bin);
+    marks_ = Framed<std::uint32_t>(mark_first_.size() - 1, most_.frames, frame);
+    sites_ = Framed<double>(a_mark(skin.plan.sites.size(), sites_a_mark_), most_.frames, frame);
     spike_units_.clear(), spike_ticks_.clear(), spikes_ = 0;
     return {};
 }

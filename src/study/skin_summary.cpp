@@ -39,6 +39,7 @@ Result<void> SkinSummary::begin(const SkinInput& input) {
     counts_.assign(units, 0), first_times_.assign(units, no_value);
     phase_counts_.assign(phases_.size() * units, 0);
     site_touched_.assign((phases_.size() + 1) * skin_->plan.sites.size(), 0);
+    while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * skin_->plan.sites.regions.size(), 0);
     felt_most_ = felt_most(*skin_);
     return {};
 }
@@ -49,11 +50,22 @@ std::size_t SkinSummary::phase_of(double t) const {
     return static_cast<std::size_t>(found - phases_.begin());
 }
 
-void SkinSummary::add(std::span<const Spike> spikes) {
+/// Whether the site that a unit feels most has force at a sample of the block.
+bool SkinSummary::touches(const SkinAnswered& answered, std::size_t unit, std::int64_t sample) const {
+    const auto site = felt_most_[unit];
+    const auto& [of, stride, touched, all] = answered.force;
+    if (!all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
+    return of[site * stride + static_cast<std::size_t>(sample - answered.first)] > 0;
+}
+
+/// `answered`: the block in which they arrive; none: after the last.
+void SkinSummary::add(std::span<const Spike> spikes, const SkinAnswered* answered) {
     for (const auto& s : spikes) {
         const double t = since_start_.time(s.step, s.offset);
+        const auto phase = phase_of(t);
         if (counts_[s.unit]++ == 0) first_times_[s.unit] = t;
-        if (const auto phase = phase_of(t); phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.unit];
+        if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.unit];
+        if (answered && touches(*answered, s.unit, s.step)) ++while_touched_[group(skin_->units[s.unit], phase)];
     }
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
@@ -83,11 +95,25 @@ Result<void> SkinSummary::block(const SkinInput&, const SkinAnswered& answered) 
         if (f > 0 && std::isnan(touched_from_)) touched_from_ = since_start_.time(answered.first + static_cast<std::int64_t>(k));
     }
     add_touch(answered);
-    add(answered.spikes);
+    add(answered.spikes, &answered);
     return {};
 }
 
 double SkinSummary::seconds() const { return since_start_.time(samples_); }
+
+std::size_t SkinSummary::group(const SkinUnit& u, std::size_t phase) const {
+    return (phase * skin_->plan.classes.size() + u.of) * skin_->plan.sites.regions.size() + u.region;
+}
+
+/// Spikes of a class that arrived while their units were touched; in a region or phase, or in all.
+std::int64_t SkinSummary::spikes_while_touched(const SkinRow& r) const {
+    std::int64_t sum = 0;
+    for (std::uint32_t region = 0; region < skin_->plan.sites.regions.size(); ++region)
+        for (std::size_t phase = 0; phase <= phases_.size(); ++phase)
+            if ((r.region == SkinRow::all || r.region == region) && (r.phase == SkinRow::all || r.phase == phase))
+                sum += while_touched_[group({.of = static_cast<std::uint32_t>(r.of), .region = region}, phase)];
+    return sum;
+}
 
 /// In a phase, or in all.
 std::int64_t SkinSummary::touched_samples(std::size_t unit, std::size_t phase) const {
@@ -101,17 +127,17 @@ std::int64_t SkinSummary::touched_samples(std::size_t unit, std::size_t phase) c
 SkinRow SkinSummary::row(std::size_t of, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const {
     SkinRow r{.of = of, .region = region, .phase = phase, .units = static_cast<std::int64_t>(units.size())};
     r.seconds = phase == SkinRow::all ? seconds() : std::max(std::min(phases_[phase].to, seconds()) - phases_[phase].from, 0.0);
-    std::int64_t most = 0, of_touched = 0, touched = 0;
+    std::int64_t most = 0, touched = 0;
     std::vector<double> firsts;
     for (const auto u : units) {
         const std::int64_t spikes = phase == SkinRow::all ? counts_[u] : phase_counts_[phase * counts_.size() + u];
         const auto samples = touched_samples(u, phase);
         r.spikes += spikes, r.active += spikes > 0, r.touched += samples > 0;
-        most = std::max(most, spikes), touched += samples, of_touched += samples > 0 ? spikes : 0;
+        most = std::max(most, spikes), touched += samples;
         if (phase == SkinRow::all && spikes > 0) firsts.push_back(first_times_[u]);
     }
     if (r.seconds > 0) r.busiest = static_cast<double>(most) / r.seconds;
-    if (touched > 0) r.touched_rate = static_cast<double>(of_touched) / since_start_.time(touched);
+    if (touched > 0) r.touched_rate = static_cast<double>(spikes_while_touched(r)) / since_start_.time(touched);
     if (!firsts.empty()) r.first = *std::min_element(firsts.begin(), firsts.end());
     r.median_first = median_of(firsts);
     return r;
@@ -123,7 +149,7 @@ void SkinSummary::add_rows(std::size_t of, std::size_t region, const std::vector
 }
 
 Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
-    add(last);
+    add(last, nullptr);
     samples_ = samples;
     unit_touched_.clear();
     for (std::size_t u = 0; u < counts_.size(); ++u) unit_touched_.push_back(since_start_.time(touched_samples(u, SkinRow::all)));

@@ -30,7 +30,7 @@ struct SkinRow {
     std::int64_t touched = 0;            ///< units of which the site that they feel most had force
     std::int64_t spikes = 0;
     double seconds = 0;              ///< of the phase
-    double touched_rate = no_value;  ///< Hz: spikes of touched units, by the time that each was touched
+    double touched_rate = no_value;  ///< Hz: spikes that arrived while their unit was touched, by the time that units were touched
     double busiest = 0;              ///< Hz: the unit with most spikes, over the phase
     double first = no_value;         ///< s since the start: the earliest spike of them; of rows over all phases
     double median_first = no_value;  ///< ... the median of the units' own first spikes
@@ -91,7 +91,12 @@ private:
     std::vector<std::int64_t> site_touched_;  // [phase; behind the last: no phase][site], samples
     std::vector<SkinRow> rows_;
 
-    void add(std::span<const Spike>);
+    std::vector<std::int64_t> while_touched_;  // [phase; behind the last: no phase][class][region], spikes
+
+    void add(std::span<const Spike>, const SkinAnswered*);
+    bool touches(const SkinAnswered&, std::size_t unit, std::int64_t sample) const;
+    std::size_t group(const SkinUnit&, std::size_t phase) const;
+    std::int64_t spikes_while_touched(const SkinRow&) const;
     void add_touch(const SkinAnswered&);
     std::size_t phase_of(double t) const;
     std::int64_t touched_samples(std::size_t unit, std::size_t phase) const;

@@ -18,7 +18,7 @@ struct Felt {
     std::vector<double> weight;
 };
 
-class Fields {
+class FieldsOfClass {
     const SkinPlan& plan_;
     const SkinClass& class_;
     const NearSites& near_;
@@ -47,7 +47,7 @@ class Fields {
     }
 
 public:
-    Fields(const SkinPlan& plan, const SkinClass& c, const NearSites& near, const std::vector<char>& touching)
+    FieldsOfClass(const SkinPlan& plan, const SkinClass& c, const NearSites& near, const std::vector<char>& touching)
         : plan_(plan), class_(c), near_(near), touching_(touching), per_square_(c.sigma > 0 ? 0.5 / (c.sigma * c.sigma) : 0),
           scale_(plan.felt_area > 0 && plan.sites.area > 0 ? plan.felt_area / plan.sites.area : 1), stream_(class_stream(c, "hot spots")),
           felt_(plan.sites.size()) {}
@@ -99,7 +99,7 @@ std::vector<char> touching_regions(const Sites& sites, const NearSites& near) {
 Result<ReceptiveFields> fields_of(const SkinPlan& plan, std::uint32_t of, std::span<const SkinUnit> units, const NearSites& near,
                                   const std::vector<char>& touching) {
     const auto& c = plan.classes[of];
-    Fields fields(plan, c, near, touching);
+    FieldsOfClass fields(plan, c, near, touching);
     Felt felt;
     felt.end.reserve(units.size());
     for (const auto& u : units) {
