@@ -238,6 +238,7 @@ at("about-maps").textContent = skin.together > 1 ? `a mark stands for ${skin.tog
                                                  : `a mark is a unit; frames of ${quantity(skin.marks.width, "s", true)}`;
 at("about-skin").textContent = [skin.data.summary.skin.sentence, `${skin.data.summary.skin.units} units`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
 showSkinRates(skin, document.querySelector("#rates .scroll"), "all");
+showSources(skin, document.querySelector("#classes .sources"));
 showVersions(skin.data.versions);
 connect();
 draw();
