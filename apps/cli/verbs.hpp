@@ -29,6 +29,7 @@ struct RespondWords {
     std::string method = "exact";
     bool sampled = false, absolute = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
+    std::string population, contact, events, checkpoint;  ///< of a skin; "": not said
     std::uint64_t seed = 0;
     std::uint32_t copies = 0;   ///< 0: not asked for
     std::uint32_t threads = 0;  ///< 0: as many as there are cores
@@ -107,6 +108,7 @@ struct ListWords {
 };
 
 int respond(const RespondWords&, const Common&);
+int respond_skin(const RespondWords&, const Common&);
 int compare(const CompareWords&, const Common&);
 int study(const StudyWords&, const Common&);
 int run(const RunWords&, const Common&);
