@@ -1,5 +1,5 @@
-# Netlists and cards as bytes inside the program, by their paths.
-#   carry(TARGET pattern...): the files that match, from the project's root; circuit/carried.cpp gives them out.
+# Files of text as bytes inside the program, by their paths.
+#   carry(TARGET pattern...): the files that match, from the project's root; signal/carried.cpp gives them out.
 function(carry target)
   set(assembly ".section .rodata\n")
   set(declarations "")
@@ -20,9 +20,9 @@ function(carry target)
   string(APPEND assembly ".section .note.GNU-stack,\"\",%progbits\n")
   set(made ${CMAKE_CURRENT_BINARY_DIR}/carried)
   file(CONFIGURE OUTPUT ${made}/carried.S CONTENT "${assembly}" @ONLY)
-  file(CONFIGURE OUTPUT ${made}/carried_files.hpp CONTENT "// Made from circuits/ and process/.\n#pragma once\n#include <string_view>\n\n${declarations}
-namespace corpuscle::circuit {\nstruct CarriedFile { std::string_view path; const char *begin, *end; };\ninline const CarriedFile files[] = {\n${rows}};\n}\n" @ONLY)
+  file(CONFIGURE OUTPUT ${made}/carried_files.hpp CONTENT "// Made by cmake/carried.cmake.\n#pragma once\n#include <string_view>\n\n${declarations}
+namespace corpuscle {\nstruct CarriedFile { std::string_view path; const char *begin, *end; };\ninline const CarriedFile carried[] = {\n${rows}};\n}\n" @ONLY)
   set_source_files_properties(${made}/carried.S PROPERTIES OBJECT_DEPENDS "${own}" SKIP_PRECOMPILE_HEADERS ON)
   target_sources(${target} PRIVATE ${made}/carried.S)
-  set_source_files_properties(circuit/carried.cpp PROPERTIES INCLUDE_DIRECTORIES ${made})
+  set_source_files_properties(signal/carried.cpp PROPERTIES INCLUDE_DIRECTORIES ${made})
 endfunction()

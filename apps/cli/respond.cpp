@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "force_words.hpp"
 #include "netlist_words.hpp"
 #include "outputs.hpp"
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
-#include "signal/stimuli.hpp"
 #include "signal/text.hpp"
 #include "study/afferents.hpp"
 #include "study/summary.hpp"
@@ -38,18 +37,6 @@ struct Job {
     RespondOptions options;
     std::vector<std::string> warnings;
 };
-
-/// A stimulus by name goes before a file of that name; ./press is the file.
-Result<std::unique_ptr<Source>> open_source(const std::string& force, const RecordingOptions& options, const Job& job, std::uint64_t seed) {
-    if (is_stimulus(force)) return make_stimulus(force, job.wishes, options.rate.value_or(default_rate), seed);
-    std::error_code status;
-    if (!std::filesystem::exists(force, status) && force.find_first_of("./") == std::string::npos && force != "-") {
-        auto error = make_stimulus(force, job.wishes, default_rate, seed).error();
-        error.sentence += fmt::format(" (and there is no file '{}')", force.substr(0, 64));
-        return error;
-    }
-    return open_recording(force == "-" ? "/dev/stdin" : force, options);
-}
 
 Result<std::vector<Wish>> spread_wishes(const RespondWords& w) {
     if (w.copies == 0 && !w.spreads.empty())
@@ -153,7 +140,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     Progress progress(quiet);
     options->keep_on = [&](double share) { return progress.at(share), !interrupted(); };
     for (const auto& force : w.forces) {
-        auto source = open_source(force, *options, job, w.seed);
+        auto source = open_force(force, *options, job.wishes, default_rate, w.seed);
         if (!source) return source.error();
         job.sources.push_back(std::move(*source));
     }
@@ -300,6 +287,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
 }  // namespace
 
 int respond(const RespondWords& asked, const Common& common) {
+    if (!asked.population.empty()) return respond_skin(asked, common);
     catch_interrupt();
     auto words = asked;
     if (!words.netlists.traces.empty()) {

@@ -29,6 +29,7 @@ struct RespondWords {
     std::string method = "exact";
     bool sampled = false, absolute = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
+    std::string population, contact, events, checkpoint;  ///< of a skin; "": not said
     std::uint64_t seed = 0;
     std::uint32_t copies = 0;   ///< 0: not asked for
     std::uint32_t threads = 0;  ///< 0: as many as there are cores
@@ -90,11 +91,24 @@ struct SweepCalibrateWords {
     bool apart = false;
 };
 
+struct StreamWords {
+    std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real", layout;
+    std::vector<std::string> settings, channels;
+    std::optional<std::string> rate, scale, offset, unit;
+    std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M";
+    std::string out = "-", to, format = "lines", save, resume;
+    std::size_t count = 1;     ///< channels
+    std::int64_t clients = 0;  ///< 0: without end
+    long baud = 115200;
+    bool sampled = false;
+};
+
 struct ListWords {
     std::vector<std::string> what;
 };
 
 int respond(const RespondWords&, const Common&);
+int respond_skin(const RespondWords&, const Common&);
 int compare(const CompareWords&, const Common&);
 int study(const StudyWords&, const Common&);
 int run(const RunWords&, const Common&);
@@ -104,6 +118,7 @@ int sweep_merge(const SweepMergeWords&, const Common&);
 int sweep_calibrate(const SweepCalibrateWords&, const Common&);
 int sweep_dump(const std::string& results, const Common&);
 int sweep_show(const SweepShowWords&, const Common&);
+int stream(const StreamWords&, const Common&);
 int list(const ListWords&, const Common&);
 
 }  // namespace corpuscle

@@ -1,18 +1,21 @@
 "use strict";
-// How often all copies of each afferent fire: spikes a copy and second, in even bins.
+// How often all copies of each afferent, or units of a class, fire: spikes of one and second, in even bins.
 
 const DASHES = [null, [6, 3], [2, 2], [8, 2, 2, 2]];
 
 /// A staircase for each afferent; a bin is as wide as the report has it.
 class PopulationPanel extends Panel {
     /// `rates`: [{name, color, index, bin, values}].
-    constructor({rates, ...rest}) {
+    constructor({rates, each = "copy", ...rest}) {
         const highest = rates.reduce((high, {values}) => values.reduce((m, v) => Math.max(m, v), high), 0);
         const power = prefixPower(highest, "Hz");
-        super({...rest, scale: 10 ** power, title: titleHtml(`rate a copy, in bins of ${quantity(rates[0].bin, "s", true)}`, PREFIXES[power] + "Hz"), bottom: true,
+        super({...rest, scale: 10 ** power, title: "", bottom: true,
                series: rates.map(({name, color, index}) => ({label: name, html: escaped(name), color, width: 1.6, dash: DASHES[index % DASHES.length]}))});
-        Object.assign(this, {rates, highest});
+        Object.assign(this, {rates, highest, each, unit: PREFIXES[power] + "Hz"});
+        this.heading.querySelector(".panel-title").innerHTML = this.titleOf();
     }
+
+    titleOf() { return titleHtml(`rate a ${this.each}, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
 
     /// The last bin ends with the input.
     edge(k) { return Math.min(this.input.t0 + k * this.rates[0].bin, endOf(this.input)); }

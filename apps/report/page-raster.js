@@ -117,8 +117,8 @@ function countPerColumn(counts, spikes, i, j, a, b) {
     }
 }
 
-/// An image of the counts: the more spikes, the less transparent.
-function painted(counts, colours) {
+/// An image of the counts: the more spikes, the less transparent, from `faintest` of 255 on.
+function painted(counts, colours, faintest = 55) {
     const most = counts.reduce((high, line) => line.reduce((m, n) => Math.max(m, n), high), 1);
     const canvas = element(null, "canvas");
     [canvas.width, canvas.height] = [counts[0].length, counts.length];
@@ -127,7 +127,7 @@ function painted(counts, colours) {
         const [red, green, blue] = [1, 3, 5].map((k) => parseInt(colours[y].slice(k, k + 2), 16));
         const opaque = (blue << 16) | (green << 8) | red;
         for (let x = 0; x < line.length; ++x)
-            if (line[x]) pixels[y * canvas.width + x] = ((55 + 200 * Math.sqrt(line[x] / most)) << 24) | opaque;
+            if (line[x]) pixels[y * canvas.width + x] = ((faintest + (255 - faintest) * Math.sqrt(line[x] / most)) << 24) | opaque;
     });
     canvas.getContext("2d").putImageData(image, 0, 0);
     return canvas;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/parts_document.hpp"
 #include "report/template.hpp"
 #include "report/versions_document.hpp"
 #include "signal/version.hpp"
@@ -12,21 +13,6 @@ namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json trace_document(std::uint32_t channel, const Json& afferent, std::string_view part, std::string_view unit, const Envelope& e) {
-    return {{"channel", channel},
-            {"afferent", afferent},
-            {"part", part},
-            {"unit", unit},
-            {"bucket", e.bucket()},
-            {"count", e.count()},
-            {"data", base64(e.values().data(), e.values().size() * sizeof(float))}};
-}
-
-Json parameter_document(const Parameter& p, double value) {
-    return {{"name", p.row.name},         {"value", value},         {"unit", p.row.unit}, {"default", p.row.initial}, {"set", p.set},
-            {"sentence", p.row.sentence}, {"source", p.row.source}, {"of", p.of}};
-}
 
 Json level(const AfferentPlan& plan, std::string_view name) {
     const auto value = plan.value(name);
@@ -177,12 +163,6 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
     Json afferents = Json::array(), remarks = Json::array();
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
-        Json parameters = Json::array();
-        for (std::size_t k = 0; k < plan.values.size(); ++k) {
-            parameters.push_back(parameter_document((*plan.parameters)[k], plan.values[k]));
-            for (const auto& s : population_.spreads)
-                if (s.afferent == plan.name && s.parameter == (*plan.parameters)[k].row.name) parameters.back()["spread"] = s.deviation;
-        }
         afferents.push_back({{"name", plan.name},
                              {"receptor", receptor_of(plan)},
                              {"netlist", plan.design != nullptr},
@@ -190,7 +170,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                              {"sentence", plan.sentence},
                              {"V_th", level(first_[a], "V_th")},
                              {"V_reset", level(first_[a], "V_reset")},
-                             {"parameters", parameters},
+                             {"parameters", parameters_document(plan, population_.spreads)},
                              {"parts", parts_[a]}});
     }
     for (const auto& w : warnings) remarks.push_back(w);

@@ -1,17 +1,9 @@
 #include "circuit/carried.hpp"
 
-#include <fmt/format.h>
-
-#include "carried_files.hpp"
+#include "signal/carried.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle::circuit {
-Result<std::string> carried_text(const std::string& path) {
-    for (const auto& f : files)
-        if (f.path == path) return std::string(f.begin, f.end);
-    return bad_input(fmt::format("the program does not carry '{}'", path), {path});
-}
-
 const Carried* carried_netlist(std::string_view name) {
     for (const auto& c : carried_netlists)
         if (same_letters(c.name, name)) return &c;
@@ -28,12 +20,6 @@ Result<Netlist> open_netlist(const std::string& name_or_path, const std::string&
 
 Result<Netlist> parse_carried(std::string text, std::string file, const std::string& corner) {
     return Netlist::parse(std::move(text), std::move(file), carried_text, corner);
-}
-
-std::vector<std::string_view> carried_files() {
-    std::vector<std::string_view> out;
-    for (const auto& f : files) out.push_back(f.path);
-    return out;
 }
 
 }  // namespace corpuscle::circuit

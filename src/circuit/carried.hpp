@@ -1,8 +1,7 @@
 #pragma once
-// The netlists that the program carries with it: circuits/ and process/ as they were when it was built.
+// The netlists that the program carries with it (signal/carried.hpp).
 
 #include <string_view>
-#include <vector>
 
 #include "circuit/netlist/netlist.hpp"
 
@@ -25,12 +24,7 @@ const Carried* carried_netlist(std::string_view name);
 /// The netlist of a name above, or of a path; `corner` as in Netlist::parse.
 Result<Netlist> open_netlist(const std::string& name_or_path, const std::string& corner = "");
 
-/// The text of a file carried, by its path: "circuits/bias.cir".
-Result<std::string> carried_text(const std::string& path);
 /// A netlist whose text includes files that are carried, by their paths as seen from `file`.
 Result<Netlist> parse_carried(std::string text, std::string file, const std::string& corner = "");
-
-/// The files carried, by their paths: "process/tsmc180.lib".
-std::vector<std::string_view> carried_files();
 
 }  // namespace corpuscle::circuit

@@ -24,9 +24,10 @@ struct EventUnits {
 class EventFormat {
 public:
     virtual ~EventFormat() = default;
-    virtual std::string_view name() const = 0;   ///< "lines"
-    virtual std::size_t most_bytes() const = 0;  ///< of one spike
-    virtual std::string header() const = 0;      ///< what comes before the first; "" if nothing does
+    virtual std::string_view name() const = 0;        ///< "lines"
+    virtual std::size_t most_bytes() const = 0;       ///< of one spike
+    virtual bool same_size() const { return false; }  ///< every spike takes most_bytes(); else each is a line
+    virtual std::string header() const = 0;           ///< what comes before the first; "" if nothing does
     /// Writes one spike at `at`, where most_bytes() are free; returns how many it took. Allocates nothing.
     virtual std::size_t put(const Spike&, char* at) const = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "io/address_events.hpp"
 #include "io/trains.hpp"
 #include "signal/text.hpp"
 
@@ -53,9 +54,12 @@ std::string csv_field(const std::string& name) {
 }
 
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path) {
-    char first[2] = {};
-    std::ifstream(path, std::ios::binary).read(first, 2);
-    return first[0] == 'P' && first[1] == 'K' ? read_npz_spikes(path) : read_text_spikes(path);
+    std::string first(12, '\0');
+    std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+    return first.starts_with("PK")                    ? read_npz_spikes(path)
+           : first.starts_with(address_events::magic) ? read_aer_spikes(path)
+           : first.starts_with("#!AER-DAT2.0")        ? read_aedat2_spikes(path)
+                                                      : read_text_spikes(path);
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Files of spikes, read: our own CSV and NPZ, and those of others that are alike.
+// Files of spikes, read: our own CSV, NPZ and address events, and those of others that are alike.
 
 #include <string>
 #include <vector>
@@ -20,7 +20,8 @@ struct NamedTrain {
 std::string csv_field(const std::string& name);
 
 /// Every train of a file, in the order of their names, numbers in them by value. An NPZ is recognised by its first bytes: ours,
-/// or any that SpikeInterface writes (a unit's segments after the first are its channels "segment 2" ...). Anything else is a table of
+/// or any that SpikeInterface writes (a unit's segments after the first are its channels "segment 2" ...); so are address events, ours
+/// and AEDAT 2 (doc/events.md). Anything else is a table of
 /// text with a row a spike: a column of times (time_s, t [ms] ...; seconds if it does not say) and, to tell trains apart, columns
 /// called afferent or unit, and channel; only a lone column of times needs none. A train without spikes stands only in an NPZ of ours.
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path);

@@ -1,5 +1,5 @@
 #pragma once
-// The trains of a file while it is read, and the two kinds of file.
+// The trains of a file while it is read, and the kinds of file.
 
 #include <map>
 #include <utility>
@@ -18,5 +18,7 @@ public:
 
 Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path);
 Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path);
+Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path);
+Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path);
 
 }  // namespace corpuscle

@@ -145,12 +145,12 @@ class Chain final : public Afferent {
         show(s, i, 0, answer);
     }
 
-    /// Samples from `from` on. Where nobody watches and there is no noise, the state stays in registers.
+    /// Samples [from, to). Where nobody watches and there is no noise, the state stays in registers.
     template <bool Watched>
-    void run(std::span<const double> force, std::size_t from, std::int64_t first, Values& state, Answer& answer) const {
+    void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state, Answer& answer) const {
         Values s = state;
         Into into{answer, sampled_, 0};
-        for (std::size_t k = from; k < force.size(); ++k) {
+        for (std::size_t k = from; k < to; ++k) {
             Currents i;
             receptor_.step(s.receptor, force[k], i);
             into.step = first + static_cast<std::int64_t>(k);
@@ -160,6 +160,12 @@ class Chain final : public Afferent {
             if constexpr (Watched) show(s, i, k, answer);
         }
         state = s;
+    }
+
+    void settle(Values& s) const {
+        if constexpr (requires { receptor_.settle(s.receptor); }) receptor_.settle(s.receptor);
+        if constexpr (requires { neuron_.settle(s.neuron[0]); })
+            for (auto& n : s.neuron) neuron_.settle(n);
     }
 
 public:
@@ -182,7 +188,12 @@ public:
         const bool beginning = state.step == 0;
         if (beginning) begin(force[0], s, answer);
         const auto rest = answer.probes.empty() && noise_ == 0 ? &Chain::run<false> : &Chain::run<true>;
-        (this->*rest)(force, beginning ? 1 : 0, state.step, s, answer);
+        for (std::size_t k = beginning ? 1 : 0, to = 0; k < force.size(); k = to) {
+            const std::int64_t now = state.step + static_cast<std::int64_t>(k), left = settling - now % settling;
+            if (left == settling) settle(s);
+            to = std::min(force.size(), k + static_cast<std::size_t>(left));
+            (this->*rest)(force, k, to, state.step, s, answer);
+        }
         std::memcpy(state.values.data(), &s, sizeof s);
         if (first_not_finite(state.values) < state.values.size())
             return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "

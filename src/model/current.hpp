@@ -1,6 +1,8 @@
 #pragma once
 // What passes from a transduction to a neuron, and how time is stepped.
 
+#include <cstdint>
+
 #include "signal/elementary.hpp"
 
 namespace corpuscle {
@@ -42,6 +44,18 @@ struct HighPass {
     }
     T next(T x, T dF) const { return keep * x + gain * dF; }
 };
+
+/// After so many samples, counted from the first, a model's settle() lets go of what has faded: so states come to rest where force does,
+/// and no numbers are left that are slow because they are tiny.
+inline constexpr std::int64_t settling = 1024;
+/// What faded so far is nothing: some 1e-16 of what an ulp of its effect would be.
+inline constexpr double faded_current = 1e-24, faded_force = 1e-18, faded_voltage = 1e-20;  // A, N, V
+
+/// x, or `level` where they are nearer than `faded`.
+template <class T>
+T settled(T x, double faded, T level = T(0.0)) {
+    return num::select(num::abs(x - level) < T(faded), level, x);
+}
 
 /// Hands a model the values of its parameters as T. This one: the same double for every lane.
 template <class P>

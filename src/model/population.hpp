@@ -26,6 +26,9 @@ inline constexpr std::size_t force_tile = 64;
 template <class V>
 struct ForceTiles {
     const V* rows;
+    /// If given, a byte a tile: not 0 where no force comes all through the block. Its rows are not read, and a tile in which nothing
+    /// can change without force is passed over.
+    const std::uint8_t* without = nullptr;
 };
 
 /// Tiles of 16-bit integers as a converter gives them; times `scale` they are N.
@@ -51,6 +54,7 @@ struct PopulationAnswer {
     std::vector<std::uint64_t>* marks = nullptr;
     std::int64_t unmarked = 0;
     std::int64_t capped = 0;  ///< steps whose spikes were more than the cap allows
+    std::int64_t passed = 0;  ///< steps of units that were passed over: nothing in them could change
     std::size_t failed = 0;   ///< the first unit that an error is about
 };
 
@@ -63,6 +67,10 @@ public:
     /// Answers the next block of `steps` samples. Blocks of any size give the same spikes; every block's force comes the same way.
     /// A force that is no number, or a state that leaves the finite numbers, is an error, and ends the population.
     virtual Result<void> respond(const PopulationForce&, std::size_t steps, PopulationAnswer&, Pool&) = 0;
+    virtual std::int64_t step() const = 0;  ///< samples answered so far
+    /// All that it carries. The same population, made anew, goes on from there to the bit; it refuses what is not its own.
+    virtual std::vector<double> save() const = 0;
+    virtual Result<void> resume(std::span<const double>) = 0;
 };
 
 /// What makes a population.

@@ -36,13 +36,6 @@ Result<Spread> parse_spread(const AfferentPlan& plan, const Wish& w, const Row& 
     return Spread{plan.name, row.name, row.unit, *read * std::abs(value), *read};
 }
 
-/// FNV-1a, 64 bits: a stream of random numbers for each name.
-std::uint64_t hashed(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    return hash;
-}
-
 /// Everything that the copies of one plan are drawn with.
 class Drawing {
     struct Drawn {
@@ -125,7 +118,7 @@ public:
             if (s.afferent != plan.name) continue;
             const auto at = place_of(plan, s.parameter);
             drawn_.push_back(
-                {at, plan.values[at], s.deviation, (*plan.parameters)[at].row, hashed(fmt::format("{}.{}", plan.name, s.parameter)), 0});
+                {at, plan.values[at], s.deviation, (*plan.parameters)[at].row, stream_of(fmt::format("{}.{}", plan.name, s.parameter)), 0});
         }
         for (const auto& o : orders_of(plan)) bounds_.push_back({place_of(plan, o.lesser), place_of(plan, o.greater), o.or_equal});
         for (const auto& b : bounds_)

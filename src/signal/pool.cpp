@@ -20,7 +20,11 @@ Pool::~Pool() {
 }
 
 void Pool::each(std::size_t count, const Piece& piece) {
-    const bool alone = helpers_.empty() || count < 2;
+    if (helpers_.empty()) {  // without a lock: somebody may be in a hurry
+        for (std::size_t k = 0; k < count; ++k) piece(k, 0);
+        return;
+    }
+    const bool alone = count < 2;
     {
         const std::lock_guard lock(guard_);
         piece_ = &piece, count_ = count, next_ = 0;

@@ -16,22 +16,12 @@ struct Named {
     Unit unit;
 };
 constexpr Named units[] = {
-    {"s", {1, 1, 0, 0, 0, 0}},
-    {"min", {60, 1, 0, 0, 0, 0}},
-    {"Hz", {1, -1, 0, 0, 0, 0}},
-    {"m", {1, 0, 1, 0, 0, 0}},
-    {"N", {1, 0, 0, 1, 0, 0}},
-    {"gf", {9.80665e-3, 0, 0, 1, 0, 0}},
-    {"lbf", {4.4482216152605, 0, 0, 1, 0, 0}},
-    {"V", {1, 0, 0, 0, 1, 0}},
-    {"A", {1, 0, 0, 0, 0, 1}},
-    {"ohm", {1, 0, 0, 0, 1, -1}},
-    {"Ohm", {1, 0, 0, 0, 1, -1}},
-    {"\u03a9", {1, 0, 0, 0, 1, -1}},
-    {"S", {1, 0, 0, 0, -1, 1}},
-    {"F", {1, 1, 0, 0, -1, 1}},
-    {"W", {1, 0, 0, 0, 1, 1}},
-    {"%", {0.01, 0, 0, 0, 0, 0}},
+    {"s", {1, 1, 0, 0, 0, 0}},    {"min", {60, 1, 0, 0, 0, 0}},        {"Hz", {1, -1, 0, 0, 0, 0}},
+    {"m", {1, 0, 1, 0, 0, 0}},    {"cm", {0.01, 0, 1, 0, 0, 0}},       {"N", {1, 0, 0, 1, 0, 0}},
+    {"Pa", {1, 0, -2, 1, 0, 0}},  {"gf", {9.80665e-3, 0, 0, 1, 0, 0}}, {"lbf", {4.4482216152605, 0, 0, 1, 0, 0}},
+    {"V", {1, 0, 0, 0, 1, 0}},    {"A", {1, 0, 0, 0, 0, 1}},           {"ohm", {1, 0, 0, 0, 1, -1}},
+    {"Ohm", {1, 0, 0, 0, 1, -1}}, {"\u03a9", {1, 0, 0, 0, 1, -1}},     {"S", {1, 0, 0, 0, -1, 1}},
+    {"F", {1, 1, 0, 0, -1, 1}},   {"W", {1, 0, 0, 0, 1, 1}},           {"%", {0.01, 0, 0, 0, 0, 0}},
     {"1", {1, 0, 0, 0, 0, 0}},
 };
 
@@ -54,12 +44,23 @@ std::optional<Unit> one_symbol(std::string_view s) {
     for (const auto& p : prefixes)
         if (s.starts_with(p.text))
             for (const auto& u : units)
-                if (u.name == s.substr(p.text.size()) && u.name != "%" && u.name != "1" && u.name != "min" && u.name != "lbf") {
+                if (u.name == s.substr(p.text.size()) && u.name != "%" && u.name != "1" && u.name != "min" && u.name != "lbf" &&
+                    u.name != "cm") {
                     Unit scaled = u.unit;
                     scaled.factor *= p.factor;
                     return scaled;
                 }
     return {};
+}
+
+/// A symbol with its power behind it: "cm2".
+std::optional<Unit> powered_symbol(std::string_view s) {
+    const int power = s.size() > 1 && (s.back() == '2' || s.back() == '3') ? s.back() - '0' : 1;
+    const auto once = one_symbol(s.substr(0, s.size() - (power > 1)));
+    if (!once || power == 1) return once;
+    const auto by = [power](signed char p) { return static_cast<signed char>(p * power); };
+    const double factor = power == 2 ? once->factor * once->factor : once->factor * once->factor * once->factor;
+    return Unit{factor, by(once->second), by(once->metre), by(once->newton), by(once->volt), by(once->ampere)};
 }
 
 /// What a kind of quantity is called, for messages.
@@ -69,8 +70,8 @@ std::string_view kind_of(const Unit& u) {
     };
     constexpr Kind kinds[] = {{"s", "a time"},        {"Hz", "a frequency"},  {"m", "a length"},       {"N", "a force"},
                               {"V", "a voltage"},     {"A", "a current"},     {"ohm", "a resistance"}, {"S", "a conductance"},
-                              {"F", "a capacitance"}, {"", "a plain number"}, {"m/s", "a speed"},
-                              {"W", "a power"}};
+                              {"F", "a capacitance"}, {"", "a plain number"}, {"m/s", "a speed"},      {"W", "a power"},
+                              {"m2", "an area"},      {"Pa", "a pressure"}};
     for (const auto& k : kinds)
         if (parse_unit(k.unit)->same_kind(u)) return k.name;
     return {};
@@ -89,10 +90,13 @@ Result<Unit> parse_unit(std::string_view text) {
     if (text.size() > 64) return bad_input("a unit of more than 64 letters");
     Unit total;
     double power = 1;
-    for (std::string_view rest = trimmed(text); !rest.empty();) {
+    std::string_view rest = trimmed(text);
+    if (rest.starts_with('/')) power = -1, rest = trimmed(rest.substr(1));  // "/cm2": so many in each
+    if (rest.empty() && power < 0) return bad_input(fmt::format("unit '{}' ends in nothing", text));
+    while (!rest.empty()) {
         const auto end = rest.find_first_of("/* \t");
         const auto symbol = rest.substr(0, end);
-        const auto u = one_symbol(symbol);
+        const auto u = powered_symbol(symbol);
         if (!u) return bad_input(fmt::format("unknown unit '{}'", text));
         const auto add = [&](signed char& to, signed char by) { to = static_cast<signed char>(to + (power > 0 ? by : -by)); };
         total.factor *= power > 0 ? u->factor : 1 / u->factor;
@@ -143,7 +147,8 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
 }
 
 std::string format_quantity(double value, std::string_view unit) {
-    const bool prefixed = !unit.empty() && !unit.starts_with("1/") && value != 0 && std::isfinite(value);
+    const bool square = unit.ends_with('2') || unit.ends_with('3');  // 1 um2 is no millionth of 1 m2
+    const bool prefixed = !unit.empty() && !unit.starts_with("1/") && !square && value != 0 && std::isfinite(value);
     constexpr std::string_view names[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
     int i = 5;
     if (prefixed) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "signal/elementary.hpp"
 
@@ -22,15 +23,24 @@ constexpr Words philox(Words counter, std::uint64_t key) {
     return counter;
 }
 
+/// A stream of random numbers for each name: FNV-1a, 64 bits.
+constexpr std::uint64_t stream_of(std::string_view name) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+    return hash;
+}
+
+/// 53 bits as a number in (0, 1).
+constexpr double unit_interval(std::uint32_t high, std::uint32_t low) {
+    return (static_cast<double>((std::uint64_t{high} << 21) | (low >> 11)) + 0.5) * 0x1p-53;
+}
+
 /// Draw number `index` of two independent standard normal deviates for (seed, unit, purpose), by Box and Muller.
 struct Normals {
     double first, second;
 };
 inline Normals normals(std::uint64_t seed, std::uint32_t unit, std::uint32_t purpose, std::uint64_t index) {
     const Words w = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), unit, purpose}, seed);
-    const auto unit_interval = [](std::uint32_t high, std::uint32_t low) {  // 53 bits, never 0
-        return (static_cast<double>((std::uint64_t{high} << 21) | (low >> 11)) + 0.5) * 0x1p-53;
-    };
     const double u = unit_interval(w[0], w[1]), turns = unit_interval(w[2], w[3]);
     const double far = num::sqrt(-2.0 * num::log(u));
     return {far * num::cos_turns(turns), far * num::cos_turns(turns - 0.25)};

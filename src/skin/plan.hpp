@@ -9,6 +9,11 @@
 
 namespace corpuscle {
 
+/// Where a number of a population is from.
+struct Sourced {
+    std::string of, source;  ///< "density", "Johansson & Vallbo 1979"
+};
+
 /// One class of afferents in a skin.
 struct SkinClass {
     std::string name;                          ///< what outputs call it: "sa1"
@@ -20,6 +25,7 @@ struct SkinClass {
     double hot_spot_spread = 0;                ///< standard deviation of their places about the unit's, each way; m
     double velocity = 0, velocity_spread = 0;  ///< conduction, m/s: mean and standard deviation; 0: spikes are told where they begin
     std::vector<Spread> spreads = {};          ///< how its units differ
+    std::vector<Sourced> sources = {};
 };
 
 /// A skin before its afferents are placed.
@@ -32,6 +38,7 @@ struct SkinPlan {
     /// Where a site stands for an area of skin, its force is a pressure: a unit feels the weighted mean of its field times this area (m2),
     /// so that pressing so much skin evenly with 4 N is felt as 4 N. Else it feels the mean of what its sensors read.
     double felt_area = 0;
+    std::vector<Sourced> sources = {};
     std::optional<Position> nerve = {};  ///< where spikes are listened to: they arrive after (distance to it) / velocity; none: at once
 };
 

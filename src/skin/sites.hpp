@@ -10,6 +10,8 @@
 
 namespace corpuscle {
 
+inline constexpr std::size_t most_sites = std::size_t{1} << 22;
+
 /// Sites of one skin. x points to the right, y away from the wrist; of a hand, as one sees the own right palm.
 struct Sites {
     std::vector<Position> at;           ///< m

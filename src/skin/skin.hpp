@@ -58,8 +58,9 @@ public:
     std::vector<std::byte> save() const;
     Result<void> resume(std::span<const std::byte>);
 
-private:
     struct Held;
+
+private:
     explicit Skin(std::unique_ptr<Held>);
     std::unique_ptr<Held> held_;
 };

@@ -8,13 +8,13 @@
 #include "circuit/curves.hpp"
 #include "circuit/knobs.hpp"
 #include "circuit/variants.hpp"
+#include "signal/carried.hpp"
 #include "study/orders.hpp"
 
 namespace corpuscle {
 namespace {
 
 using circuit::analysis_of;
-using circuit::carried_text;
 using circuit::Circuit;
 using circuit::Knob;
 using circuit::Netlist;

@@ -17,25 +17,6 @@ using Json = nlohmann::ordered_json;
 /// A key that the object does not have yet: with 100,000 channels it is not looked for.
 void add(Json& object, std::string key, Json value) { object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)}); }
 
-Json afferent_document(const AfferentPlan& plan) {
-    Json parameters = Json::object();
-    for (std::size_t k = 0; k < plan.values.size(); ++k) {
-        const auto& p = (*plan.parameters)[k];
-        parameters[std::string(p.row.name)] = {{"value", plan.values[k]}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
-    }
-    if (plan.design) {
-        Json out = {{"name", plan.name}, {"made_of", plan.made_of()}, {"title", plan.sentence}};
-        for (const auto& [name, word] : plan.design->words()) out[name] = word;
-        out["parameters"] = std::move(parameters);
-        return out;
-    }
-    return {{"name", plan.name},
-            {"made_of", plan.made_of()},
-            {"transduction", plan.receptor},
-            {"neuron", plan.neuron},
-            {"parameters", parameters}};
-}
-
 /// Where the sensors sit, by channel; empty if nobody said.
 Json position_document(const Summary::InputFacts& input) {
     Json out = Json::object();
@@ -108,15 +89,38 @@ void OverCopies::add(double x) {
 
 std::string key_of(const Measure& m) { return m.unit.empty() ? std::string(m.name) : fmt::format("{}_{}", m.name, m.unit); }
 
-Json document_of(const Copies& population) {
+Json document_of(const AfferentPlan& plan) {
+    Json parameters = Json::object();
+    for (std::size_t k = 0; k < plan.values.size(); ++k) {
+        const auto& p = (*plan.parameters)[k];
+        parameters[std::string(p.row.name)] = {{"value", plan.values[k]}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+    }
+    if (plan.design) {
+        Json out = {{"name", plan.name}, {"made_of", plan.made_of()}, {"title", plan.sentence}};
+        for (const auto& [name, word] : plan.design->words()) out[name] = word;
+        out["parameters"] = std::move(parameters);
+        return out;
+    }
+    return {{"name", plan.name},
+            {"made_of", plan.made_of()},
+            {"transduction", plan.receptor},
+            {"neuron", plan.neuron},
+            {"parameters", parameters}};
+}
+
+Json document_of(std::span<const Spread> all) {
     Json spreads = Json::array();
-    for (const auto& s : population.spreads)
+    for (const auto& s : all)
         spreads.push_back({{"afferent", s.afferent},
                            {"parameter", s.parameter},
                            {"standard_deviation", s.deviation},
                            {"unit", s.unit},
                            {"share", s.share ? Json(*s.share) : Json(nullptr)}});
-    return {{"of_each_afferent", population.copies}, {"spreads", spreads}};
+    return spreads;
+}
+
+Json document_of(const Copies& population) {
+    return {{"of_each_afferent", population.copies}, {"spreads", document_of(population.spreads)}};
 }
 
 std::string heading(const Measure& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
@@ -190,7 +194,7 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
                       {"noise_A", options.noise},
                       {"seed", seed}};
     out["afferents"] = Json::array();
-    for (const auto& a : afferents) out["afferents"].push_back(afferent_document(a));
+    for (const auto& a : afferents) out["afferents"].push_back(document_of(a));
     out["inputs"] = Json::array();
     for (const auto& i : inputs_) out["inputs"].push_back(input_document(i));
     out["rates"] = Json::array();

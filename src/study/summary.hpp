@@ -39,6 +39,9 @@ std::string heading(const Measure&);
 /// ... and in files: "peak_rate_Hz".
 std::string key_of(const Measure&);
 
+/// What an afferent is, with all its parameters, as a document.
+nlohmann::ordered_json document_of(const AfferentPlan&);
+nlohmann::ordered_json document_of(std::span<const Spread>);
 /// How many copies there are of each afferent and how they differ, as a document.
 nlohmann::ordered_json document_of(const Copies&);
 

@@ -21,8 +21,9 @@ struct Event {
 /// What one job, some tiles over a block, found.
 struct Job {
     std::vector<Event> events;
-    std::int64_t capped = 0, unmarked = 0;
-    bool lost = false;  ///< some force or state is no number
+    std::int64_t capped = 0, unmarked = 0, passed = 0;
+    std::int64_t fired = 0;  ///< how often any did
+    bool lost = false;       ///< some force or state is no number
 };
 
 /// A list of firings that empties itself into a job, or into marks.
@@ -34,6 +35,7 @@ struct Collector : FiringList<V> {
     int lanes;
 
     void empty() {
+        job.fired += this->count;
         for (int k = 0; k < this->count; ++k)
             marks ? mark(this->firings[k]) : list(this->firings[k], this->offsets ? this->offsets + k * lanes : nullptr);
         this->count = 0;
@@ -57,15 +59,16 @@ private:
 
 /// Appends all jobs' events as spikes, in order of time, then unit: counted into their steps, then ordered inside each. `numbers`
 /// are what units are called, rising; none: their own numbers.
+/// `begin` and `at` are room to work in.
 inline void gather(std::span<const Job> jobs, std::size_t steps, std::int64_t first, std::span<const std::uint32_t> numbers,
-                   std::vector<Spike>& spikes) {
-    std::vector<std::size_t> begin(steps + 1);
+                   std::vector<Spike>& spikes, std::vector<std::size_t>& begin, std::vector<std::size_t>& at) {
+    begin.assign(steps + 1, 0);
     for (const auto& job : jobs)
         for (const auto& e : job.events) ++begin[e.step + 1];
     for (std::size_t t = 0; t < steps; ++t) begin[t + 1] += begin[t];
     const std::size_t old = spikes.size();
     spikes.resize(old + begin[steps]);
-    auto at = begin;
+    at = begin;
     for (const auto& job : jobs)
         for (const auto& e : job.events)
             spikes[old + at[e.step]++] = {first + e.step, e.offset, numbers.empty() ? e.unit : numbers[e.unit]};

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <optional>
+#include <tuple>
 
 #include "model/lanes/buffer.hpp"
 #include "model/lanes/collect.hpp"
@@ -40,6 +42,7 @@ class Crowd final : public Population {
             rows{long_chunk * tile_units}, gain{tile_units};
         Buffer<Firing> firings{record_room};
         Buffer<V> offsets{record_room * 16};
+        std::vector<V> before = {};  // a tile's states
     };
 
     /// A block at work.
@@ -62,6 +65,9 @@ class Crowd final : public Population {
     Buffer<V> profile_;
     std::vector<Scratch> scratch_;
     std::vector<Job> jobs_;
+    std::vector<std::uint8_t> rests_;                     // of each tile: nothing in it can change without force
+    Buffer<V> nothing_{chunk_steps<V> * 2 * tile_units};  // rows of no force
+    std::vector<std::size_t> begin_, at_;
 
     // Of one tile; neurons of all outputs, one after another.
     std::size_t receptor_state_size() const { return cast_.receptor->state_values * tile_units; }
@@ -136,7 +142,11 @@ class Crowd final : public Population {
             rows_of(*columns, tile * tile_units, step, steps, s.rows.data());
             c.feed = Feed::rows, c.rows = s.rows.data();
         } else if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) {
-            c.feed = Feed::rows, c.rows = tiles->rows + row, c.ahead = after(c.rows, steps);
+            c.feed = Feed::rows;
+            if (without_force(b, tile))
+                c.rows = nothing_.data();
+            else
+                c.rows = tiles->rows + row, c.ahead = after(c.rows, steps);
         } else if (const auto* words = std::get_if<ForceWords>(&b.force)) {
             c.feed = Feed::words, c.words = words->rows + row, c.scale = static_cast<V>(words->scale), c.ahead = after(c.words, steps);
         } else {
@@ -194,17 +204,77 @@ class Crowd final : public Population {
         job.capped += fired.capped;
     }
 
+    static bool without_force(const Block& b, std::size_t tile) {
+        const auto* tiles = std::get_if<ForceTiles<V>>(&b.force);
+        return tiles && tiles->without && tiles->without[tile];
+    }
+
+    /// Lets go of what has faded in a tile.
+    void settle(std::size_t tile) const {
+        TransductionCall<V> c{};
+        std::tie(c.models, c.stride) = models(cast_.receptors, *cast_.receptor, tile);
+        c.state = receptor_state(tile);
+        cast_.receptor->settle(c);
+        NeuronCall<V> n{};
+        std::tie(n.models, n.stride) = models(cast_.neurons, *cast_.neuron, tile);
+        for (int k = 0; k < cast_.receptor->outputs; ++k) {
+            n.state = neuron_state(tile) + static_cast<std::size_t>(k) * cast_.neuron->state_values * tile_units;
+            cast_.neuron->settle(n);
+        }
+    }
+
+    /// One step without force: a tile that it leaves as it was, to the bit, and that did not fire, rests, and can be passed over until
+    /// force comes. What settles later settles now, so that resting it is the same.
+    void look_for_rest(const Block& b, std::size_t tile, std::size_t step, Scratch& s, Job& job) {
+        const std::size_t felt = receptor_state_size(), all = felt + neuron_state_size();
+        s.before.resize(all);
+        std::copy_n(receptor_state(tile), felt, s.before.data());
+        std::copy_n(neuron_state(tile), all - felt, s.before.data() + felt);
+        const auto fired = job.fired;
+        run_chunk(b, tile, step, 1, s, job);
+        const auto same = [&] {
+            return std::memcmp(receptor_state(tile), s.before.data(), felt * sizeof(V)) == 0 &&
+                   std::memcmp(neuron_state(tile), s.before.data() + felt, (all - felt) * sizeof(V)) == 0;
+        };
+        if (job.fired != fired || !same()) return;
+        settle(tile);
+        rests_[tile] = same();
+        std::copy_n(s.before.data(), felt, receptor_state(tile));
+        std::copy_n(s.before.data() + felt, all - felt, neuron_state(tile));
+    }
+
+    /// As many steps as go together: none beyond where states settle, and alone the one after which a tile may be found at rest.
+    /// Returns how many it took before it found rest.
+    std::size_t run_tile(const Block& b, std::size_t tile, Scratch& s, Job& job) {
+        constexpr std::int64_t looking = 256;
+        const bool without = without_force(b, tile);
+        rests_[tile] = rests_[tile] && without;
+        const std::int64_t most = b.once ? 256 : cast_.joined ? long_chunk : chunk;
+        std::size_t step = 0;
+        while (step < b.steps && !rests_[tile]) {
+            const std::int64_t now = step_ + static_cast<std::int64_t>(step);
+            if (now % settling == 0 && now > 0) settle(tile);
+            const std::int64_t to_look = (looking + 1 - now % looking) % looking;
+            if (without && to_look == 0) {
+                look_for_rest(b, tile, step++, s, job);
+                continue;
+            }
+            std::int64_t steps = std::min({most, static_cast<std::int64_t>(b.steps - step), settling - now % settling});
+            if (without) steps = std::min(steps, to_look);
+            run_chunk(b, tile, step, now == 0 ? 1 : static_cast<int>(steps), s, job);
+            step += now == 0 ? 1 : static_cast<std::size_t>(steps);
+        }
+        return step;
+    }
+
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
-        job.events.clear(), job.capped = job.unmarked = 0, job.lost = false;
+        job.events.clear(), job.capped = job.unmarked = job.passed = job.fired = 0, job.lost = false;
         for (std::size_t tile = number * tiles_a_job; tile < std::min(tiles_, (number + 1) * tiles_a_job); ++tile) {
             if (const auto* profile = std::get_if<ForceProfile>(&b.force)) gains_of(*profile, tile * tile_units, s.gain.data());
-            for (std::size_t step = 0; step < b.steps;) {
-                const std::size_t most = b.once ? 256 : cast_.joined ? long_chunk : chunk;
-                const int steps = step_ == 0 && step == 0 ? 1 : static_cast<int>(std::min<std::size_t>(most, b.steps - step));
-                run_chunk(b, tile, step, steps, s, job);
-                step += static_cast<std::size_t>(steps);
-            }
+            const std::size_t steps = run_tile(b, tile, s, job);
+            job.passed += static_cast<std::int64_t>(b.steps - steps) * units_of(tile);
+            if (steps == 0) continue;
             job.lost |= !finite(receptor_state(tile), receptor_state_size()) || !finite(neuron_state(tile), neuron_state_size());
         }
     }
@@ -297,9 +367,40 @@ public:
     Crowd(Cast<V> cast, const Run& run)
         : cast_(std::move(cast)), method_(run.method), sampled_(run.sampled), tiles_((cast_.units + tile_units - 1) / tile_units),
           receptor_states_(tiles_ * receptor_state_size()), neuron_states_(tiles_ * neuron_state_size()),
-          jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
+          jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job), rests_(tiles_) {}
 
     std::size_t units() const override { return cast_.units; }
+    std::int64_t step() const override { return step_; }
+
+    std::vector<double> save() const override {
+        std::vector<double> all = {static_cast<double>(step_), kind_ ? static_cast<double>(1 + 2 * kind_->first + kind_->second) : 0.0};
+        const auto add = [&](const auto* values, std::size_t count) { all.insert(all.end(), values, values + count); };
+        add(receptor_states_.data(), receptor_states_.size());
+        add(neuron_states_.data(), neuron_states_.size());
+        add(rests_.data(), rests_.size());
+        if (cast_.once) {
+            const auto profile = cast_.once->save();
+            add(profile.data(), profile.size());
+        }
+        return all;
+    }
+
+    Result<void> resume(std::span<const double> all) override {
+        const std::size_t own = 2 + receptor_states_.size() + neuron_states_.size() + rests_.size();
+        const bool fits = all.size() >= own && (cast_.once ? cast_.once->resume(all.subspan(own)) : all.size() == own);
+        if (!fits) return bad_input(fmt::format("{}: {} numbers of a saved state are not of this population", cast_.name, all.size()));
+        step_ = static_cast<std::int64_t>(all[0]);
+        const auto kind = static_cast<std::size_t>(all[1]);
+        kind_ = kind == 0 ? std::nullopt : std::optional(std::pair((kind - 1) / 2, (kind - 1) % 2 == 1));
+        const double* at = all.data() + 2;
+        const auto take = [&]<class T>(T* values, std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k) values[k] = static_cast<T>(*at++);
+        };
+        take(receptor_states_.data(), receptor_states_.size());
+        take(neuron_states_.data(), neuron_states_.size());
+        take(rests_.data(), rests_.size());
+        return {};
+    }
 
     Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationAnswer& answer, Pool& pool) override {
         if (auto ok = check(force, steps); !ok) return ok;
@@ -312,9 +413,9 @@ public:
         if (answer.marks) answer.marks->assign(tiles_ * steps, 0), block.marks = answer.marks->data();
         while (scratch_.size() < pool.threads()) scratch_.emplace_back();
         pool.each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
-        for (const auto& job : jobs_) answer.capped += job.capped, answer.unmarked += job.unmarked;
+        for (const auto& job : jobs_) answer.capped += job.capped, answer.unmarked += job.unmarked, answer.passed += job.passed;
         if (auto error = wrong(block, answer)) return *error;
-        if (answer.spikes) gather(jobs_, steps, step_, cast_.numbers, *answer.spikes);
+        if (answer.spikes) gather(jobs_, steps, step_, cast_.numbers, *answer.spikes, begin_, at_);
         step_ += static_cast<std::int64_t>(steps);
         return {};
     }

@@ -32,12 +32,13 @@ constexpr ReceptorLanes<V> receptor_lanes() {
             sizeof(typename R::State) / sizeof(Batch<V>),
             build<V, R>,
             start<V, R>,
+            settle<V, R>,
             transduce_tile<V, R>,
             Joined<V, R, Neurons>::with_each};
 }
 template <class V, class N>
 constexpr NeuronLanes<V> neuron_lanes() {
-    return {N::name, sizeof(N), sizeof(typename N::State) / sizeof(Batch<V>), build<V, N>, start<V, N>, fire_tile<V, N>};
+    return {N::name, sizeof(N), sizeof(typename N::State) / sizeof(Batch<V>), build<V, N>, start<V, N>, settle<V, N>, fire_tile<V, N>};
 }
 
 template <class V>

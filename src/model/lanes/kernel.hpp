@@ -98,7 +98,8 @@ struct ReceptorLanes {
     std::size_t model_bytes, state_values;
     /// Makes the models of `count` units (a tile's), or one for all if it is 1, of an array of the receptor's Params.
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
-    void (*start)(const TransductionCall<V>&);  ///< the state before the first row of force
+    void (*start)(const TransductionCall<V>&);   ///< the state before the first row of force
+    void (*settle)(const TransductionCall<V>&);  ///< lets go of what has faded; uses only models and state
     void (*run)(TransductionCall<V>&);
     std::span<const JoinedLanes<V>> joined;  ///< with each neuron of the table
 };
@@ -109,6 +110,7 @@ struct NeuronLanes {
     std::size_t model_bytes, state_values;
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
     void (*start)(const NeuronCall<V>&);
+    void (*settle)(const NeuronCall<V>&);
     void (*run)(const NeuronCall<V>&);
 };
 

@@ -19,6 +19,8 @@ struct ProfileCurrents {
 class ProfileTransduction {
 public:
     virtual ~ProfileTransduction() = default;
+    virtual std::vector<double> save() const = 0;
+    virtual bool resume(std::span<const double>) = 0;  ///< false: these are not its own
     /// The next steps; `first`: they begin the profile.
     virtual void run(std::span<const double> force, bool first, std::array<ProfileCurrents, most_outputs>& out) = 0;
 };

@@ -89,6 +89,17 @@ template <class S, class V>
     }
 }
 
+/// Lets go of what has faded in a tile's states of one part.
+template <class V, class M, class Call>
+void settle(const Call& c) {
+    if constexpr (requires(const M& m, typename M::State& s) { m.settle(s); })
+        for (int unit = 0; unit < tile_units; unit += width<V>) {
+            auto s = read<typename M::State>(c.state, unit);
+            model<M>(c.models, c.stride, unit / width<V>).settle(s);
+            write(s, c.state, unit);
+        }
+}
+
 /// Asks for memory ahead, some lines each time, so that all of it is asked for in `times`.
 class Asking {
     const char *at_, *end_;

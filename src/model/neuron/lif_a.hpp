@@ -46,6 +46,7 @@ struct LifA : LifAFacts {
           exact(method == Method::exact) {}
 
     State start() const { return {E_L, T(0.0)}; }
+    void settle(State& s) const { s.u = settled(s.u, faded_voltage, E_L); }
     void show(const State& s, T (&out)[1]) const { out[0] = s.u; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.

@@ -44,6 +44,7 @@ struct Fa1b : Fa1bFacts {
         s.I = k_A * num::positive(s.x) + k_B * num::positive(-s.x);
         i[0] = {hold ? before : s.I, s.I};
     }
+    void settle(State& s) const { s.x = settled(s.x, faded_force); }
     void show(const State& s, T (&out)[2]) const { out[0] = k_A * num::positive(s.x), out[1] = k_B * num::positive(-s.x); }
 
 private:

@@ -50,6 +50,7 @@ struct Sa1b : Sa1bFacts {
         s.F = F;
         i[0] = {hold ? before : s.I, s.I};
     }
+    void settle(State& s) const { s.I_B = settled(s.I_B, faded_current), s.I_C = settled(s.I_C, faded_current); }
     void show(const State& s, T (&out)[3]) const { out[0] = k_A * s.F, out[1] = s.I_B, out[2] = s.I_C; }
 
 private:

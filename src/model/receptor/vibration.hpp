@@ -45,6 +45,9 @@ struct Vibration : VibrationFacts {
         s = {F, x_1, x_2, x_3, k * num::positive(x_2 - x_3)};  // a low-pass is what a high-pass leaves
         i[0] = {hold ? before : s.I, s.I};
     }
+    void settle(State& s) const {
+        s.x_1 = settled(s.x_1, faded_force), s.x_2 = settled(s.x_2, faded_force), s.x_3 = settled(s.x_3, faded_force);
+    }
 
 private:
     T k;

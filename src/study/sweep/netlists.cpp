@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "signal/carried.hpp"
 #include "signal/field.hpp"
 #include "signal/text.hpp"
 #include "study/orders.hpp"
@@ -20,7 +21,7 @@ using circuit::Netlist;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;
 
 bool is_carried(std::string_view path) {
-    const auto all = circuit::carried_files();
+    const auto all = carried_files();
     return std::find(all.begin(), all.end(), path) != all.end();
 }
 
@@ -74,7 +75,7 @@ Result<NetlistMaker> NetlistMaker::of(const Said& said, const std::string& folde
     }
     if (!out.carried_ && !fs::exists(fs::path(out.folder_) / out.file_, status)) {
         std::vector<std::string_view> known;
-        for (const auto file : circuit::carried_files())
+        for (const auto file : carried_files())
             if (file.ends_with(".cir")) known.push_back(file);
         for (const auto& c : circuit::carried_netlists) known.push_back(c.name);
         if (!is_carried(out.file_))
@@ -93,7 +94,7 @@ Result<std::string> NetlistMaker::text_of(const std::string& path) const {
         for (const auto& [name, text] : files_->texts)
             if (name == path) return text;
     }
-    auto text = carried_ ? circuit::carried_text(path) : bytes_of(fs::path(folder_) / path, path);
+    auto text = carried_ ? carried_text(path) : bytes_of(fs::path(folder_) / path, path);
     if (!text) return text;
     const std::lock_guard lock(files_->guard);
     files_->texts.emplace_back(path, *text);

@@ -13,8 +13,6 @@ namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
-using sweeps::MaybeSaid;
-using sweeps::Said;
 using sweeps::SweepText;
 
 constexpr std::uintmax_t most_of_a_sweep = std::uintmax_t{1} << 20;  // bytes

@@ -5,24 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "signal/error.hpp"
+#include "signal/said.hpp"
 
 namespace corpuscle::sweeps {
-
-/// A value, as text, and where it stands.
-struct Said {
-    std::string text;
-    Place place;
-
-    Error wrong(std::string sentence) const { return bad_input(std::move(sentence), place); }
-};
-using MaybeSaid = std::optional<Said>;
-
-/// Something set by name: [set].
-struct SaidSetting {
-    std::string name;  ///< "press.F_max"
-    Said value;
-};
 
 /// One [[vary]].
 struct SaidAxis {

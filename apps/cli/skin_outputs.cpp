@@ -1,0 +1,111 @@
+#include "skin_outputs.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
+
+#include "recording_words.hpp"
+#include "signal/text.hpp"
+#include "study/skin_bins_file.hpp"
+#include "study/skin_events_file.hpp"
+#include "study/skin_spikes_file.hpp"
+#include "study/skin_units_file.hpp"
+#include "study/stale.hpp"
+
+namespace corpuscle {
+
+SkinOutputs::~SkinOutputs() {
+    report_file_.reset(), summary_file_.reset();
+    while (!files_.empty()) files_.pop_back();  // the last first: a directory goes with the first
+}
+
+template <class F, class... A>
+Result<void> SkinOutputs::add(const std::string& name, const A&... how) {
+    auto file = OutputFile::create(directory_ + "/" + name);
+    if (!file) return file.error();
+    files_.push_back(std::make_unique<F>(std::move(*file), how...));
+    return {};
+}
+
+Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummary& summary) {
+    const auto bin = quantity(w.bin, "s", "--bin");
+    if (!bin) return bin.error();
+    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
+    const auto formats = event_formats();
+    const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == w.events; });
+    if (!w.events.empty() && format == formats.end()) {
+        std::vector<std::string_view> names;
+        for (const auto& f : formats) names.push_back(f.name);
+        return bad_usage(fmt::format("--events {}: there are {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
+    }
+    auto ok =
+        w.events.empty() ? add<SkinSpikesFile>("spikes.csv") : add<SkinEventsFile>(fmt::format("spikes.{}", format->extension), w.events);
+    if (!ok) return ok;
+    if (ok = add<SkinUnitsFile>("units.csv", std::cref(summary)); !ok) return ok;
+    if (*bin)
+        if (ok = add<SkinBinsFile>("psth.csv", **bin); !ok) return ok;
+    auto file = OutputFile::create(directory_ + "/summary.json");
+    if (!file) return file.error();
+    summary_file_ = std::move(*file);
+    return {};
+}
+
+Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary) {
+    for (const auto& [word, said] : {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}})
+        if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
+    directory_ = w.out;
+    if (!w.out.empty())
+        if (auto ok = open_directory(w, summary); !ok) return ok;
+    if (!w.report) return {};
+    auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
+    if (!page) return page.error();
+    report_file_ = std::move(*page);
+    report_.emplace();
+    return {};
+}
+
+void SkinOutputs::listen(std::vector<SkinListener*>& listeners) {
+    for (auto& file : files_) listeners.push_back(&*file);
+    if (report_) listeners.push_back(&*report_);
+}
+
+std::vector<std::string> SkinOutputs::paths() const {
+    std::vector<std::string> all;
+    for (const auto& file : files_)
+        for (auto& path : file->paths()) all.push_back(std::move(path));
+    if (summary_file_) all.push_back(summary_file_->path());
+    if (report_file_) all.push_back(report_file_->path());
+    return all;
+}
+
+std::vector<std::string> SkinOutputs::names() const {
+    std::vector<std::string> all;
+    for (const auto& path : paths())
+        if (!directory_.empty() && std::filesystem::path(path).parent_path() == std::filesystem::path(directory_))
+            all.push_back(std::filesystem::path(path).filename().string());
+    return all;
+}
+
+Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinTold& told, const std::string& document,
+                                 const std::string& command) {
+    const auto put = [](OutputFile& file, const std::string& text) {
+        auto ok = file.write(text);
+        return ok ? file.commit() : ok;
+    };
+    if (report_)
+        if (auto ok = put(*report_file_, skin_page(summary, *report_, told, command)); !ok) return ok;
+    for (auto& file : files_)
+        if (auto ok = file->commit(); !ok) return ok;
+    if (!summary_file_) return {};
+    removed_ = remove_stale(directory_, names());
+    return put(*summary_file_, document);
+}
+
+std::string SkinOutputs::told() const {
+    const auto all = paths();
+    if (all.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
+    const auto gone = removed_.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed_, ", "));
+    return fmt::format("Written: {}\n{}", fmt::join(all, ", "), gone);
+}
+
+}  // namespace corpuscle

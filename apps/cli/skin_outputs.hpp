@@ -1,0 +1,40 @@
+#pragma once
+// The files of one run of a skin: made before it, put in their places after it.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/skin_page.hpp"
+#include "study/skin_written.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+
+class SkinOutputs {
+    std::string directory_;
+    std::vector<std::unique_ptr<SkinWrittenFile>> files_;
+    std::optional<SkinReport> report_;
+    std::optional<OutputFile> summary_file_, report_file_;
+    std::vector<std::string> removed_;
+
+    template <class F, class... A>
+    Result<void> add(const std::string& name, const A&... how);
+    Result<void> open_directory(const RespondWords&, const SkinSummary&);
+    std::vector<std::string> paths() const;
+
+public:
+    SkinOutputs() = default;
+    SkinOutputs(const SkinOutputs&) = delete;
+    SkinOutputs& operator=(const SkinOutputs&) = delete;
+    ~SkinOutputs();
+    /// The summary counts what some of the files hold: it listens before them.
+    Result<void> open(const RespondWords&, const SkinSummary&);
+    void listen(std::vector<SkinListener*>&);
+    std::vector<std::string> names() const;
+    Result<void> commit(const SkinSummary&, const SkinTold&, const std::string& document, const std::string& command);
+    std::string told() const;
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,106 @@
+#include "stream_told.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "signal/quantity.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::string time_of(std::int64_t ns) { return format_quantity(static_cast<double>(ns) * 1e-9, "s"); }
+
+/// "3 gaps", "1 gap"
+std::string counted(std::int64_t n, std::string_view what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+std::string quantiles(const Delays& d) {
+    return fmt::format("50 % {}, 99 % {}, 99.9 % {}, longest {}", time_of(d.quantile(0.5)), time_of(d.quantile(0.99)),
+                       time_of(d.quantile(0.999)), time_of(d.most()));
+}
+
+/// What did not go as it should, a line each.
+std::string troubles(const StreamFacts& f) {
+    const auto counts = f.frames.counts();
+    const auto& order = counts.order;
+    const auto& done = f.loop.done();
+    const std::pair<std::int64_t, std::string> all[] = {
+        {order.gaps,
+         fmt::format("{}: {} held, {} without force", counted(order.gaps, "gap"), counted(order.held, "frame"), order.released)},
+        {order.duplicates, counted(order.duplicates, "duplicate") + " left out"},
+        {order.late, counted(order.late, "late frame") + " left out"},
+        {order.restarts, fmt::format("the sender's count began anew {}", order.restarts == 1 ? "once" : counted(order.restarts, "time"))},
+        {counts.unreadable, counted(counts.unreadable, "frame") + " could not be read: the last force was held"},
+        {counts.values, counted(counts.values, "force") + " no number, or beyond the limit: the site's last was held"},
+        {counts.halves, counted(counts.halves, "half frame") + " when the sender went"},
+        {done.dropped, counted(done.dropped, "spike") + " left out: the reader was too slow, and the buffer full"},
+        {f.outlet.lost(), counted(f.outlet.lost(), "spike") + " lost: their reader went, or took no more"},
+        {f.skin.work().capped, fmt::format("{} with more spikes than the cap allows", counted(f.skin.work().capped, "step"))},
+    };
+    std::string text;
+    for (const auto& [count, sentence] : all)
+        if (count > 0) text += "  " + sentence + "\n";
+    return text;
+}
+
+nlohmann::ordered_json in_seconds(const Delays& d) {
+    const auto s = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-9; };
+    return {{"count", d.count()},
+            {"p50", s(d.quantile(0.5))},
+            {"p99", s(d.quantile(0.99))},
+            {"p99.9", s(d.quantile(0.999))},
+            {"max", s(d.most())}};
+}
+
+}  // namespace
+
+std::string stream_summary(const StreamFacts& f) {
+    const auto& done = f.loop.done();
+    const auto counts = f.frames.counts();
+    const double T = f.skin.clock().T();
+    auto text = fmt::format("{} of {} of touch, {} from {}\n", counted(counts.frames, "frame"),
+                            format_quantity(static_cast<double>(counts.frames + done.filled) * T, "s"), counted(done.spikes, "spike"),
+                            counted(static_cast<std::int64_t>(f.skin.innervation().units.size()), "afferent"));
+    if (counts.producers != 1) text += fmt::format("  {} sent\n", counted(counts.producers, "client"));
+    if (f.outlet.readers() != 1) text += fmt::format("  {}\n", counted(f.outlet.readers(), "connection") + " to the reader");
+    if (done.delay.count() > 0) text += fmt::format("  from a frame to its spikes written: {}\n", quantiles(done.delay));
+    if (done.jitter.count() > 0)
+        text += fmt::format("  frames came at {}; off {} from one to the next: {}\n", format_quantity(done.rate(), "Hz"),
+                            format_quantity(T, "s"), quantiles(done.jitter));
+    return text + troubles(f);
+}
+
+std::string stream_status(const StreamFacts& f) {
+    const auto& done = f.loop.done();
+    return fmt::format("{} frames  {} spikes  {} left out  {} (99.9 %: {})", f.frames.counts().frames, done.spikes,
+                       done.dropped + f.outlet.lost(), time_of(done.delay.quantile(0.5)), time_of(done.delay.quantile(0.999)));
+}
+
+nlohmann::ordered_json stream_document(const StreamFacts& f) {
+    const auto& done = f.loop.done();
+    const auto counts = f.frames.counts();
+    const auto& plan = f.skin.innervation().plan;
+    nlohmann::ordered_json doc = {
+        {"population", plan.name},          {"sites", f.skin.sites()}, {"units", f.skin.innervation().units.size()},
+        {"rate_Hz", f.skin.clock().rate()}, {"frames", counts.frames}, {"frames_filled", done.filled},
+        {"steps", f.skin.frames()},         {"spikes", done.spikes}};
+    doc["frames_in_order"] = {{"gaps", counts.order.gaps},         {"held", counts.order.held},
+                              {"released", counts.order.released}, {"duplicates", counts.order.duplicates},
+                              {"late", counts.order.late},         {"restarts", counts.order.restarts}};
+    doc["frames_as_bytes"] = {{"senders", counts.producers},
+                              {"headers", counts.headers},
+                              {"unreadable", counts.unreadable},
+                              {"unreadable_forces", counts.values},
+                              {"halves", counts.halves}};
+    doc["events"] = {{"format", f.format.name()},
+                     {"to", f.outlet.sentence()},
+                     {"dropped", done.dropped},
+                     {"lost", f.outlet.lost()},
+                     {"readers", f.outlet.readers()}};
+    doc["work"] = {{"afferent_steps", f.skin.work().afferent_steps}, {"at_rest", f.skin.work().at_rest}, {"capped", f.skin.work().capped}};
+    doc["delay_s"] = in_seconds(done.delay);
+    doc["jitter_s"] = in_seconds(done.jitter);
+    doc["came_at_Hz"] = done.rate();
+    return doc;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,25 @@
+#pragma once
+// What people and programs are told of a live stream.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "live/stream_loop.hpp"
+
+namespace corpuscle {
+
+/// A stream while it runs and when it has ended.
+struct StreamFacts {
+    const SkinStream& skin;
+    const FrameSource& frames;
+    const EventOutlet& outlet;
+    const EventFormat& format;
+    const StreamLoop& loop;
+};
+
+std::string stream_summary(const StreamFacts&);
+/// One line, for a terminal.
+std::string stream_status(const StreamFacts&);
+nlohmann::ordered_json stream_document(const StreamFacts&);
+
+}  // namespace corpuscle

@@ -1,0 +1,90 @@
+#pragma once
+// Numbers of many places over time, in frames of even length: bounded memory whatever the length, since two frames become one when
+// there are more than `most`.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace corpuscle {
+
+template <class V>
+class Framed {
+public:
+    struct Entry {
+        std::uint32_t place;
+        V value;
+        bool operator==(const Entry&) const = default;
+    };
+    using Frame = std::vector<Entry>;  ///< places rising; those that are 0 are left out
+
+    Framed() = default;
+    /// `width`: of a frame at first, samples.
+    Framed(std::size_t places, std::size_t most, std::int64_t width) : most_(std::max<std::size_t>(most, 2)), width_(width), now_(places) {}
+
+    /// What is added from now on is of the frame that holds this sample, which is not before the last one; returns the first sample
+    /// behind that frame.
+    std::int64_t open(std::int64_t sample) {
+        while (sample >= end_) {
+            const auto frame = static_cast<std::size_t>(sample / width_);
+            if (frame >= most_) {
+                halve();
+            } else {
+                for (; done_.size() < frame; now_.assign(now_.size(), V{})) done_.push_back(current());
+                end_ = static_cast<std::int64_t>(frame + 1) * width_;
+            }
+        }
+        return end_;
+    }
+    void add(std::uint32_t place, V value) { now_[place] += value; }
+
+    std::size_t places() const { return now_.size(); }
+    std::int64_t width() const { return width_; }
+    /// All frames, the one that fills included.
+    std::vector<Frame> frames() const {
+        auto all = done_;
+        all.push_back(current());
+        return all;
+    }
+
+private:
+    std::size_t most_ = 2;
+    std::int64_t width_ = 1, end_ = 0;  // samples
+    std::vector<Frame> done_;
+    std::vector<V> now_;
+
+    Frame current() const {
+        Frame frame;
+        for (std::size_t p = 0; p < now_.size(); ++p)
+            if (now_[p] != V{}) frame.push_back({static_cast<std::uint32_t>(p), now_[p]});
+        return frame;
+    }
+
+    static Frame sum(const Frame& a, const Frame& b) {
+        Frame out;
+        for (auto i = a.begin(), j = b.begin(); i != a.end() || j != b.end();) {
+            if (j == b.end() || (i != a.end() && i->place < j->place))
+                out.push_back(*i++);
+            else if (i == a.end() || j->place < i->place)
+                out.push_back(*j++);
+            else
+                out.push_back({i->place, i->value + j->value}), ++i, ++j;
+        }
+        return out;
+    }
+
+    void halve() {
+        if (done_.size() % 2 == 1) {
+            for (const auto& e : done_.back()) now_[e.place] = e.value + now_[e.place];
+            done_.pop_back();
+        }
+        std::vector<Frame> half;
+        for (std::size_t k = 0; k + 1 < done_.size(); k += 2) half.push_back(sum(done_[k], done_[k + 1]));
+        done_ = std::move(half);
+        width_ *= 2;
+        end_ = static_cast<std::int64_t>(done_.size() + 1) * width_;
+    }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,37 @@
+#include "report/parts_document.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace corpuscle {
+
+using PartJson = nlohmann::ordered_json;
+
+PartJson trace_document(std::uint32_t channel, const PartJson& afferent, std::string_view part, std::string_view unit, const Envelope& e) {
+    return {{"channel", channel},
+            {"afferent", afferent},
+            {"part", part},
+            {"unit", unit},
+            {"bucket", e.bucket()},
+            {"count", e.count()},
+            {"data", base64(e.values().data(), e.values().size() * sizeof(float))}};
+}
+
+PartJson parameters_document(const AfferentPlan& plan, std::span<const Spread> spreads) {
+    PartJson out = PartJson::array();
+    for (std::size_t k = 0; k < plan.values.size(); ++k) {
+        const auto& p = (*plan.parameters)[k];
+        out.push_back({{"name", p.row.name},
+                       {"value", plan.values[k]},
+                       {"unit", p.row.unit},
+                       {"default", p.row.initial},
+                       {"set", p.set},
+                       {"sentence", p.row.sentence},
+                       {"source", p.row.source},
+                       {"of", p.of}});
+        for (const auto& s : spreads)
+            if (s.afferent == plan.name && s.parameter == p.row.name) out.back()["spread"] = s.deviation;
+    }
+    return out;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,147 @@
+"use strict";
+// The data of a skin's page, taken apart: places, units, marks, frames, trains.
+
+/// Whole numbers of seven bits a byte, the lowest first.
+class Numbers {
+    constructor(base64) { Object.assign(this, {bytes: bytesOf(base64), at: 0}); }
+
+    next() {
+        for (let n = 0, scale = 1;; scale *= 128) {
+            const byte = this.bytes[this.at++];
+            n += (byte & 127) * scale;
+            if (byte < 128) return n;
+        }
+    }
+}
+
+/// Values of many places in each frame; frame f has entries begin[f] ... begin[f + 1] - 1 of `place` and `value`.
+class Frames {
+    constructor({count, width, places, data}) {
+        Object.assign(this, {count, width, places, begin: new Uint32Array(count + 1)});
+        const source = new Numbers(data), place = [], value = [];
+        for (let f = 0; f < count; ++f) {
+            for (let p = 0; p < places;) {
+                const byte = source.bytes[source.at++];
+                if (byte === 0) p += source.next();
+                else place.push(p++), value.push(byte < 255 ? byte : source.next());
+            }
+            this.begin[f + 1] = place.length;
+        }
+        Object.assign(this, {place: Uint32Array.from(place), value: Uint32Array.from(value)});
+    }
+
+    /// Calls back with each place of a frame that is not 0, and its value.
+    each(frame, call) {
+        for (let k = this.begin[frame]; k < this.begin[frame + 1]; ++k) call(this.place[k], this.value[k]);
+    }
+
+    totals() {
+        const sums = new Float64Array(this.places);
+        this.place.forEach((p, k) => { sums[p] += this.value[k]; });
+        return sums;
+    }
+}
+
+/// Spikes of the units that fired, in the order of units: train k is of `unit[k]`, its times begin[k] ... begin[k + 1] - 1.
+class Trains {
+    constructor({count, trains, tick, data}, t0) {
+        const source = new Numbers(data);
+        Object.assign(this, {unit: new Uint32Array(trains), begin: new Uint32Array(trains + 1), times: new Float64Array(count)});
+        for (let k = 0, unit = 0, at = 0; k < trains; ++k) {
+            unit += source.next();
+            this.unit[k] = unit++;
+            const end = at + source.next();
+            for (let ticks = 0; at < end; ++at) this.times[at] = t0 + (ticks += source.next()) * tick;
+            this.begin[k + 1] = end;
+        }
+    }
+
+    /// A train as page-raster.js counts it.
+    train(k) {
+        const times = this.times.subarray(this.begin[k], this.begin[k + 1]);
+        return {unit: this.unit[k], times, before: (t) => firstAt(times, t)};
+    }
+}
+
+/// How many of ascending times come before t.
+function firstAt(times, t) {
+    let low = 0, high = times.length;
+    while (low < high) {
+        const middle = (low + high) >> 1;
+        if (times[middle] < t) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+class Skin {
+    constructor(data) {
+        const {over, units, sites} = data;
+        Object.assign(this, {data, regions: data.regions, t0: over.t0});
+        this.classes = data.classes.map((one, index) => ({...one, index, get color() { return afferentColour(index); }}));
+        this.input = {t0: over.t0, T: over.T, samples: over.shown_samples, phases: data.summary.input.phases.map(({name, from_s, to_s}) => ({name, from: over.t0 + from_s, to: over.t0 + to_s}))};
+        this.places = floats(units.places);
+        this.region = new Uint16Array(bytesOf(units.region).buffer);
+        this.copy = new Uint32Array(bytesOf(units.copy).buffer);
+        this.first = floats(units.first);
+        this.sitePlaces = floats(sites.places);
+        this.siteRegion = new Uint16Array(bytesOf(sites.region).buffer);
+        this.siteForce = new Frames(over.sites);
+        this.marks = new Frames(over.marks);
+        this.firstUnits = new Uint32Array(bytesOf(over.first_units).buffer);
+        this.together = over.units_a_mark;
+        this.sitesTogether = over.sites_a_mark;
+        this.side = sites.side || spacing(this.sitePlaces) * 0.9;
+        this.standsAlone = !sites.side;
+        this.perClass = new Frames(over.classes);
+    }
+
+    get trains() {
+        if (!this.decoded && this.data.over.spikes) this.decoded = new Trains(this.data.over.spikes, this.t0);
+        return this.decoded || null;
+    }
+
+    classOf(unit) { return this.classes.find(({first, units}) => unit >= first && unit < first + units); }
+    unitName(unit) { return `${this.classOf(unit).name}#${this.copy[unit]}`; }
+    regionName(unit) { return this.regions[this.region[unit]]; }
+    get duration() { return this.input.samples * this.input.T; }
+
+    /// The marks of a class: from, to.
+    marksOf({first, units}) { return [firstAt(this.firstUnits, first), firstAt(this.firstUnits, first + units)]; }
+    unitsOf(mark) { return this.firstUnits[mark + 1] - this.firstUnits[mark]; }
+
+    /// The last frame may be shorter.
+    frameLength(frame) { return Math.min(this.marks.width, this.duration - frame * this.marks.width) || this.marks.width; }
+    frameAt(t) { return Math.max(0, Math.min(this.marks.count - 1, Math.floor((t - this.t0) / this.marks.width + 1e-9))); }
+
+    /// [x, y] of the middle of a mark's units, mm.
+    markPlace(mark) {
+        let x = 0, y = 0;
+        const [from, to] = [this.firstUnits[mark], this.firstUnits[mark + 1]];
+        for (let u = from; u < to; ++u) [x, y] = [x + this.places[2 * u], y + this.places[2 * u + 1]];
+        return [x / (to - from), y / (to - from)];
+    }
+}
+
+const floats = (base64) => new Float32Array(bytesOf(base64).buffer);
+
+/// How far neighbours are apart: the median over some of them.
+function spacing(places) {
+    const count = places.length / 2, step = Math.max(1, Math.floor(count / 60)), found = [];
+    for (let i = 0; i < count; i += step) {
+        let nearest = Infinity;
+        for (let j = 0; j < count; ++j)
+            if (j !== i) nearest = Math.min(nearest, Math.hypot(places[2 * i] - places[2 * j], places[2 * i + 1] - places[2 * j + 1]) || Infinity);
+        found.push(nearest);
+    }
+    const middle = found.sort((a, b) => a - b)[Math.floor(found.length / 2)];
+    return Number.isFinite(middle) ? middle : 5;
+}
+
+/// [x0, y0, x1, y1] around places; a place counts if `wanted` says so.
+function extentOfPlaces(places, wanted = () => true) {
+    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    for (let k = 0; 2 * k < places.length; ++k)
+        if (wanted(k)) [box[0], box[1], box[2], box[3]] = [Math.min(box[0], places[2 * k]), Math.min(box[1], places[2 * k + 1]), Math.max(box[2], places[2 * k]), Math.max(box[3], places[2 * k + 1])];
+    return box;
+}

@@ -1,0 +1,231 @@
+"use strict";
+// The skin seen from above, once for each class: sites as ground, units as marks, force and spikes on them.
+
+const LEVELS = 16, TIME_STEPS = 32;
+
+/// Colours of rising rates: from a tint of the class's own colour through it towards the ink.
+function rateRamp(color) {
+    const [paper, ink] = [colour("paper"), colour("ink")];
+    return Array.from({length: LEVELS}, (_, k) => (k < LEVELS / 2 ? mixed(paper, color, 0.5 + k / LEVELS) : mixed(color, ink, (k - LEVELS / 2) / LEVELS * 1.3)));
+}
+
+/// Colours of rising times, through those of the style sheet.
+function timeRamp() {
+    const stops = [0, 1, 2, 3, 4].map((k) => colour("time-" + k));
+    return Array.from({length: TIME_STEPS}, (_, k) => {
+        const at = k / (TIME_STEPS - 1) * 4, stop = Math.min(3, Math.floor(at));
+        return mixed(stops[stop], stops[stop + 1], at - stop);
+    });
+}
+
+/// Which part of the skin all maps show, how large they are, and what they share: the ground and the force on it.
+class Scene {
+    constructor(skin) {
+        Object.assign(this, {skin, maps: [], frame: 0, chosen: null, waiting: false});
+        this.all = grown(joined(extentOfPlaces(skin.sitePlaces), extentOfPlaces(skin.places)), skin.side);
+        this.box = this.all;
+        this.frameForce = null;
+    }
+
+    /// Maps stand side by side; as large as the window has room for.
+    layOut(width) {
+        const count = this.skin.classes.length, [x0, y0, x1, y1] = this.all, aspect = Math.max(0.3, Math.min(3.5, (x1 - x0) / (y1 - y0)));
+        const most = Math.max(240, Math.min(560, 0.56 * innerHeight));
+        const wide = (columns) => Math.min((width - 12 * (columns - 1)) / columns, Math.max(most * aspect, 170));
+        let columns = count;
+        while (columns > 1 && wide(columns) < Math.min(165, 0.9 * most * aspect)) columns = Math.ceil(columns / 2);
+        [this.width, this.height] = [Math.floor(wide(columns)), Math.floor(Math.max(60, Math.min(most, wide(columns) / aspect)))];
+        this.renew();
+    }
+
+    /// What is drawn beneath depends on size, part and colours.
+    renew() {
+        const [x0, y0, x1, y1] = this.box;
+        this.scale = Math.min(this.width / (x1 - x0), this.height / (y1 - y0));  // pixels a mm
+        [this.cx, this.cy] = [(x0 + x1) / 2, (y0 + y1) / 2];
+        this.ground = this.frameForce = null;
+        this.maps.forEach((map) => map.renew());
+        this.request();
+    }
+
+    x(mm) { return this.width / 2 + (mm - this.cx) * this.scale; }
+    y(mm) { return this.height / 2 - (mm - this.cy) * this.scale; }
+
+    show(box) {
+        this.box = box;
+        this.renew();
+    }
+
+    /// Keeps the point (x, y) of a map where it is.
+    zoom(factor, x = this.width / 2, y = this.height / 2) {
+        const [mx, my] = [this.cx + (x - this.width / 2) / this.scale, this.cy - (y - this.height / 2) / this.scale];
+        const [w, h] = [this.width / this.scale * factor, this.height / this.scale * factor];
+        const cx = mx - (mx - this.cx) * factor, cy = my - (my - this.cy) * factor;
+        if (w > 1.5 * (this.all[2] - this.all[0]) && h > 1.5 * (this.all[3] - this.all[1])) return this.show(this.all);
+        this.show([cx - w / 2, cy - h / 2, cx + w / 2, cy + h / 2]);
+    }
+
+    pan(dx, dy) {
+        const [mx, my] = [-dx / this.scale, dy / this.scale], [x0, y0, x1, y1] = this.box;
+        this.show([x0 + mx, y0 + my, x1 + mx, y1 + my]);
+    }
+
+    request() {
+        if (!this.waiting) requestAnimationFrame(() => this.draw());
+        this.waiting = true;
+    }
+
+    draw() {
+        this.waiting = false;
+        this.maps.forEach((map) => map.draw());
+    }
+
+    canvas() {
+        const made = document.createElement("canvas"), ratio = devicePixelRatio || 1;
+        [made.width, made.height] = [this.width * ratio, this.height * ratio];
+        const context = made.getContext("2d");
+        context.scale(ratio, ratio);
+        return [made, context];
+    }
+
+    /// Sites as squares that touch: first all of them larger, for their common edge.
+    groundLayer() {
+        if (this.ground) return this.ground;
+        const [made, context] = this.canvas(), side = this.skin.side * this.scale;
+        for (const [color, more] of [["flesh-edge", 2.4], ["flesh", 0.6]]) {
+            context.fillStyle = colour(color);
+            this.eachSite((x, y) => square(context, x, y, side + more));
+        }
+        return (this.ground = made);
+    }
+
+    eachSite(call) {
+        const {sitePlaces} = this.skin;
+        for (let s = 0; 2 * s < sitePlaces.length; ++s) call(this.x(sitePlaces[2 * s]), this.y(sitePlaces[2 * s + 1]), s);
+    }
+
+    /// Mean force of each site in the frame, as opacity.
+    forceLayer() {
+        if (this.frameForce && this.frameForce.frame === this.frame) return this.frameForce.made;
+        const [made, context] = this.canvas(), {siteForce, sitePlaces, sitesTogether} = this.skin, side = this.skin.side * this.scale + 0.6;
+        context.fillStyle = colour("force");
+        if (this.frame < siteForce.count)
+            siteForce.each(this.frame, (place, level) => {
+                context.globalAlpha = 0.12 + 0.68 * level / 254;
+                for (let s = place * sitesTogether; s < (place + 1) * sitesTogether && 2 * s < sitePlaces.length; ++s)
+                    square(context, this.x(sitePlaces[2 * s]), this.y(sitePlaces[2 * s + 1]), side);
+            });
+        this.frameForce = {frame: this.frame, made};
+        return made;
+    }
+}
+
+function square(context, x, y, side) { context.fillRect(x - side / 2, y - side / 2, side, side); }
+const joined = (a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+const grown = ([x0, y0, x1, y1], by) => [x0 - by, y0 - by, x1 + by, y1 + by];
+
+/// One class on the skin. `values(map)` gives what is drawn: calls back with mark and a level 0 ... 1; `ramp` its colours.
+class SkinMap {
+    constructor(host, scene, one, {values, ramp, force}) {
+        Object.assign(this, {scene, skin: scene.skin, one, values, ramp, force, idle: null});
+        this.root = element(host, "figure", "map");
+        this.root.dataset.map = one.name;
+        this.canvas = element(this.root, "canvas");
+        this.canvas.setAttribute("role", "img");
+        this.caption = element(this.root, "figcaption");
+        [this.from, this.to] = this.skin.marksOf(one);
+        this.at = new Float32Array(2 * (this.to - this.from));
+        for (let m = this.from; m < this.to; ++m) this.at.set(this.skin.markPlace(m), 2 * (m - this.from));
+        this.radius = Math.min(1.2, 0.36 * spacing(this.at));  // mm
+        scene.maps.push(this);
+        followPointer(this);
+    }
+
+    renew() { this.idle = this.colours = null; }
+
+    place(mark) { return [this.scene.x(this.at[2 * (mark - this.from)]), this.scene.y(this.at[2 * (mark - this.from) + 1])]; }
+    get pixels() { return Math.max(0.75, Math.min(7, this.radius * this.scene.scale)); }
+
+    idleLayer() {
+        if (this.idle) return this.idle;
+        const [made, context] = this.scene.canvas(), r = Math.max(0.55, this.pixels * 0.6);
+        context.drawImage(this.scene.groundLayer(), 0, 0, this.scene.width, this.scene.height);
+        context.fillStyle = mixed(colour("flesh"), this.one.color, 0.3);
+        for (let m = this.from; m < this.to; ++m) dot(context, ...this.place(m), r);
+        return (this.idle = made);
+    }
+
+    draw() {
+        const {width, height} = this.scene, ratio = devicePixelRatio || 1, context = this.canvas.getContext("2d");
+        if (this.canvas.width !== width * ratio || this.canvas.height !== height * ratio) {
+            [this.canvas.width, this.canvas.height] = [width * ratio, height * ratio];
+            Object.assign(this.canvas.style, {width: width + "px", height: height + "px"});
+            this.root.style.width = width + "px";
+        }
+        context.setTransform(ratio, 0, 0, ratio, 0, 0);
+        context.clearRect(0, 0, width, height);
+        context.drawImage(this.idleLayer(), 0, 0, width, height);
+        if (this.force()) context.drawImage(this.scene.forceLayer(), 0, 0, width, height);
+        this.colours = this.colours || this.ramp(this.one.color);
+        const steps = this.colours.length, r = this.pixels;
+        this.values(this, (mark, level) => {
+            context.fillStyle = this.colours[Math.max(0, Math.min(steps - 1, Math.floor(level * steps)))];
+            dot(context, ...this.place(mark), r * (1.05 + 0.35 * level));
+        });
+        this.ring(context);
+    }
+
+    /// The unit that is pointed at.
+    ring(context) {
+        const {chosen} = this.scene;
+        if (chosen === null || this.skin.classOf(chosen) !== this.one) return;
+        const [x, y] = [this.scene.x(this.skin.places[2 * chosen]), this.scene.y(this.skin.places[2 * chosen + 1])];
+        context.strokeStyle = colour("ink");
+        context.lineWidth = 1.5;
+        context.beginPath();
+        context.arc(x, y, this.pixels + 4, 0, 2 * Math.PI);
+        context.stroke();
+    }
+
+    /// The mark nearest to a point, if one is near.
+    near(x, y) {
+        let best = null, least = Math.max(10, 1.5 * this.pixels) ** 2;
+        for (let m = this.from; m < this.to; ++m) {
+            const [px, py] = this.place(m), far = (px - x) ** 2 + (py - y) ** 2;
+            if (far < least) [best, least] = [m, far];
+        }
+        return best;
+    }
+}
+
+function dot(context, x, y, r) {
+    if (r < 1.6) return square(context, x, y, 2 * r);
+    context.beginPath();
+    context.arc(x, y, r, 0, 2 * Math.PI);
+    context.fill();
+}
+
+/// Drag pans, the wheel with control zooms, double click shows the whole; who only points learns which unit is there.
+function followPointer(map) {
+    const {canvas, scene} = map;
+    let drag = null;
+    canvas.addEventListener("pointerdown", (event) => {
+        if (event.button !== 0 || event.pointerType === "touch") return;
+        drag = {x: event.offsetX, y: event.offsetY};
+        canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+        if (drag) {
+            scene.pan(event.offsetX - drag.x, event.offsetY - drag.y);
+            drag = {x: event.offsetX, y: event.offsetY};
+        } else scene.pointed(map.near(event.offsetX, event.offsetY));
+    });
+    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { drag = null; });
+    canvas.addEventListener("pointerleave", () => { if (!drag) scene.pointed(null); });
+    canvas.addEventListener("dblclick", () => scene.show(scene.all));
+    canvas.addEventListener("wheel", (event) => {
+        if (!event.ctrlKey) return;  // the plain wheel scrolls the page
+        event.preventDefault();
+        scene.zoom(1.2 ** Math.sign(event.deltaY), event.offsetX, event.offsetY);
+    }, {passive: false});
+}

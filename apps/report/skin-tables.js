@@ -1,0 +1,54 @@
+"use strict";
+// What the page of a skin says in words and numbers: first spikes, classes and phases, densities.
+
+const chipOf = (color) => `<span class="chip" style="background: ${color}"></span>`;
+
+function tableHtml(head, rows, numeric = () => false) {
+    const cell = (tag, c, html) => `<${tag}${numeric(c) ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${html}</${tag}>`;
+    return `<table><thead><tr>${head.map((html, c) => cell("th", c, html)).join("")}</tr></thead>
+        <tbody>${rows.map((row) => `<tr>${row.map((html, c) => cell("td", c, html)).join("")}</tr>`).join("")}</tbody></table>`;
+}
+
+/// The first of the population, and how long after the first force each was.
+function showFirstSpikes(skin, host) {
+    const {first_spikes, input} = skin.data.summary, touched = input.touched_from_s;
+    if (!first_spikes.length) return void (host.innerHTML = "<p class=\"note\">No unit fired.</p>");
+    const rows = first_spikes.map(({unit, afferent, region, time_s}, k) => [String(k + 1), chipOf(skin.classOf(unit).color) + escaped(afferent), escaped(region), time_s.toFixed(6),
+        touched === null ? "–" : ((time_s - skin.t0 - touched) * 1e3).toFixed(3).replace("-", "−")]);
+    host.innerHTML = tableHtml(["", "unit", "region", "first spike (s)", "after the first force (ms)"], rows, (c) => c === 0 || c >= 3);
+}
+
+const RATE_COLUMNS = [["phase", "phase"], ["units", "units", 0], ["touched", "touched", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while touched (Hz)", 1],
+                      ["rate_of_active_Hz", "rate of active (Hz)", 1], ["busiest_Hz", "busiest (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
+
+function showSkinRates(skin, host, region) {
+    const phases = skin.data.summary.input.phases.length > 0, columns = RATE_COLUMNS.filter(([key]) => phases || key !== "phase");
+    const rows = skin.data.summary.rates.filter((row) => row.region === region).map((row) => [row.afferent, ...columns.map(([key]) => row[key])]);
+    fillRates(host, {columns: ["afferent", ...columns.map(([, name]) => name)], decimals: [undefined, ...columns.map(([, , decimals]) => decimals)], rows}, null);
+}
+
+const millimetres = (metres) => (metres ? `${Number((metres * 1e3).toPrecision(3))} mm` : "–");
+
+function showClasses(skin, host) {
+    const rows = skin.data.summary.classes.map((one, k) => {
+        const {sigma_m, hot_spots, hot_spot_spread_m} = one.receptive_field, {velocity_m_s, standard_deviation_m_s} = one.conduction, about = skin.classes[k];
+        const field = sigma_m ? `Gaussian, σ ${millimetres(sigma_m)}${hot_spots > 1 ? `; ${hot_spots} hot spots, ${millimetres(hot_spot_spread_m)} about the middle` : ""}` : "the nearest site";
+        const speed = velocity_m_s ? `${quantity(velocity_m_s, "m/s", true)}${standard_deviation_m_s ? ` ± ${quantity(standard_deviation_m_s, "m/s", true)}` : ""}` : "told where they begin";
+        return [chipOf(about.color) + escaped(one.name), String(one.units), escaped(about.made_of), escaped(field), escaped(speed), escaped([about.sentence, one.source || about.source].filter(Boolean).join("; "))];
+    });
+    host.innerHTML = tableHtml(["class", "units", "model", "receptive field", "conduction", "what it is, and after whom"], rows, (c) => c === 1);
+}
+
+/// Units of each class in each region, and how many that is a square centimetre.
+function showDensities(skin, host) {
+    const {classes, skin: about} = skin.data.summary, names = skin.regions;
+    if (names.length < 2 && !classes.some((one) => Object.values(one.regions).some(({units_per_cm2}) => units_per_cm2 !== undefined))) return void (host.hidden = true);
+    const rows = names.map((name) => {
+        const area = about.regions[name].area_cm2;
+        return [escaped(name), area ? area.toFixed(2) : "–", ...classes.map((one) => {
+            const {units, units_per_cm2} = one.regions[name];
+            return `${units}${units_per_cm2 === undefined ? "" : ` <span class="unit">(${Number(units_per_cm2.toPrecision(3))} /cm²)</span>`}`;
+        })];
+    });
+    host.innerHTML = tableHtml(["region", "area (cm²)", ...skin.classes.map((one) => chipOf(one.color) + escaped(one.name))], rows, (c) => c >= 1);
+}

@@ -1,0 +1,87 @@
+#include "report/skin_page.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/parts_document.hpp"
+#include "report/template.hpp"
+#include "signal/version.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_named = 500;  // sites whose names the page carries
+
+/// Places in millimetres, whole micrometres of them: x, y, x, y ...
+template <class Each>
+std::string places64(std::size_t count, Each at) {
+    std::vector<float> xy;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Position p = at(k);
+        for (const double v : {p.x, p.y}) xy.push_back(static_cast<float>(std::round(1e6 * v) * 1e-3));
+    }
+    return base64(xy.data(), xy.size() * sizeof(float));
+}
+
+Json sites_document(const Sites& sites) {
+    const std::vector<std::uint16_t> region(sites.region.begin(), sites.region.end());
+    return {{"places", places64(sites.size(), [&](std::size_t s) { return sites.at[s]; })},
+            {"side", 1e3 * std::sqrt(sites.area)},
+            {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
+            {"names", sites.size() <= most_named ? Json(sites.names) : Json(nullptr)}};
+}
+
+/// Units one by one; what is seen of them in time may be of neighbours together.
+Json units_document(const SkinSummary& summary) {
+    const auto& skin = summary.skin();
+    std::vector<std::uint16_t> region;
+    std::vector<std::uint32_t> copy;
+    std::vector<float> first;
+    for (const auto& u : skin.units) region.push_back(static_cast<std::uint16_t>(u.region)), copy.push_back(u.copy);
+    for (const double t : summary.first_times()) first.push_back(static_cast<float>(t));
+    return {{"count", skin.units.size()},
+            {"places", places64(skin.units.size(), [&](std::size_t u) { return skin.units[u].at; })},
+            {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
+            {"copy", base64(copy.data(), copy.size() * sizeof(std::uint32_t))},
+            {"first", base64(first.data(), first.size() * sizeof(float))}};
+}
+
+Json classes_document(const Innervation& skin) {
+    Json out = Json::array();
+    for (std::size_t c = 0; c < skin.plan.classes.size(); ++c) {
+        const auto& k = skin.plan.classes[c];
+        out.push_back({{"name", k.name},
+                       {"made_of", k.afferent.made_of()},
+                       {"sentence", k.afferent.sentence},
+                       {"source", k.afferent.source},
+                       {"first", skin.first[c]},
+                       {"units", skin.first[c + 1] - skin.first[c]},
+                       {"parameters", parameters_document(k.afferent, k.spreads)}});
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string skin_page(const SkinSummary& summary, const SkinReport& report, const SkinTold& told, const std::string& command) {
+    const auto title = fmt::format("{} on {}", summary.name(), summary.skin().plan.name);
+    Json remarks = told.warnings;
+    for (const auto& r : told.remarks) remarks.push_back(r);
+    const Json page = {{"title", title},
+                       {"program", fmt::format("corpuscle {}", version)},
+                       {"command", command},
+                       {"remarks", remarks},
+                       {"summary", summary.document(told)},
+                       {"regions", summary.skin().plan.sites.regions},
+                       {"sites", sites_document(summary.skin().plan.sites)},
+                       {"units", units_document(summary)},
+                       {"classes", classes_document(summary.skin())},
+                       {"over", report.document()},
+                       {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
+    return filled(asset("skin.html"), escaped(title), safe_json(page));
+}
+
+}  // namespace corpuscle

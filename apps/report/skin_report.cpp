@@ -1,0 +1,190 @@
+#include "report/skin_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "report/parts_document.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int ticks_a_sample = 10;
+
+template <class T>
+std::string array64(const std::vector<T>& values) {
+    return base64(values.data(), values.size() * sizeof(T));
+}
+
+/// Whole numbers in as few bytes as they need: seven bits each, the lowest first, the highest bit says that more follow.
+class Bytes {
+public:
+    std::vector<unsigned char> all;
+    void number(std::uint64_t n) {
+        for (; n >= 128; n >>= 7) all.push_back(static_cast<unsigned char>(n | 128));
+        all.push_back(static_cast<unsigned char>(n));
+    }
+    /// Of all places: 1 to 254 itself, 255 and a number for more, 0 and a number for so many zeros.
+    template <class Frame, class Level>
+    void frame(const Frame& f, std::size_t places, Level level) {
+        std::size_t at = 0;
+        const auto zeros_to = [&](std::size_t place) {
+            if (place > at) all.push_back(0), number(place - at);
+            at = place + 1;
+        };
+        for (const auto& [place, value] : f) {
+            zeros_to(place);
+            const std::uint64_t n = level(value);
+            all.push_back(static_cast<unsigned char>(std::min<std::uint64_t>(n, 255)));
+            if (n >= 255) number(n);
+        }
+        zeros_to(places);
+    }
+};
+
+/// Neighbours that share a mark.
+std::uint32_t a_mark(std::size_t count, std::size_t most) {
+    return static_cast<std::uint32_t>((count + most - 1) / std::max<std::size_t>(most, 1));
+}
+
+template <class V>
+Json frames_document(const Framed<V>& framed, double T) {
+    Bytes bytes;
+    const auto frames = framed.frames();
+    for (const auto& f : frames) bytes.frame(f, framed.places(), [](V v) { return static_cast<std::uint64_t>(v); });
+    return {{"count", frames.size()},
+            {"width", static_cast<double>(framed.width()) * T},
+            {"places", framed.places()},
+            {"data", array64(bytes.all)}};
+}
+
+/// Mean force of each mark in each frame, in 254 parts of the greatest.
+Json force_document(const Framed<double>& sites, double T, std::int64_t samples) {
+    const auto frames = sites.frames();
+    const auto length = [&](std::size_t k) {
+        return static_cast<double>(std::clamp<std::int64_t>(samples - static_cast<std::int64_t>(k) * sites.width(), 1, sites.width()));
+    };
+    double greatest = 0;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        for (const auto& e : frames[k]) greatest = std::max(greatest, e.value / length(k));
+    Bytes bytes;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        bytes.frame(frames[k], sites.places(), [&](double sum) {
+            const double share = greatest > 0 ? sum / length(k) / greatest : 0;
+            return share > 0 ? static_cast<std::uint64_t>(std::clamp(std::lround(254 * share), 1L, 254L)) : std::uint64_t{0};
+        });
+    return {{"count", frames.size()},
+            {"width", static_cast<double>(sites.width()) * T},
+            {"places", sites.places()},
+            {"greatest", greatest},
+            {"data", array64(bytes.all)}};
+}
+
+}  // namespace
+
+Result<void> SkinReport::begin(const SkinInput& input) {
+    const auto& skin = input.skin;
+    clock_ = input.clock;
+    const auto samples_of = [&](double seconds) { return std::max<std::int64_t>(std::llround(clock_.rate() * seconds), 1); };
+    const auto bin = samples_of(1e-3), frame = samples_of(10e-3);  // a rate of one unit in less than this says little
+    units_a_mark_ = a_mark(skin.units.size(), most_.marks), sites_a_mark_ = a_mark(skin.plan.sites.size(), most_.marks);
+    class_of_.clear(), mark_of_.clear(), mark_first_.clear();
+    for (std::uint32_t c = 0; c + 1 < skin.first.size(); ++c)
+        for (auto u = skin.first[c]; u < skin.first[c + 1]; ++u) {
+            if ((u - skin.first[c]) % units_a_mark_ == 0) mark_first_.push_back(static_cast<std::uint32_t>(u));
+            class_of_.push_back(c), mark_of_.push_back(static_cast<std::uint32_t>(mark_first_.size() - 1));
+        }
+    mark_first_.push_back(static_cast<std::uint32_t>(skin.units.size()));
+    sites_count_ = skin.plan.sites.size();
+    forces_ = Envelope(std::size_t{1} << 16);
+    classes_ = Framed<std::uint32_t>(skin.plan.classes.size(), most_.bins, bin);
+    marks_ = Framed<std::uint32_t>(mark_first_.size() - 1, most_.frames, frame);
+    sites_ = Framed<double>(a_mark(skin.plan.sites.size(), sites_a_mark_), most_.frames, frame);
+    spike_units_.clear(), spike_ticks_.clear(), spikes_ = 0;
+    return {};
+}
+
+void SkinReport::add(const Spike& s) {
+    // A frame owns its start, not its end: what stands on a sample belongs to it.
+    const std::int64_t sample = std::max<std::int64_t>(s.offset < 1 ? s.step - 1 : s.step, 0);
+    classes_.open(sample), classes_.add(class_of_[s.unit], 1);
+    marks_.open(sample), marks_.add(mark_of_[s.unit], 1);
+    if (static_cast<std::size_t>(++spikes_) <= most_.spikes) {
+        const double ticks = (static_cast<double>(s.step - 1) + s.offset) * ticks_a_sample;
+        spike_units_.push_back(s.unit), spike_ticks_.push_back(std::max<std::int64_t>(std::llround(ticks), 0));
+    } else if (!spike_units_.empty()) {
+        spike_units_ = {}, spike_ticks_ = {};  // the rest of them would show a part as if it were all
+    }
+}
+
+void SkinReport::add_force(const SkinAnswered& answered) {
+    const auto& force = answered.force;
+    for (std::size_t from = 0, to = 0; from < answered.steps; from = to) {
+        to = std::min(static_cast<std::size_t>(sites_.open(answered.first + static_cast<std::int64_t>(from)) - answered.first),
+                      answered.steps);
+        const auto add = [&](std::size_t s) {
+            const double* of = force.of + s * force.stride;
+            for (auto t = from; t < to; ++t) sites_.add(static_cast<std::uint32_t>(s / sites_a_mark_), of[t]);
+        };
+        for (std::size_t s = 0; force.all && s < sites_count_; ++s) add(s);
+        for (const auto s : force.touched)
+            if (!force.all) add(s);
+    }
+}
+
+Result<void> SkinReport::block(const SkinInput&, const SkinAnswered& answered) {
+    for (const double f : answered.total) forces_.add(f);
+    add_force(answered);
+    for (const auto& s : answered.spikes) add(s);
+    return {};
+}
+
+Result<void> SkinReport::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
+    for (const auto& s : last) add(s);
+    samples_ = samples, shown_samples_ = std::max(samples, last.empty() ? 0 : last.back().step);
+    const auto final = std::max<std::int64_t>(shown_samples_ - 1, 0);
+    classes_.open(final), marks_.open(final), sites_.open(final);
+    return {};
+}
+
+/// Spikes unit by unit: how many units to pass over, how many spikes, then the ticks between them.
+Json SkinReport::spikes_document() const {
+    if (static_cast<std::size_t>(spikes_) > most_.spikes) return nullptr;
+    std::vector<std::uint32_t> begin(class_of_.size() + 1);
+    for (const auto u : spike_units_) ++begin[u + 1];
+    for (std::size_t u = 0; u < class_of_.size(); ++u) begin[u + 1] += begin[u];
+    std::vector<std::int64_t> ticks(spike_ticks_.size());
+    auto at = begin;
+    for (std::size_t k = 0; k < ticks.size(); ++k) ticks[at[spike_units_[k]]++] = spike_ticks_[k];
+    Bytes bytes;
+    std::size_t next = 0, trains = 0;
+    for (std::size_t u = 0; u < class_of_.size(); ++u) {
+        if (begin[u] == begin[u + 1]) continue;
+        bytes.number(u - next), bytes.number(begin[u + 1] - begin[u]);
+        std::int64_t before = 0;
+        for (auto k = begin[u]; k < begin[u + 1]; ++k) bytes.number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
+        next = u + 1, ++trains;
+    }
+    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_a_sample}, {"data", array64(bytes.all)}};
+}
+
+Json SkinReport::document() const {
+    return {{"t0", clock_.t0},
+            {"T", clock_.T()},
+            {"samples", samples_},
+            {"shown_samples", shown_samples_},
+            {"force", trace_document(0, nullptr, "force", "N", forces_)},
+            {"classes", frames_document(classes_, clock_.T())},
+            {"marks", frames_document(marks_, clock_.T())},
+            {"units_a_mark", units_a_mark_},
+            {"first_units", array64(mark_first_)},
+            {"sites", force_document(sites_, clock_.T(), samples_)},
+            {"sites_a_mark", sites_a_mark_},
+            {"most_spikes", most_.spikes},
+            {"spikes", spikes_document()}};
+}
+
+}  // namespace corpuscle

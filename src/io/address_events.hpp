@@ -1,0 +1,41 @@
+#pragma once
+// Binary address events: a header that says the clock and what addresses mean, then 16 bytes a spike (doc/events.md). All numbers are
+// little-endian.
+//     header: "corpaer1", i64 per, i64 seconds (a sample is seconds/per s), u32 runs, u32 bytes that follow; then the runs of units
+//     a run:  u32 first address, u32 stride, u32 first number (0: the name stands alone), u32 count, u32 letters, letters, 0 to 3 zeros
+//     spike:  i64 step, u32 place in the step, u32 address
+// A spike's place in its step is (place + 1) / 2^32, so that its time is (step - 1 + that) * seconds / per.
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "signal/spike.hpp"
+
+namespace corpuscle::address_events {
+
+static_assert(std::endian::native == std::endian::little, "written as they lie in memory");
+
+inline constexpr std::string_view magic = "corpaer1";
+inline constexpr std::size_t head_bytes = 32, run_bytes = 20, spike_bytes = 16;
+
+/// Units whose names count: sa1#1, sa1#2 ... at addresses `stride` apart.
+struct NameRun {
+    std::uint32_t address = 0, stride = 1, number = 0, count = 1;
+    std::string name;
+};
+
+struct Packed {
+    std::int64_t step;
+    std::uint32_t place, address;
+};
+static_assert(sizeof(Packed) == spike_bytes);
+
+inline constexpr double places = 4294967296.0;  // 2^32
+
+inline std::uint32_t place_of(double offset) { return static_cast<std::uint32_t>(std::ceil(offset * places) - 1); }
+inline double offset_of(std::uint32_t place) { return (static_cast<double>(place) + 1) / places; }
+
+}  // namespace corpuscle::address_events

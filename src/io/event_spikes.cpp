@@ -1,0 +1,180 @@
+// Files of address events, ours and AEDAT 2, read as trains.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "io/address_events.hpp"
+#include "io/bytes.hpp"
+#include "io/trains.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace aer = address_events;
+
+constexpr std::int64_t last_event_step = std::int64_t{1} << 53;
+constexpr std::size_t events_at_once = 4096;
+
+/// Trains by address; what an address is called is asked once.
+class AddressTrains {
+    std::unordered_map<std::uint32_t, std::vector<double>*> of_;
+    Trains trains_;
+
+public:
+    template <class Name>
+    std::vector<double>& of(std::uint32_t address, const Name& name) {
+        auto& train = of_[address];
+        if (!train) train = &trains_.of(name(address), "");
+        return *train;
+    }
+    std::vector<NamedTrain> in_order() && { return std::move(trains_).in_order(); }
+};
+
+/// Every event of a file from where it stands, `size` bytes each.
+template <class Take>
+Result<void> each_event(Bytes& file, std::uint64_t at, std::size_t size, const Take& take) {
+    if ((file.size() - at) % size != 0)
+        return bad_input(fmt::format("the last spike is cut short: {} of {} bytes", (file.size() - at) % size, size), {file.name()});
+    std::vector<std::byte> block(events_at_once * size);
+    for (auto left = (file.size() - at) / size; left > 0;) {
+        const auto count = std::min<std::uint64_t>(left, events_at_once);
+        if (auto ok = file.read(std::span(block).first(count * size)); !ok) return ok;
+        for (std::size_t k = 0; k < count; ++k)
+            if (auto ok = take(block.data() + k * size); !ok) return ok;
+        left -= count;
+    }
+    return {};
+}
+
+/// A little-endian number that lies at a place of these bytes.
+template <class T>
+T number_at(std::span<const std::byte> bytes, std::size_t at) {
+    T number;
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    return number;
+}
+
+class AerFile {
+    std::unique_ptr<Bytes> file_;
+    Clock clock_;
+    std::vector<aer::NameRun> runs_;
+    std::uint64_t begin_ = 0;  // of the spikes
+
+    Error wrong(std::string sentence) const { return bad_input(std::move(sentence), {file_->name()}); }
+
+    Result<void> read_head(std::uint32_t& runs, std::uint32_t& bytes) {
+        std::byte head[aer::head_bytes];
+        if (file_->size() < sizeof head) return wrong("the header of address events is cut short");
+        if (auto ok = file_->read(head); !ok) return ok;
+        clock_ = {number_at<std::int64_t>(head, 8), number_at<std::int64_t>(head, 16)};
+        runs = number_at<std::uint32_t>(head, 24), bytes = number_at<std::uint32_t>(head, 28);
+        if (clock_.per < 1 || clock_.seconds < 1)
+            return wrong(fmt::format("a clock of {} samples in {} s is none: both are to be positive", clock_.per, clock_.seconds));
+        if (file_->size() - sizeof head < bytes) return wrong("the names of the units are cut short");
+        begin_ = sizeof head + bytes;
+        return {};
+    }
+
+    Result<void> read_runs() {
+        std::uint32_t runs = 0, bytes = 0;
+        if (auto ok = read_head(runs, bytes); !ok) return ok;
+        std::vector<std::byte> text(bytes);
+        if (auto ok = file_->read(text); !ok) return ok;
+        std::size_t at = 0;
+        for (std::uint32_t k = 0; k < runs; ++k) {
+            const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(text, at + 4 * field); };
+            if (text.size() - at < aer::run_bytes || text.size() - at - aer::run_bytes < number(4))
+                return wrong(fmt::format("the names of the units end within run {} of {}", k + 1, runs));
+            aer::NameRun run{number(0), number(1), number(2), number(3), {}};
+            if (run.stride == 0 || run.count == 0) return wrong(fmt::format("run {} of units has a stride or a count of 0", k + 1));
+            run.name.assign(reinterpret_cast<const char*>(text.data()) + at + aer::run_bytes, number(4));
+            at = std::min<std::size_t>(text.size(), at + aer::run_bytes + (number(4) + std::size_t{3}) / 4 * 4);
+            runs_.push_back(std::move(run));
+        }
+        return {};
+    }
+
+    /// "sa1#17"; the address itself if the header does not name it.
+    std::string name_of(std::uint32_t address) const {
+        for (const auto& r : runs_) {
+            if (address < r.address || (address - r.address) % r.stride != 0 || (address - r.address) / r.stride >= r.count) continue;
+            const auto number = std::uint64_t{r.number} + (address - r.address) / r.stride;
+            return r.number == 0 ? r.name : fmt::format("{}#{}", r.name, number);
+        }
+        return std::to_string(address);
+    }
+
+public:
+    explicit AerFile(std::unique_ptr<Bytes> file) : file_(std::move(file)) {}
+
+    Result<std::vector<NamedTrain>> read() {
+        if (auto ok = read_runs(); !ok) return ok.error();
+        AddressTrains trains;
+        std::int64_t count = 0;
+        const auto ok = each_event(*file_, begin_, aer::spike_bytes, [&](const std::byte* at) -> Result<void> {
+            aer::Packed spike;
+            std::memcpy(&spike, at, sizeof spike);
+            if (spike.step < 0 || spike.step > last_event_step)
+                return wrong(fmt::format("spike {} is at step {}, outside 0 to 2^53", count, spike.step));
+            trains.of(spike.address, [&](std::uint32_t a) { return name_of(a); })
+                .push_back(clock_.time(spike.step, aer::offset_of(spike.place)));
+            ++count;
+            return {};
+        });
+        if (!ok) return ok.error();
+        return std::move(trains).in_order();
+    }
+};
+
+std::uint32_t big_at(const std::byte* at) {
+    std::uint32_t number = 0;
+    for (int k = 0; k < 4; ++k) number = number << 8 | std::to_integer<std::uint32_t>(at[k]);
+    return number;
+}
+
+/// Where the lines that begin with # end.
+Result<std::uint64_t> behind_comments(Bytes& file) {
+    std::vector<std::byte> head(std::min<std::uint64_t>(file.size(), 65536));
+    if (auto ok = file.read(head); !ok) return ok.error();
+    std::size_t at = 0;
+    while (at < head.size() && head[at] == std::byte{'#'}) {
+        const auto end = std::find(head.begin() + static_cast<std::ptrdiff_t>(at), head.end(), std::byte{'\n'});
+        if (end == head.end()) return bad_input("a comment of its header does not end", {file.name()});
+        at = static_cast<std::size_t>(end - head.begin()) + 1;
+    }
+    if (auto ok = file.seek(at); !ok) return ok.error();
+    return at;
+}
+
+}  // namespace
+
+Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path) {
+    auto file = open_bytes(path);
+    if (!file) return file.error();
+    return AerFile(std::move(*file)).read();
+}
+
+Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path) {
+    auto file = open_bytes(path);
+    if (!file) return file.error();
+    const auto begin = behind_comments(**file);
+    if (!begin) return begin.error();
+    AddressTrains trains;
+    std::int64_t now = 0;  // us, of the last event
+    bool first = true;
+    const auto ok = each_event(**file, *begin, 8, [&](const std::byte* at) -> Result<void> {
+        const auto stamp = big_at(at + 4);
+        // The nearest time to the last one that has these 32 bits.
+        now = std::exchange(first, false) ? stamp : now + static_cast<std::int32_t>(stamp - static_cast<std::uint32_t>(now));
+        trains.of(big_at(at), [](std::uint32_t a) { return std::to_string(a); }).push_back(static_cast<double>(now) * 1e-6);
+        return {};
+    });
+    if (!ok) return ok.error();
+    return std::move(trains).in_order();
+}
+
+}  // namespace corpuscle

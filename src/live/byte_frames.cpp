@@ -1,0 +1,89 @@
+// Frames out of bytes, in their order.
+
+#include "live/frame_decoder.hpp"
+#include "live/frame_source.hpp"
+
+namespace corpuscle {
+namespace {
+
+class ByteFrames final : public FrameSource {
+    std::unique_ptr<ByteSource> source_;
+    FrameDecoder decoder_;
+    FrameOrder order_;
+    FrameCounts counts_;
+    std::int64_t hold_ = 0, release_ = 0;  // to be put before the one that was found
+    bool found_ = false;
+
+    bool numbered() const { return decoder_.layout().stamp != FrameStamp::none; }
+
+    /// Looks at the next frame's number: whether it is to be answered, and what before it.
+    void find() {
+        if (!numbered()) {
+            found_ = true;
+            return;
+        }
+        const auto turn = order_.turn(decoder_.number());
+        found_ = turn.take, hold_ = turn.hold, release_ = turn.release;
+    }
+
+    void sender_gone() {
+        counts_.halves += decoder_.begun();
+        decoder_.forget();
+        order_.begin_anew();
+    }
+
+public:
+    ByteFrames(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold, std::int64_t longest)
+        : source_(std::move(source)), decoder_(layout), order_(hold, longest) {}
+
+    int waits_on() const override { return source_->waits_on(); }
+    std::string sentence() const override { return source_->sentence(); }
+    FrameOrder* order() override { return numbered() ? &order_ : nullptr; }
+
+    FrameCounts counts() const override {
+        auto counts = counts_;
+        counts.headers = decoder_.headers(), counts.producers = source_->producers(), counts.order = order_.counts();
+        return counts;
+    }
+
+    Result<bool> receive() override {
+        const auto came = source_->read(decoder_.room());
+        if (!came) return came.error();
+        if (came->what == Came::bytes) decoder_.came(came->count);
+        if (came->what == Came::gone || came->what == Came::end) sender_gone();
+        return came->what != Came::end;
+    }
+
+    Next next(std::span<double> force) override {
+        for (;;) {
+            if (hold_ > 0) return --hold_, Next::filled;
+            if (release_ > 0) {
+                std::fill(force.begin(), force.end(), 0.0);
+                return --release_, Next::filled;
+            }
+            if (std::exchange(found_, false)) {
+                counts_.values += static_cast<std::int64_t>(decoder_.take(force)), ++counts_.frames;
+                return Next::frame;
+            }
+            switch (decoder_.next()) {
+                case FrameDecoder::Found::nothing:
+                    return Next::nothing;
+                case FrameDecoder::Found::frame:
+                    find();
+                    break;
+                case FrameDecoder::Found::unreadable:
+                    ++counts_.unreadable;
+                    if (!numbered()) return Next::filled;
+            }
+        }
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold,
+                                       std::int64_t longest) {
+    return std::make_unique<ByteFrames>(std::move(source), layout, hold, longest);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,46 @@
+#pragma once
+// Bytes from one thread to another without a lock: a ring of fixed size, one that puts, one that takes. The two may be the same thread.
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+namespace corpuscle {
+
+class ByteRing {
+    std::vector<char> bytes_;
+    alignas(64) std::atomic<std::size_t> put_ = 0;  // bytes in all; the place is modulo the size
+    alignas(64) std::atomic<std::size_t> taken_ = 0;
+
+public:
+    /// At least so many bytes; a power of two.
+    explicit ByteRing(std::size_t least) : bytes_(std::bit_ceil(std::max<std::size_t>(least, 64))) {}
+    std::size_t size() const { return bytes_.size(); }
+    std::size_t all_put() const { return put_.load(std::memory_order_acquire); }
+    std::size_t all_taken() const { return taken_.load(std::memory_order_acquire); }
+    std::size_t filled() const { return put_.load(std::memory_order_acquire) - taken_.load(std::memory_order_acquire); }
+
+    /// All of it or, if there is no room, nothing.
+    bool put(std::string_view text) {
+        const auto at = put_.load(std::memory_order_relaxed);
+        if (text.size() > bytes_.size() - (at - taken_.load(std::memory_order_acquire))) return false;
+        const auto begin = at & (bytes_.size() - 1), first = std::min(text.size(), bytes_.size() - begin);
+        std::memcpy(bytes_.data() + begin, text.data(), first);
+        std::memcpy(bytes_.data(), text.data() + first, text.size() - first);
+        put_.store(at + text.size(), std::memory_order_release);
+        return true;
+    }
+
+    /// What can be taken next in one piece; empty if there is nothing.
+    std::string_view next() const {
+        const auto at = taken_.load(std::memory_order_relaxed), filled = put_.load(std::memory_order_acquire) - at;
+        const auto begin = at & (bytes_.size() - 1);
+        return {bytes_.data() + begin, std::min(filled, bytes_.size() - begin)};
+    }
+    void took(std::size_t bytes) { taken_.store(taken_.load(std::memory_order_relaxed) + bytes, std::memory_order_release); }
+};
+
+}  // namespace corpuscle

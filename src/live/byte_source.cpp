@@ -1,0 +1,113 @@
+#include "live/byte_source.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <cerrno>
+#include <cstring>
+
+#include "live/network.hpp"
+
+namespace corpuscle {
+namespace {
+
+bool to_be_tried_again(int why) { return why == EAGAIN || why == EWOULDBLOCK || why == EINTR; }
+
+class StandardInput final : public ByteSource {
+public:
+    int waits_on() const override { return STDIN_FILENO; }
+    std::string sentence() const override { return "standard input"; }
+    Result<Came> read(std::span<char> out) override {
+        const auto count = ::read(STDIN_FILENO, out.data(), out.size());
+        if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
+        if (count == 0) return Came{Came::end};
+        if (to_be_tried_again(errno)) return Came{Came::nothing};
+        return bad_input(fmt::format("standard input cannot be read: {}", std::strerror(errno)));
+    }
+};
+
+class Listener final : public ByteSource {
+    Endpoint at_;
+    Descriptor door_, client_;
+    std::int64_t clients_, most_;
+
+    Came accept() {
+        client_ = Descriptor(::accept4(door_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+        if (!client_) return {Came::nothing};
+        ++clients_;
+        const int yes = 1;
+        ::setsockopt(client_.get(), SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);  // one whose machine has died goes, too
+        return {Came::nothing};
+    }
+
+public:
+    Listener(const Endpoint& at, Descriptor door, std::int64_t most) : at_(at), door_(std::move(door)), clients_(0), most_(most) {}
+    int waits_on() const override { return client_ ? client_.get() : door_.get(); }
+    std::string sentence() const override { return "listening on " + at_.text(); }
+    std::int64_t producers() const override { return clients_; }
+    Result<Came> read(std::span<char> out) override {
+        if (!client_) return accept();
+        const auto count = ::recv(client_.get(), out.data(), out.size(), 0);
+        if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
+        if (count < 0 && to_be_tried_again(errno)) return Came{Came::nothing};
+        client_.close();  // in peace or not: the next may come
+        return Came{most_ > 0 && clients_ >= most_ ? Came::end : Came::gone};
+    }
+};
+
+class Serial final : public ByteSource {
+    std::string path_;
+    Descriptor line_;
+
+public:
+    Serial(std::string path, Descriptor line) : path_(std::move(path)), line_(std::move(line)) {}
+    int waits_on() const override { return line_.get(); }
+    std::string sentence() const override { return "serial line " + path_; }
+    Result<Came> read(std::span<char> out) override {
+        const auto count = ::read(line_.get(), out.data(), out.size());
+        if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
+        if (count < 0 && to_be_tried_again(errno)) return Came{Came::nothing};
+        return Came{Came::end};  // hung up, or pulled out
+    }
+};
+
+constexpr std::pair<long, speed_t> bauds[] = {{9600, B9600},       {19200, B19200},     {38400, B38400},     {57600, B57600},
+                                              {115200, B115200},   {230400, B230400},   {460800, B460800},   {921600, B921600},
+                                              {1000000, B1000000}, {2000000, B2000000}, {3000000, B3000000}, {4000000, B4000000}};
+
+}  // namespace
+
+Result<std::unique_ptr<ByteSource>> standard_input() { return std::unique_ptr<ByteSource>(std::make_unique<StandardInput>()); }
+
+Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int port, std::int64_t clients) {
+    Endpoint at{address, port};
+    auto door = listening_socket(at);
+    if (!door) return door.error();
+    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*door), clients));
+}
+
+Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long baud) {
+    speed_t speed = B0;
+    std::string known;
+    for (const auto& [number, word] : bauds) {
+        if (number == baud) speed = word;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", number);
+    }
+    if (speed == B0) return bad_usage(fmt::format("--baud {}: a serial line goes at {}", baud, known));
+    Descriptor line(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (!line) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
+    termios ways = {};
+    if (::tcgetattr(line.get(), &ways) != 0) return bad_input("this is no serial device", {path});
+    ::cfmakeraw(&ways);
+    ways.c_cflag |= CLOCAL | CREAD;
+    ways.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+    ways.c_cc[VMIN] = 1, ways.c_cc[VTIME] = 0;
+    ::cfsetspeed(&ways, speed);
+    if (::tcsetattr(line.get(), TCSANOW, &ways) != 0)
+        return bad_input(fmt::format("cannot be set to {} baud: {}", baud, std::strerror(errno)), {path});
+    ::tcflush(line.get(), TCIFLUSH);
+    return std::unique_ptr<ByteSource>(std::make_unique<Serial>(path, std::move(line)));
+}
+
+}  // namespace corpuscle

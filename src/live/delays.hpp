@@ -1,0 +1,48 @@
+#pragma once
+// How long things took, as a histogram of fixed size: 32 bins an octave (2 % wide), from nanoseconds to hours.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace corpuscle {
+
+class Delays {
+    static constexpr int sub = 32, bins = 44 * sub;
+    std::array<std::uint64_t, bins> counts_{};
+    std::uint64_t count_ = 0;
+    std::int64_t most_ = 0;
+
+    static int bin_of(std::int64_t ns) {
+        const auto n = static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
+        if (n < sub) return static_cast<int>(n);
+        const int octave = static_cast<int>(std::bit_width(n)) - 6;  // of 32 ns it is 0
+        return std::min(bins - 1, (octave + 1) * sub + static_cast<int>((n >> octave) - sub));
+    }
+
+public:
+    void add(std::int64_t ns) { ++counts_[static_cast<std::size_t>(bin_of(ns))], ++count_, most_ = std::max(most_, ns); }
+    std::uint64_t count() const { return count_; }
+    std::int64_t most() const { return most_; }  ///< ns
+
+    /// The upper end of a bin, ns: it holds what is below and not in those before.
+    static std::int64_t end_of(int bin) {
+        if (bin < sub) return bin + 1;
+        const int octave = bin / sub - 1;
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(bin % sub + sub + 1) << octave);
+    }
+    static constexpr int size() { return bins; }
+    std::uint64_t in(int bin) const { return counts_[static_cast<std::size_t>(bin)]; }
+
+    /// So much of it all took no longer, ns: the end of the bin, or the longest of all.
+    std::int64_t quantile(double share) const {
+        const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(count_));
+        std::uint64_t seen = 0;
+        for (int b = 0; b < bins; ++b)
+            if ((seen += in(b)) > wanted) return std::min(end_of(b), most_);
+        return most_;
+    }
+};
+
+}  // namespace corpuscle

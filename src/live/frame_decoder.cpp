@@ -1,0 +1,150 @@
+#include "live/frame_decoder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "binary frames are taken as they lie in memory");
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t longest_field = 32;  // bytes of text, with its separator
+
+bool separates(char c) { return c == ',' || c == ';' || c == '\t' || c == ' '; }
+
+/// The next field, taken off the line: blanks about it are not part of it; several blanks are one separator.
+std::string_view next_field(std::string_view& line) {
+    const auto end = std::min(static_cast<std::size_t>(std::find_if(line.begin(), line.end(), separates) - line.begin()), line.size());
+    const auto field = line.substr(0, end);
+    auto behind = trimmed(line.substr(end));
+    if (!behind.empty() && (behind.front() == ',' || behind.front() == ';')) behind = trimmed(behind.substr(1));
+    line = behind;
+    return field;
+}
+
+double number_of(std::string_view field) {
+    double x = 0;
+    if (field.starts_with('+')) field.remove_prefix(1);
+    const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), x);
+    return status == std::errc{} && end == field.data() + field.size() ? x : no_number;
+}
+
+template <class Value>
+std::size_t take_values(const char* from, const FrameLayout& layout, std::span<double> force) {
+    std::size_t bad = 0;
+    for (std::size_t s = 0; s < force.size(); ++s) {
+        Value x;
+        std::memcpy(&x, from + s * sizeof x, sizeof x);
+        const double f = (static_cast<double>(x) - layout.offset) * layout.scale;
+        const bool good = std::abs(f) <= layout.limit;
+        force[s] = good ? f : force[s];
+        bad += !good;
+    }
+    return bad;
+}
+
+}  // namespace
+
+FrameDecoder::FrameDecoder(const FrameLayout& layout)
+    : layout_(layout),
+      bytes_(std::max<std::size_t>(65536, 4 * (layout.kind == FrameKind::csv ? (layout.sites + 1) * longest_field : layout.bytes()))) {
+    if (layout.kind == FrameKind::csv) values_.resize(layout.sites);
+}
+
+std::span<char> FrameDecoder::room() {
+    if (begin_ == end_) begin_ = end_ = looked_ = 0;
+    if (begin_ > 0 && end_ > bytes_.size() / 2) {
+        std::memmove(bytes_.data(), bytes_.data() + begin_, end_ - begin_);
+        looked_ -= std::min(looked_, begin_), end_ -= begin_, begin_ = 0;
+    }
+    if (end_ == bytes_.size()) skipping_ = true, begin_ = end_ = looked_ = 0;  // a line without an end
+    return std::span(bytes_).subspan(end_);
+}
+
+void FrameDecoder::forget() { begin_ = end_ = looked_ = 0, skipping_ = false, first_ = true; }
+
+FrameDecoder::Found FrameDecoder::next() {
+    if (layout_.kind != FrameKind::csv) {
+        if (end_ - begin_ < layout_.bytes()) return Found::nothing;
+        const char* const at = bytes_.data() + begin_;
+        begin_ += layout_.bytes();
+        found_ = {at + layout_.stamp_bytes(), layout_.bytes() - layout_.stamp_bytes()};
+        if (layout_.stamp == FrameStamp::count) std::memcpy(&number_, at, sizeof number_);
+        if (layout_.stamp != FrameStamp::time) return Found::frame;
+        double seconds = 0;
+        std::memcpy(&seconds, at, sizeof seconds);
+        return read_stamp(seconds) ? Found::frame : Found::unreadable;
+    }
+    for (;;) {
+        looked_ = std::max(looked_, begin_);
+        const auto* const end = static_cast<const char*>(std::memchr(bytes_.data() + looked_, '\n', end_ - looked_));
+        if (!end) return looked_ = end_, Found::nothing;
+        const std::string_view whole(bytes_.data() + begin_, end);
+        begin_ = static_cast<std::size_t>(end - bytes_.data()) + 1;
+        if (std::exchange(skipping_, false)) return Found::unreadable;
+        const auto line = trimmed(whole.ends_with('\r') ? whole.substr(0, whole.size() - 1) : whole);
+        if (line.empty() || line.front() == '#' || line.front() == '%') continue;
+        if (std::exchange(first_, false) && is_header(line)) {
+            ++headers_;
+            continue;
+        }
+        return read_line(line) ? Found::frame : Found::unreadable;
+    }
+}
+
+/// As many words as a frame has numbers, and not one of them is a number.
+bool FrameDecoder::is_header(std::string_view line) const {
+    std::size_t fields = 0;
+    for (; !line.empty(); ++fields)
+        if (!std::isnan(number_of(next_field(line)))) return false;
+    return fields == layout_.sites + (layout_.stamp == FrameStamp::none ? 0 : 1);
+}
+
+bool FrameDecoder::read_stamp(double seconds) {
+    const double number = std::floor(seconds * layout_.rate + 0.5);
+    if (!(std::abs(number) < 9e15)) return false;
+    number_ = static_cast<std::uint32_t>(static_cast<std::int64_t>(number));
+    return true;
+}
+
+bool FrameDecoder::read_stamp(std::string_view text) {
+    if (layout_.stamp == FrameStamp::time) return read_stamp(number_of(text));
+    std::int64_t number = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+    number_ = static_cast<std::uint32_t>(number);
+    return status == std::errc{} && end == text.data() + text.size();
+}
+
+/// False if its stamp is none, or there are too few or too many fields.
+bool FrameDecoder::read_line(std::string_view line) {
+    if (layout_.stamp != FrameStamp::none && !read_stamp(next_field(line))) return false;
+    for (auto& v : values_) {
+        if (line.empty()) return false;
+        v = number_of(next_field(line));
+    }
+    return line.empty();
+}
+
+std::size_t FrameDecoder::take(std::span<double> force) const {
+    switch (layout_.kind) {
+        case FrameKind::f32:
+            return take_values<float>(found_.data(), layout_, force);
+        case FrameKind::f64:
+            return take_values<double>(found_.data(), layout_, force);
+        case FrameKind::i16:
+            return take_values<std::int16_t>(found_.data(), layout_, force);
+        case FrameKind::csv:
+            break;
+    }
+    return take_values<double>(reinterpret_cast<const char*>(values_.data()), layout_, force);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,56 @@
+#pragma once
+// Where a stream's frames come from: bytes by the layout of a frame, or a recording at its own pace.
+
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "live/byte_source.hpp"
+#include "live/frame_layout.hpp"
+#include "live/frame_order.hpp"
+#include "signal/source.hpp"
+
+namespace corpuscle {
+
+/// Nanoseconds of the clock that never steps back.
+inline std::int64_t steady_now() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct FrameCounts {
+    std::int64_t frames = 0;      ///< that came and were answered
+    std::int64_t unreadable = 0;  ///< frames of which nothing could be read: the last force was held (of numbered ones: a gap)
+    std::int64_t values = 0;      ///< forces that are no number or beyond the limit: that site's last was held
+    std::int64_t halves = 0;      ///< frames that were begun when their sender went
+    std::int64_t headers = 0;     ///< first lines that were names
+    std::int64_t producers = 0;   ///< that sent
+    OrderCounts order = {};       ///< of frames that are numbered
+};
+
+class FrameSource {
+public:
+    static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+    enum class Next {
+        nothing,  ///< for now
+        frame,    ///< one that came
+        filled,   ///< one in the place of a frame that is missing or could not be read
+    };
+
+    virtual ~FrameSource() = default;
+    virtual int waits_on() const { return -1; }         ///< to be polled for reading; -1: it goes by the clock
+    virtual std::int64_t due() const { return never; }  ///< when there is more without a poll; steady_now()
+    virtual Result<bool> receive() = 0;                 ///< reads what is there; false: nothing more will come
+    virtual Next next(std::span<double> force) = 0;     ///< the next frame over the last one
+    virtual FrameCounts counts() const = 0;
+    virtual std::string sentence() const = 0;
+    virtual FrameOrder* order() { return nullptr; }  ///< of numbered frames
+};
+
+/// `hold`, `longest`: of a gap, in frames (see FrameOrder).
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t longest);
+
+/// A recording, each frame at its time, or as fast as they can be answered.
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source>, bool at_its_pace);
+
+}  // namespace corpuscle

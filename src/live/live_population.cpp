@@ -1,0 +1,72 @@
+#include "live/live_population.hpp"
+
+#include <fmt/format.h>
+
+#include "model/catalog.hpp"
+#include "skin/sites.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::vector<std::string> names_in(std::string_view list) {
+    std::vector<std::string> names;
+    for (std::size_t at = 0; at <= list.size();) {
+        const auto end = std::min(list.find(',', at), list.size());
+        names.emplace_back(list.substr(at, end - at));
+        at = end + 1;
+    }
+    return names;
+}
+
+Result<SkinClass> class_at_each_site(const std::string& name, std::span<const Wish> wishes) {
+    const auto plan = plan_afferent(name, wishes);
+    if (!plan) return plan.error();
+    SkinClass each{.name = plan->name, .afferent = *plan};
+    each.per_site = 1;
+    return each;
+}
+
+}  // namespace
+
+bool is_afferents(std::string_view list) {
+    for (const auto& name : names_in(list))
+        if (!plan_afferent(name, {})) return false;
+    return true;
+}
+
+Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const Wish> wishes) {
+    auto sites = grid_sites(1, channels, 1e-3);
+    if (!sites) return sites.error();
+    SkinPlan plan;
+    plan.name = afferents;
+    plan.sentence = fmt::format("{} on {} channel{}", afferents, channels, channels == 1 ? "" : "s");
+    plan.sites = std::move(*sites);
+    for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
+    for (const auto& name : names_in(afferents)) {
+        auto each = class_at_each_site(name, wishes);
+        if (!each) return each.error();
+        for (const auto& other : plan.classes)
+            if (other.name == each->name) return bad_usage(fmt::format("'{}' is named twice", name));
+        plan.classes.push_back(std::move(*each));
+    }
+    return plan;
+}
+
+Result<SkinPlan> plan_live(std::string_view population, std::size_t channels) {
+    if (is_afferents(population)) return plan_channels(population, channels);
+    return plan_skin(population);
+}
+
+EventUnits event_units(const Innervation& skin, const Clock& clock) {
+    EventUnits units{clock, {}, {}};
+    bool one_each = true;
+    for (const auto& c : skin.plan.classes) one_each &= c.density.empty() && c.per_site == 1;
+    const auto classes = static_cast<std::uint32_t>(skin.plan.classes.size());
+    for (std::size_t u = 0; u < skin.units.size(); ++u) {
+        units.names.push_back(skin.unit_name(u));
+        units.addresses.push_back(one_each ? (skin.units[u].copy - 1) * classes + skin.units[u].of : static_cast<std::uint32_t>(u));
+    }
+    return units;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,57 @@
+// A recording as a stream: each frame when it is due, or as fast as they can be answered.
+
+#include "live/frame_source.hpp"
+
+namespace corpuscle {
+namespace {
+
+class RecordedFrames final : public FrameSource {
+    static constexpr std::size_t block = 1024;    // read ahead
+    static constexpr std::int64_t at_once = 256;  // as fast as can be: between two looks at the rest of the world
+
+    std::unique_ptr<Source> source_;
+    Frames frames_;
+    std::size_t at_ = 0;       // in the block
+    std::int64_t begun_ = -1;  // when the first was due; ns
+    std::int64_t count_ = 0, in_turn_ = 0;
+    bool paced_;
+
+    std::int64_t due_of(std::int64_t frame) const {
+        const auto& clock = source_->clock();
+        const auto cycles = frame / clock.per, rest = frame % clock.per;
+        return begun_ + cycles * clock.seconds * 1'000'000'000 + static_cast<std::int64_t>(static_cast<double>(rest) * clock.T() * 1e9);
+    }
+
+public:
+    RecordedFrames(std::unique_ptr<Source> source, bool paced)
+        : source_(std::move(source)), frames_(source_->channels().size(), block), paced_(paced) {}
+
+    std::string sentence() const override { return source_->sentence(); }
+    std::int64_t due() const override { return begun_ < 0 || !paced_ ? 0 : due_of(count_); }
+    FrameCounts counts() const override { return {.frames = count_, .producers = 1}; }
+
+    Result<bool> receive() override {
+        in_turn_ = 0;
+        if (at_ == frames_.count) {
+            if (auto ok = source_->read(frames_); !ok) return ok.error();
+            at_ = 0;
+        }
+        if (begun_ < 0) begun_ = steady_now();
+        return frames_.count > 0;
+    }
+
+    Next next(std::span<double> force) override {
+        if (at_ == frames_.count || in_turn_ == at_once || (paced_ && steady_now() < due_of(count_))) return Next::nothing;
+        for (std::size_t s = 0; s < force.size(); ++s) force[s] = frames_.force[s][at_];
+        ++at_, ++count_, ++in_turn_;
+        return Next::frame;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source> source, bool at_its_pace) {
+    return std::make_unique<RecordedFrames>(std::move(source), at_its_pace);
+}
+
+}  // namespace corpuscle

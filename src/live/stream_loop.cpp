@@ -1,0 +1,90 @@
+#include "live/stream_loop.hpp"
+
+#include <poll.h>
+#include <cmath>
+#include <utility>
+
+namespace corpuscle {
+namespace {
+
+constexpr std::int64_t second = 1'000'000'000, longest_wait = second / 5;
+
+}  // namespace
+
+StreamLoop::StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventOutlet& outlet, Ways ways)
+    : skin_(skin), format_(format), frames_(frames), outlet_(outlet), ways_(std::move(ways)), force_(skin.sites()),
+      event_(format.most_bytes()) {}
+
+Result<void> StreamLoop::run() {
+    Result<void> ended;
+    while (ended && !ways_.stop()) {
+        const auto more = wait();
+        if (!more) {
+            ended = more.error();
+        } else if (!*more) {
+            break;
+        }
+        if (const auto now = steady_now(); now >= next_look_) {
+            if (next_look_ > 0) ways_.seen();
+            next_look_ = now + second;
+        }
+    }
+    if (ended && !ways_.goes_on) put(skin_.last());
+    const auto finished = outlet_.finish();
+    return ended ? finished : ended;
+}
+
+/// For frames, for room to write, for the time of the next look; false at the end of the frames.
+Result<bool> StreamLoop::wait() {
+    pollfd on[2] = {{frames_.waits_on(), POLLIN, 0}, {outlet_.waits_on(), POLLOUT, 0}};
+    const auto left =
+        std::max<std::int64_t>(0, std::min(frames_.due() - (frames_.due() == FrameSource::never ? 0 : steady_now()), longest_wait));
+    const timespec wait = {0, static_cast<long>(left)};
+    const int ready = ::ppoll(on, 2, &wait, nullptr);
+    if (ready < 0) return true;  // a signal: stop() is asked
+    const bool due = frames_.waits_on() < 0 ? frames_.due() <= steady_now() : on[0].revents != 0;
+    if (on[1].revents != 0 || ready == 0)
+        if (auto ok = outlet_.flush(); !ok) return ok.error();
+    if (!due) return true;
+    const auto more = frames_.receive();
+    if (!more) return more.error();
+    if (auto ok = answer_all(); !ok) return ok.error();
+    return *more;
+}
+
+/// The frames that are there.
+Result<void> StreamLoop::answer_all() {
+    const auto at = steady_now();
+    for (auto next = frames_.next(force_); next != FrameSource::Next::nothing; next = frames_.next(force_))
+        if (auto ok = answer(next == FrameSource::Next::frame, at); !ok) return ok;
+    return {};
+}
+
+Result<void> StreamLoop::answer(bool came, std::int64_t at) {
+    const auto spikes = skin_.push(force_);
+    if (!spikes) return spikes.error();
+    put(*spikes);
+    if (!spikes->empty())
+        if (auto ok = outlet_.flush(); !ok) return ok;
+    if (came) {
+        frame_came(at);
+        done_.delay.add(steady_now() - at);
+    } else {
+        ++done_.filled;
+    }
+    return {};
+}
+
+void StreamLoop::put(std::span<const Spike> spikes) {
+    done_.spikes += static_cast<std::int64_t>(spikes.size());
+    for (const auto& s : spikes)
+        if (!outlet_.take({event_.data(), format_.put(s, event_.data())})) ++done_.dropped;
+}
+
+void StreamLoop::frame_came(std::int64_t at) {
+    if (done_.came > 0) done_.jitter.add(std::abs(at - done_.last_came - static_cast<std::int64_t>(skin_.clock().T() * 1e9)));
+    if (done_.came++ == 0) done_.first_came = at;
+    done_.last_came = at;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,71 @@
+#include "live/stream_state.hpp"
+
+#include <fmt/format.h>
+#include <cstring>
+
+#include "io/bytes.hpp"
+#include "io/output.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::string_view state_magic = "corplive";
+
+/// What stands before the forces and the skin's bytes; little-endian.
+struct StateHead {
+    char magic[8];
+    std::uint32_t version, numbered, number, sites;
+    std::uint64_t skin;
+};
+
+}  // namespace
+
+std::vector<std::byte> packed(const StreamState& state) {
+    StateHead head = {
+        {}, 1, state.number.has_value(), state.number.value_or(0), static_cast<std::uint32_t>(state.force.size()), state.skin.size()};
+    std::memcpy(head.magic, state_magic.data(), sizeof head.magic);
+    std::vector<std::byte> out(sizeof head + state.force.size() * sizeof(double));
+    std::memcpy(out.data(), &head, sizeof head);
+    if (!state.force.empty()) std::memcpy(out.data() + sizeof head, state.force.data(), state.force.size() * sizeof(double));
+    out.insert(out.end(), state.skin.begin(), state.skin.end());
+    return out;
+}
+
+Result<StreamState> unpacked(std::span<const std::byte> bytes, const std::string& file) {
+    StateHead head;
+    if (bytes.size() < sizeof head || std::memcmp(bytes.data(), state_magic.data(), sizeof head.magic) != 0)
+        return bad_input("this is no saved state of a stream (it does not begin with 'corplive')", {file});
+    std::memcpy(&head, bytes.data(), sizeof head);
+    if (head.version != 1) return bad_input(fmt::format("a saved state of version {}; this program reads version 1", head.version), {file});
+    const auto rest = bytes.subspan(sizeof head);
+    const auto forces = head.sites * std::uint64_t{sizeof(double)};
+    if (rest.size() < forces || rest.size() - forces != head.skin) return bad_input("this saved state is cut short or too long", {file});
+    StreamState state;
+    state.force.resize(head.sites);
+    if (forces > 0) std::memcpy(state.force.data(), rest.data(), forces);
+    if (first_not_finite(state.force) < state.force.size())
+        return bad_input("this saved state is damaged: a force that is no number", {file});
+    if (head.numbered != 0) state.number = head.number;
+    state.skin.assign(rest.begin() + static_cast<std::ptrdiff_t>(forces), rest.end());
+    return state;
+}
+
+Result<void> save_stream(const std::string& path, const StreamState& state) {
+    auto file = OutputFile::create(path);
+    if (!file) return file.error();
+    const auto bytes = packed(state);
+    if (auto ok = file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok) return ok;
+    return file->commit();
+}
+
+Result<StreamState> load_stream(const std::string& path) {
+    auto file = open_bytes(path);
+    if (!file) return file.error();
+    constexpr std::uint64_t most = std::uint64_t{1} << 34;
+    if ((*file)->size() > most) return bad_input("this file is too large to be a saved state", {path});
+    std::vector<std::byte> bytes((*file)->size());
+    if (auto ok = (*file)->read(bytes); !ok) return ok.error();
+    return unpacked(bytes, path);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,57 @@
+#include "skin/conduction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle {
+namespace {
+
+void in_order(std::span<const Spike> spikes, std::vector<Spike>& to) {
+    const auto old = static_cast<std::ptrdiff_t>(to.size());
+    to.insert(to.end(), spikes.begin(), spikes.end());
+    if (!std::is_sorted(to.begin() + old, to.end())) std::sort(to.begin() + old, to.end());
+}
+
+}  // namespace
+
+Conduction::Conduction(const Innervation& skin, double T) {
+    if (std::all_of(skin.units.begin(), skin.units.end(), [](const SkinUnit& u) { return u.delay == 0; })) return;
+    std::int32_t most = 0;
+    for (const auto& u : skin.units) {
+        const double steps = u.delay / T, whole = std::floor(steps);
+        delays_.push_back({static_cast<std::int32_t>(whole), steps - whole});
+        most = std::max(most, delays_.back().steps);
+    }
+    arriving_.resize(static_cast<std::size_t>(most) + 2 + reach);
+    for (auto& step : arriving_) step.reserve(skin.units.size() / 16 + 16);
+}
+
+void Conduction::carry(std::span<const Spike> left, std::int64_t now, std::vector<Spike>& arrived) {
+    if (delays_.empty()) return in_order(left, arrived);
+    for (const auto& s : left) {
+        const auto& d = delays_[s.unit];
+        const double offset = s.offset + d.rest;  // (0, 2)
+        const bool next = offset > 1;
+        const std::int64_t step = s.step + d.steps + (next ? 1 : 0);
+        at(step).push_back({step, next ? offset - 1 : offset, s.unit});
+    }
+    for (; told_ < now; ++told_) {
+        auto& due = at(told_ + 1);
+        in_order(due, arrived);
+        due.clear();
+    }
+}
+
+std::vector<Spike> Conduction::on_their_way() const {
+    std::vector<Spike> all;
+    for (const auto& step : arriving_) all.insert(all.end(), step.begin(), step.end());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+void Conduction::put_back(std::span<const Spike> spikes, std::int64_t now) {
+    told_ = now;
+    for (const auto& s : spikes) at(s.step).push_back(s);
+}
+
+}  // namespace corpuscle

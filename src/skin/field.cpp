@@ -1,0 +1,68 @@
+#include "skin/field.hpp"
+
+#include <algorithm>
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t field_steps = 4;  // a multiple of it: rows of sums begin on whole vectors
+
+std::size_t padded(std::size_t steps) { return steps == 1 ? 1 : (steps + field_steps - 1) / field_steps * field_steps; }
+
+void add(double weight, const double* force, double* sum, std::size_t steps) {
+    for (std::size_t t = 0; t < steps; ++t) sum[t] += weight * force[t];
+}
+
+/// [unit][step] to [step][unit].
+void turn(const double* sums, std::size_t stride, std::size_t steps, double* rows) {
+    for (std::size_t from = 0; from < steps; from += field_steps)
+        for (std::size_t u = 0; u < force_tile; ++u)
+            for (std::size_t t = from; t < std::min(from + field_steps, steps); ++t) rows[t * force_tile + u] = sums[u * stride + t];
+}
+
+}  // namespace
+
+FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size_t count, std::size_t sites)
+    : units_(count), tiles_((count + force_tile - 1) / force_tile), pieces_((tiles_ + piece_tiles - 1) / piece_tiles),
+      rows_(tiles_ * skin_steps * force_tile), without_(tiles_) {
+    constexpr std::size_t piece_units = piece_tiles * force_tile;
+    for (auto& p : pieces_) p.begin.assign(1, 0);
+    for (std::size_t s = 0; s < sites; ++s) {
+        for (std::size_t k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
+            const std::size_t unit = fields.unit[k];
+            if (unit < first || unit >= first + count) continue;
+            auto& p = pieces_[(unit - first) / piece_units];
+            p.unit.push_back(static_cast<std::uint32_t>((unit - first) % piece_units));
+            p.weight.push_back(fields.weight[k]);
+        }
+        for (auto& p : pieces_) p.begin.push_back(static_cast<std::uint32_t>(p.unit.size()));
+    }
+}
+
+void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool& pool) {
+    while (sums_.size() < pool.threads()) sums_.emplace_back(piece_tiles * force_tile * skin_steps);
+    pool.each(pieces_.size(),
+              [&](std::size_t piece, unsigned thread) { feel_piece(piece, force, touched, at, steps, sums_[thread].data()); });
+}
+
+void FeltForce::feel_piece(std::size_t piece, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at,
+                           std::size_t steps, double* sums) {
+    const auto& p = pieces_[piece];
+    const std::size_t first = piece * piece_tiles, tiles = std::min(piece_tiles, tiles_ - first), stride = padded(steps);
+    auto* without = without_.data() + first;
+    std::fill_n(without, tiles, std::uint8_t{1});
+    double* rows = rows_.data() + first * steps * force_tile;
+    if (steps == 1) sums = rows;  // one step: sums stand as rows do
+    for (const auto s : touched) {
+        const double* f = force.of + s * force.stride + at;
+        for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
+            const std::size_t unit = p.unit[k], tile = unit / force_tile;
+            if (without[tile]) std::fill_n(sums + tile * force_tile * stride, force_tile * stride, 0.0), without[tile] = 0;
+            add(p.weight[k], f, sums + unit * stride, steps);
+        }
+    }
+    for (std::size_t tile = 0; steps > 1 && tile < tiles; ++tile)
+        if (!without[tile]) turn(sums + tile * force_tile * stride, stride, steps, rows + tile * steps * force_tile);
+}
+
+}  // namespace corpuscle

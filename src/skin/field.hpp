@@ -1,0 +1,42 @@
+#pragma once
+// From force at the sites to what the units of one class feel: the receptive fields at work.
+
+#include "model/lanes/buffer.hpp"
+#include "model/population.hpp"
+#include "skin/skin.hpp"
+
+namespace corpuscle {
+
+/// Steps that go through a skin at once: a tile's force over them, and what it is summed up in, stay in the caches.
+inline constexpr std::size_t skin_steps = 32;
+
+/// Sums are in the order of the sites, and a site without force adds nothing to them: the same bits whoever lists which sites are touched.
+class FeltForce {
+public:
+    /// Of units [first, first + count) of a class.
+    FeltForce(const ReceptiveFields&, std::size_t first, std::size_t count, std::size_t sites);
+
+    /// Some steps, at most skin_steps, from `at` of the block on.
+    void feel(const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool&);
+
+    ForceTiles<double> tiles() const { return {rows_.data(), without_.data()}; }
+
+private:
+    static constexpr std::size_t piece_tiles = 16;  // for one thread
+    /// The weights of the units of a piece, site by site.
+    struct Piece {
+        std::vector<std::uint32_t> begin, unit;
+        std::vector<double> weight;
+    };
+
+    std::size_t units_, tiles_;
+    std::vector<Piece> pieces_;
+    lanes::Buffer<double> rows_;
+    std::vector<std::uint8_t> without_;
+    std::vector<lanes::Buffer<double>> sums_;  // of each thread: [unit of a piece][step]
+
+    void feel_piece(std::size_t piece, const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps,
+                    double* sums);
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,59 @@
+#include "skin/innervation.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "skin/placing.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// What a plan that was not read from a file may have wrong.
+std::optional<Error> refused(const SkinPlan& plan) {
+    const auto& s = plan.sites;
+    if (s.at.empty() || s.names.size() != s.size() || s.region.size() != s.size() || s.regions.empty() || s.size() > most_sites)
+        return bad_input(fmt::format("{}: a skin needs sites, each with a name and a region ({} sites)", plan.name, s.size()));
+    for (const auto& p : s.at)
+        if (!(std::abs(p.x) <= 1e3 && std::abs(p.y) <= 1e3))
+            return bad_input(fmt::format("{}: a site at ({:g}, {:g}) m is not on a skin", plan.name, p.x, p.y));
+    for (const auto r : s.region)
+        if (r >= s.regions.size()) return bad_input(fmt::format("{}: region {} of {}", plan.name, r, s.regions.size()));
+    for (const auto& c : plan.classes) {
+        if (!c.density.empty() && c.density.size() != s.regions.size())
+            return bad_input(fmt::format("{}: {} densities for {} regions", c.name, c.density.size(), s.regions.size()));
+        if (!c.density.empty() && !(s.area > 0))
+            return bad_input(fmt::format("{}: a density wants sites that stand for an area of skin", c.name));
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string Innervation::unit_name(std::size_t unit) const {
+    const auto& u = units[unit];
+    return fmt::format("{}#{}", plan.classes[u.of].name, u.copy);
+}
+
+Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
+    if (auto wrong = refused(plan)) return *wrong;
+    auto out = std::make_shared<Innervation>();
+    out->plan = std::move(plan);
+    const auto& p = out->plan;
+    const NearSites near(p.sites.at);
+    const auto touching = touching_regions(p.sites, near);
+    out->first.push_back(0);
+    for (std::uint32_t c = 0; c < p.classes.size(); ++c) {
+        const auto units = placed_units(p, c);
+        if (!units) return units.error();
+        auto fields = fields_of(p, c, *units, near, touching);
+        if (!fields) return fields.error();
+        out->units.insert(out->units.end(), units->begin(), units->end());
+        out->fields.push_back(std::move(*fields));
+        out->first.push_back(out->units.size());
+        if (out->units.size() > most_units) return bad_input(fmt::format("{}: more than {} units", p.name, most_units));
+    }
+    if (out->units.empty()) return bad_input(fmt::format("{}: a skin without afferents; raise a density, or add a class", p.name));
+    return std::shared_ptr<const Innervation>(std::move(out));
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,51 @@
+#pragma once
+// Which sites are near a place: sites in square cells, looked up cell by cell.
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "skin/sites.hpp"
+
+namespace corpuscle {
+
+class NearSites {
+public:
+    explicit NearSites(const std::vector<Position>& at);
+
+    /// Calls f(site, d2) for each site within `reach` (m) of (x, y), d2 its distance squared; in an order that depends on the sites alone.
+    template <class F>
+    void within(double x, double y, double reach, F&& f) const {
+        const double most = reach * reach;
+        const auto left = column(x - reach), right = column(x + reach), low = row(y - reach), high = row(y + reach);
+        for (auto r = low; r <= high; ++r)
+            for (auto k = begin_[r * columns_ + left]; k < begin_[r * columns_ + right + 1]; ++k) {  // a row's cells follow each other
+                const auto& s = sorted_[k];
+                const double dx = s.x - x, dy = s.y - y, d2 = dx * dx + dy * dy;
+                if (d2 <= most) f(s.site, d2);
+            }
+    }
+
+    /// The site nearest to (x, y); of several the first.
+    std::uint32_t nearest(double x, double y) const;
+    double cell() const { return cell_; }  ///< its side, m
+
+private:
+    struct Sorted {
+        double x, y;
+        std::uint32_t site;
+    };
+    double left_ = 0, low_ = 0, cell_ = 1;
+    std::size_t columns_ = 1, rows_ = 1;
+    std::vector<std::uint32_t> begin_;
+    std::vector<Sorted> sorted_;
+
+    static std::size_t clamped(double cells, std::size_t count) {
+        return cells > 0 ? std::min(static_cast<std::size_t>(std::min(cells, 1e9)), count - 1) : 0;
+    }
+    std::size_t column(double x) const { return clamped((x - left_) / cell_, columns_); }
+    std::size_t row(double y) const { return clamped((y - low_) / cell_, rows_); }
+};
+
+}  // namespace corpuscle

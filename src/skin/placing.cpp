@@ -1,0 +1,118 @@
+#include "skin/placing.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <utility>
+
+#include "signal/random.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// How far along a Hilbert curve through 2^16 x 2^16 cells the cell (x, y) comes.
+std::uint32_t along_curve(std::uint32_t x, std::uint32_t y) {
+    std::uint32_t d = 0;
+    for (std::uint32_t side = 1U << 15; side > 0; side >>= 1) {
+        const std::uint32_t right = (x & side) > 0, up = (y & side) > 0;
+        d += side * side * ((3 * right) ^ up);
+        if (up == 0) {  // turned, so that the quarters join
+            if (right == 1) x = 0xffff - x, y = 0xffff - y;
+            std::swap(x, y);
+        }
+    }
+    return d;
+}
+
+/// The sites of each region, along the curve.
+std::vector<std::vector<std::uint32_t>> sites_along(const Sites& sites) {
+    double left = sites.at[0].x, low = sites.at[0].y, extent = 0;
+    for (const auto& p : sites.at) left = std::min(left, p.x), low = std::min(low, p.y);
+    for (const auto& p : sites.at) extent = std::max({extent, p.x - left, p.y - low});
+    const double scale = extent > 0 ? 65535 / extent : 0;
+    std::vector<std::uint64_t> keys(sites.size());
+    for (std::size_t s = 0; s < sites.size(); ++s) {
+        const auto cell = [&](double from) { return static_cast<std::uint32_t>(from * scale); };
+        keys[s] = std::uint64_t{along_curve(cell(sites.at[s].x - left), cell(sites.at[s].y - low))} << 32 | s;
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::vector<std::uint32_t>> out(sites.regions.size());
+    for (const auto key : keys) out[sites.region[key & 0xffffffff]].push_back(static_cast<std::uint32_t>(key));
+    return out;
+}
+
+/// Two numbers in (0, 1) for a unit.
+std::pair<double, double> two_of(std::uint64_t seed, std::uint32_t stream, std::uint32_t copy, std::uint32_t draw) {
+    const auto w = philox({draw, 0, copy, stream}, seed);
+    return {unit_interval(w[0], w[1]), unit_interval(w[2], w[3])};
+}
+
+Error too_many(const SkinClass& c, double units) {
+    return bad_input(fmt::format("{}: {:.6g} units are more than the {} that one skin may have", c.name, units, most_units));
+}
+
+void place_on_sites(const Sites& sites, const SkinClass& c, std::uint32_t of, std::vector<SkinUnit>& out) {
+    out.reserve(sites.size() * c.per_site);
+    for (std::size_t s = 0; s < sites.size(); ++s)
+        for (std::uint32_t k = 0; k < c.per_site; ++k)
+            out.push_back({of, static_cast<std::uint32_t>(out.size()) + 1, sites.region[s], sites.at[s], 0});
+}
+
+/// One region's units, evenly along the curve through its sites and each somewhere in its site's cell.
+void place_in_region(const SkinPlan& plan, const std::vector<std::uint32_t>& along, std::size_t units, SkinUnit unit,
+                     std::vector<SkinUnit>& out) {
+    const auto stream = class_stream(plan.classes[unit.of], "place");
+    const double side = num::sqrt(plan.sites.area), share = static_cast<double>(along.size()) / static_cast<double>(units);
+    for (std::size_t k = 0; k < units; ++k) {
+        unit.copy = static_cast<std::uint32_t>(out.size()) + 1;
+        const double where = (static_cast<double>(k) + two_of(plan.seed, stream, unit.copy, 0).first) * share;
+        const auto& site = plan.sites.at[along[std::min(static_cast<std::size_t>(where), along.size() - 1)]];
+        const auto [x, y] = two_of(plan.seed, stream, unit.copy, 1);
+        unit.at = {site.x + (x - 0.5) * side, site.y + (y - 0.5) * side, site.z};
+        out.push_back(unit);
+    }
+}
+
+/// How long a unit's spikes take to the nerve.
+void delay_units(const SkinPlan& plan, const SkinClass& c, std::vector<SkinUnit>& units) {
+    if (!plan.nerve || !(c.velocity > 0)) return;
+    const auto stream = class_stream(c, "velocity");
+    for (auto& u : units) {
+        double velocity = c.velocity;
+        for (std::uint64_t draw = 0; c.velocity_spread > 0 && draw < 100; ++draw) {
+            const double v = c.velocity + c.velocity_spread * normal(plan.seed, u.copy, stream, draw);
+            if (v < 0.25 * c.velocity || v > 4 * c.velocity) continue;  // so far off is no axon of the class
+            velocity = v;
+            break;
+        }
+        const double dx = u.at.x - plan.nerve->x, dy = u.at.y - plan.nerve->y;
+        u.delay = num::sqrt(dx * dx + dy * dy) / velocity;
+    }
+}
+
+}  // namespace
+
+std::uint32_t class_stream(const SkinClass& c, std::string_view what) {
+    return static_cast<std::uint32_t>(stream_of(fmt::format("skin.{}.{}", c.name, what)));
+}
+
+Result<std::vector<SkinUnit>> placed_units(const SkinPlan& plan, std::uint32_t of) {
+    const auto& c = plan.classes[of];
+    std::vector<SkinUnit> out;
+    if (c.density.empty()) {
+        const double units = static_cast<double>(plan.sites.size()) * c.per_site;
+        if (units > static_cast<double>(most_units)) return too_many(c, units);
+        place_on_sites(plan.sites, c, of, out);
+    } else {
+        const auto along = sites_along(plan.sites);
+        double all = 0;
+        for (std::size_t r = 0; r < along.size(); ++r) {
+            const double units = std::round(c.density[r] * plan.sites.area * static_cast<double>(along[r].size()));
+            if (!((all += units) <= static_cast<double>(most_units))) return too_many(c, all);
+            place_in_region(plan, along[r], static_cast<std::size_t>(units), {of, 0, static_cast<std::uint32_t>(r)}, out);
+        }
+    }
+    delay_units(plan, c, out);
+    return out;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,77 @@
+// Populations by name.
+
+#include "skin/plan.hpp"
+
+#include <fmt/format.h>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "signal/carried.hpp"
+#include "signal/text.hpp"
+#include "skin/grid.hpp"
+#include "skin/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t most_of_a_skin = std::uintmax_t{64} << 20;  // bytes
+
+std::string carried_path(std::string_view name) { return fmt::format("skins/{}.toml", name); }
+
+Result<std::string> skin_text_at(const fs::path& path) {
+    std::error_code status;
+    if (fs::file_size(path, status) > most_of_a_skin)
+        return bad_input(fmt::format("is no population file: it is larger than {} MB", most_of_a_skin >> 20), {path.string()});
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return bad_input("cannot be read", {path.string()});
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+Error unknown_skin(std::string_view name) {
+    std::vector<std::string_view> names = {"grid 8x8"};
+    for (const auto& s : named_skins()) names.push_back(s.name);
+    return bad_usage(fmt::format("there is no population '{}'{} (there are {}, grid ROWSxCOLUMNS, and files: own.toml)", name,
+                                 did_you_mean(name, names), fmt::join(names.begin() + 1, names.end(), ", ")));
+}
+
+/// Titles and names of those that the program carries, for as long as it runs.
+std::vector<std::pair<std::string, std::string>> carried_skins() {
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const auto file : carried_files()) {
+        if (!file.starts_with("skins/")) continue;
+        const auto said = skins::read_skin_text(*carried_text(std::string(file)), std::string(file));
+        out.emplace_back(fs::path(file).stem().string(), said && said->title ? said->title->text : "");
+    }
+    return out;
+}
+
+}  // namespace
+
+std::span<const NamedSkin> named_skins() {
+    static const auto texts = carried_skins();
+    static const auto all = [] {
+        std::vector<NamedSkin> out;
+        for (const auto& [name, sentence] : texts) out.push_back({name, sentence});
+        return out;
+    }();
+    return all;
+}
+
+Result<SkinPlan> plan_skin(std::string_view name, std::span<const Channel> channels) {
+    name = trimmed(name);
+    if (is_grid(name)) return plan_grid(name);
+    if (const auto text = carried_text(carried_path(lower(name)))) return read_skin_plan(*text, carried_path(lower(name)), channels);
+    const fs::path path(name);
+    std::error_code status;
+    if (fs::is_regular_file(path, status)) {
+        const auto text = skin_text_at(path);
+        return text ? read_skin_plan(*text, path.string(), channels) : Result<SkinPlan>(text.error());
+    }
+    if (path.extension() == ".toml") return bad_input("cannot be read: there is no such file", {path.string()});
+    return unknown_skin(name);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,115 @@
+// Receptive fields: each hot spot a Gaussian over the sites, all of a unit's together a weighted mean.
+
+#include <fmt/format.h>
+#include <numeric>
+
+#include "signal/random.hpp"
+#include "skin/placing.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double cut = 3;  // standard deviations at which a hot spot ends
+
+/// What units feel, unit after unit.
+struct Felt {
+    std::vector<std::size_t> end;  ///< of each unit
+    std::vector<std::uint32_t> site;
+    std::vector<double> weight;
+};
+
+class FieldsOfClass {
+    const SkinPlan& plan_;
+    const SkinClass& class_;
+    const NearSites& near_;
+    const std::vector<char>& touching_;
+    const double per_square_, scale_;
+    const std::uint32_t stream_;
+    std::vector<double> felt_;            // of each site by the unit in hand
+    std::vector<std::uint32_t> reached_;  // the sites where it is not 0
+
+    void add_spot(const SkinUnit& unit, double x, double y) {
+        const char* reaches = touching_.data() + unit.region * plan_.sites.regions.size();
+        near_.within(x, y, cut * class_.sigma, [&](std::uint32_t site, double d2) {
+            if (!reaches[plan_.sites.region[site]]) return;
+            const double w = num::exp(-d2 * per_square_);
+            if (felt_[site] == 0) reached_.push_back(site);
+            felt_[site] += w;
+        });
+    }
+
+    void add_spots(const SkinUnit& unit) {
+        if (class_.hot_spots <= 1) return add_spot(unit, unit.at.x, unit.at.y);
+        for (std::uint32_t h = 0; h < class_.hot_spots; ++h) {
+            const auto by = normals(plan_.seed, unit.copy, stream_, h);
+            add_spot(unit, unit.at.x + class_.hot_spot_spread * by.first, unit.at.y + class_.hot_spot_spread * by.second);
+        }
+    }
+
+public:
+    FieldsOfClass(const SkinPlan& plan, const SkinClass& c, const NearSites& near, const std::vector<char>& touching)
+        : plan_(plan), class_(c), near_(near), touching_(touching), per_square_(c.sigma > 0 ? 0.5 / (c.sigma * c.sigma) : 0),
+          scale_(plan.felt_area > 0 && plan.sites.area > 0 ? plan.felt_area / plan.sites.area : 1), stream_(class_stream(c, "hot spots")),
+          felt_(plan.sites.size()) {}
+
+    void add(const SkinUnit& unit, Felt& out) {
+        reached_.clear();
+        if (class_.sigma > 0) add_spots(unit);
+        if (reached_.empty()) reached_.push_back(near_.nearest(unit.at.x, unit.at.y)), felt_[reached_[0]] = 1;
+        double sum = 0;
+        for (const auto s : reached_) sum += felt_[s];
+        for (const auto s : reached_) {
+            out.site.push_back(s), out.weight.push_back(felt_[s] * (scale_ / sum));
+            felt_[s] = 0;
+        }
+        out.end.push_back(out.site.size());
+    }
+};
+
+/// The same, site after site.
+ReceptiveFields by_site(const Felt& felt, std::size_t sites) {
+    ReceptiveFields out{std::vector<std::size_t>(sites + 1), std::vector<std::uint32_t>(felt.site.size()),
+                        std::vector<double>(felt.site.size())};
+    for (const auto s : felt.site) ++out.begin[s + 1];
+    std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
+    std::vector<std::size_t> next(out.begin.begin(), out.begin.end() - 1);
+    for (std::size_t unit = 0, k = 0; unit < felt.end.size(); ++unit)
+        for (; k < felt.end[unit]; ++k) {
+            const auto to = next[felt.site[k]]++;
+            out.unit[to] = static_cast<std::uint32_t>(unit), out.weight[to] = felt.weight[k];
+        }
+    return out;
+}
+
+}  // namespace
+
+std::vector<char> touching_regions(const Sites& sites, const NearSites& near) {
+    const std::size_t n = sites.regions.size();
+    if (!(sites.area > 0)) return std::vector<char>(n * n, 1);
+    std::vector<char> out(n * n, 0);
+    for (std::size_t r = 0; r < n; ++r) out[r * n + r] = 1;
+    if (n == 1) return out;
+    const double reach = 1.5 * num::sqrt(sites.area);  // neighbours, the diagonal ones too
+    for (std::size_t s = 0; s < sites.size(); ++s)
+        near.within(sites.at[s].x, sites.at[s].y, reach,
+                    [&](std::uint32_t other, double) { out[sites.region[s] * n + sites.region[other]] = 1; });
+    return out;
+}
+
+Result<ReceptiveFields> fields_of(const SkinPlan& plan, std::uint32_t of, std::span<const SkinUnit> units, const NearSites& near,
+                                  const std::vector<char>& touching) {
+    const auto& c = plan.classes[of];
+    FieldsOfClass fields(plan, c, near, touching);
+    Felt felt;
+    felt.end.reserve(units.size());
+    for (const auto& u : units) {
+        fields.add(u, felt);
+        if (felt.site.size() > most_weights)
+            return bad_input(
+                fmt::format("{}: its receptive fields together feel more than {} sites; a smaller sigma or fewer sites would do", c.name,
+                            most_weights));
+    }
+    return by_site(felt, plan.sites.size());
+}
+
+}  // namespace corpuscle

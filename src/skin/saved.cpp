@@ -1,0 +1,155 @@
+// A skin's state as bytes, and back.
+
+#include <fmt/format.h>
+#include <array>
+#include <cstring>
+
+#include "skin/held.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::array<char, 8> skin_magic = {'c', 'o', 'r', 'p', 's', 'k', '1', '\n'};
+
+/// What a state belongs to, as a number: the units, what they feel and how they are run (FNV-1a).
+class Likeness {
+    std::uint64_t value_ = 0xcbf29ce484222325U;
+
+public:
+    template <class T>
+        requires std::is_arithmetic_v<T>
+    void add(T x) {
+        std::array<unsigned char, sizeof(T)> bytes;
+        std::memcpy(bytes.data(), &x, sizeof x);
+        for (const auto b : bytes) value_ = (value_ ^ b) * 0x100000001b3U;
+    }
+    void add(std::string_view text) {
+        for (const char c : text) add(c);
+    }
+    std::uint64_t value() const { return value_; }
+};
+
+std::uint64_t likeness(const Skin::Held& held) {
+    Likeness all;
+    const auto& skin = *held.skin;
+    all.add(held.run.dt), all.add(static_cast<int>(held.run.method)), all.add(held.run.sampled);
+    all.add(held.share.part), all.add(held.share.of), all.add(skin.plan.seed), all.add(skin.plan.sites.size());
+    for (const auto& c : skin.plan.classes) {
+        all.add(c.afferent.made_of());
+        for (const double v : c.afferent.values) all.add(v);
+        for (const auto& s : c.spreads) all.add(s.parameter), all.add(s.deviation);
+    }
+    for (const auto& u : skin.units) all.add(u.of), all.add(u.delay);
+    for (const auto& f : skin.fields) {
+        for (const auto b : f.begin) all.add(b);
+        for (const auto w : f.weight) all.add(w);
+    }
+    return all.value();
+}
+
+class BytesOut {
+    std::vector<std::byte>& out_;
+
+public:
+    explicit BytesOut(std::vector<std::byte>& out) : out_(out) {}
+    template <class T>
+    void put(const T* data, std::size_t count) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(data);
+        out_.insert(out_.end(), bytes, bytes + count * sizeof(T));
+    }
+    template <class T>
+    void put(const T& x) {
+        put(&x, 1);
+    }
+};
+
+class BytesIn {
+    std::span<const std::byte> in_;
+
+public:
+    explicit BytesIn(std::span<const std::byte> in) : in_(in) {}
+    template <class T>
+    bool take(T* data, std::size_t count) {
+        if (in_.size() / sizeof(T) < count) return false;
+        if (count > 0) std::memcpy(data, in_.data(), count * sizeof(T));
+        in_ = in_.subspan(count * sizeof(T));
+        return true;
+    }
+    template <class T>
+    bool take(T& x) {
+        return take(&x, 1);
+    }
+    /// A list with its length before it.
+    template <class T>
+    bool take_list(std::vector<T>& list) {
+        std::uint64_t count = 0;
+        if (!take(count) || count > in_.size() / sizeof(T)) return false;
+        list.resize(count);
+        return take(list.data(), count);
+    }
+    bool ended() const { return in_.empty(); }
+};
+
+/// A spike without the bytes between its members.
+struct PackedSpike {
+    std::int64_t step;
+    double offset;
+    std::uint64_t unit;
+};
+
+}  // namespace
+
+std::vector<std::byte> Skin::save() const {
+    std::vector<std::byte> out;
+    BytesOut to(out);
+    const auto& h = *held_;
+    to.put(skin_magic.data(), skin_magic.size());
+    to.put(likeness(h)), to.put(h.step);
+    for (const auto w : {h.work.afferent_steps, h.work.at_rest, h.work.spikes, h.work.capped}) to.put(w);
+    for (const auto& c : h.crowds) {
+        const auto state = c.population->save();
+        to.put(std::uint64_t{state.size()}), to.put(state.data(), state.size());
+    }
+    const auto late = h.conduction.on_their_way();
+    to.put(std::uint64_t{late.size()});
+    for (const auto& s : late) to.put(PackedSpike{s.step, s.offset, s.unit});
+    return out;
+}
+
+Result<void> Skin::resume(std::span<const std::byte> saved) {
+    auto& h = *held_;
+    BytesIn from(saved);
+    std::array<char, 8> magic = {};
+    std::uint64_t of = 0;
+    std::int64_t step = 0;
+    SkinWork work;
+    if (!from.take(magic.data(), magic.size()) || magic != skin_magic)
+        return bad_input("these bytes are no saved state of a skin (they do not begin with 'corpsk1')");
+    const auto damaged = bad_input("a saved state of a skin is damaged or cut short");
+    if (!from.take(of) || !from.take(step)) return damaged;
+    if (of != likeness(h))
+        return bad_input(
+            fmt::format("a saved state of another skin was handed to {}: population, parameters, seed, rate and method must be "
+                        "those it was saved with",
+                        h.skin->plan.name));
+    if (!from.take(work.afferent_steps) || !from.take(work.at_rest) || !from.take(work.spikes) || !from.take(work.capped) || step < 0)
+        return damaged;
+    work.steps = step;
+    std::vector<std::vector<double>> states(h.crowds.size());
+    for (auto& s : states)
+        if (!from.take_list(s)) return damaged;
+    std::vector<PackedSpike> packed;
+    if (!from.take_list(packed) || !from.ended()) return damaged;
+    std::vector<Spike> late;
+    for (const auto& s : packed) {
+        late.push_back({s.step, s.offset, static_cast<std::uint32_t>(s.unit)});
+        if (s.unit >= h.skin->units.size() || !h.conduction.can_carry(late.back(), step - 1)) return damaged;
+    }
+    for (std::size_t c = 0; c < states.size(); ++c)
+        if (auto ok = h.crowds[c].population->resume(states[c]); !ok || h.crowds[c].population->step() != step) return damaged;
+    h.conduction.put_back(late, step - 1);
+    h.step = step, h.work = work;
+    return {};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,162 @@
+// A population file's TOML; the one place of the room that knows toml++.
+
+#include "skin/text.hpp"
+
+#include "signal/toml_reading.hpp"
+
+namespace corpuscle::skins {
+namespace {
+
+using Names = TomlReading::Names;
+
+const Names skin_keys = {"title", "unit", "seed", "felt_area", "nerve", "sites", "region", "class", "source"};
+const Names skin_sources = {"sites", "felt_area", "nerve"};
+const Names sites_keys = {"rows", "columns", "pitch", "area", "list"};
+const Names site_keys = {"name", "x", "y", "region"};
+const Names region_keys = {"name", "shapes"};
+const Names shape_kinds = {"strip", "capsule", "ellipse", "polygon"};
+const Names shape_keys = {"strip", "capsule", "ellipse", "polygon", "width", "height", "angle"};
+const Names class_keys = {"name",      "afferent",        "set",      "spread",          "density", "per_site", "sigma",
+                          "hot_spots", "hot_spot_spread", "velocity", "velocity_spread", "source"};
+const Names class_sources = {"afferent", "set",       "spread",          "density",  "per_site",
+                             "sigma",    "hot_spots", "hot_spot_spread", "velocity", "velocity_spread"};
+
+/// What TOML of a population means.
+class SkinReading : public TomlReading {
+public:
+    using TomlReading::TomlReading;
+
+    Said wanted(const toml::table& from, std::string_view name, std::string_view where, std::string_view example) {
+        if (auto said = scalar(from, name)) return *said;
+        refuse(from.source(), fmt::format("{}: {} is missing: {} = {}", where, name, name, example));
+        return {};
+    }
+
+    Pair pair(const toml::node& node, std::string_view name) {
+        const auto* array = node.as_array();
+        if (array && array->size() == 2) return list(*array, name);
+        refuse(node.source(), fmt::format("{}: a place wants two numbers, [x, y]", name));
+        return {};
+    }
+
+    std::vector<Pair> places(const toml::node& node, std::string_view name) {
+        std::vector<Pair> out;
+        const auto* array = node.as_array();
+        if (!array) return refuse(node.source(), fmt::format("{} wants places: [[x, y], [x, y] ...]", name)), out;
+        for (const auto& one : *array) out.push_back(pair(one, name));
+        return out;
+    }
+
+    void shape(const toml::node& node, std::vector<SaidShape>& out) {
+        const auto* table = node.as_table();
+        if (!table) return refuse(node.source(), "a shape wants a table, such as {capsule = [[0, 0], [0, 20]], width = 16}");
+        only(*table, shape_keys, "a shape: ");
+        SaidShape s;
+        for (const auto kind : shape_kinds) {
+            const auto* points = table->get(kind);
+            if (!points) continue;
+            if (!s.kind.text.empty()) return refuse(points->source(), fmt::format("a shape is a {} or a {}, not both", s.kind.text, kind));
+            s.kind = {std::string(kind), place(node.source())};
+            if (kind == "ellipse")
+                s.points.push_back(pair(*points, kind));
+            else
+                s.points = places(*points, kind);
+        }
+        if (s.kind.text.empty()) return refuse(node.source(), fmt::format("a shape is one of {}", fmt::join(shape_kinds, ", ")));
+        if (const auto* width = table->get("width")) s.width = width->is_array() ? list(*width->as_array(), "width") : std::vector<Said>{};
+        if (const auto* width = table->get("width"); width && !width->is_array())
+            if (auto said = scalar(*width, "width")) s.width.push_back(*said);
+        s.height = scalar(*table, "height"), s.angle = scalar(*table, "angle");
+        out.push_back(std::move(s));
+    }
+
+    void region(const toml::table& from, std::vector<SaidRegion>& out) {
+        only(from, region_keys, "[[region]]: ");
+        SaidRegion r{wanted(from, "name", "[[region]]", "\"palm\""), {}};
+        const auto* shapes = from.get("shapes");
+        if (!shapes || !shapes->is_array())
+            return refuse(shapes ? shapes->source() : from.source(), "[[region]]: shapes wants a list: shapes = [{capsule = ...}]");
+        for (const auto& one : *shapes->as_array()) shape(one, r.shapes);
+        out.push_back(std::move(r));
+    }
+
+    void site(const toml::node& node, std::vector<SaidSite>& out) {
+        const auto* table = node.as_table();
+        if (!table) return refuse(node.source(), "a site wants a table, such as {name = \"tip\", x = 0, y = 2}");
+        only(*table, site_keys, "a site: ");
+        out.push_back({wanted(*table, "name", "a site", "\"tip\""), wanted(*table, "x", "a site", "0"), wanted(*table, "y", "a site", "2"),
+                       scalar(*table, "region")});
+    }
+
+    SaidSites sites(const toml::node& node) {
+        SaidSites out{place(node.source()), {}, {}, {}, {}, {}, {}, {}};
+        if (node.is_string()) return out.word = scalar(node, "sites"), out;
+        const auto* table = node.as_table();
+        if (!table) return refuse(node.source(), "sites wants a table, [sites] on a line of its own, or sites = \"channels\""), out;
+        only(*table, sites_keys, "[sites]: ");
+        out.rows = scalar(*table, "rows"), out.columns = scalar(*table, "columns");
+        out.pitch = scalar(*table, "pitch"), out.area = scalar(*table, "area");
+        const auto* list = table->get("list");
+        if (list && list->is_string()) out.file = scalar(*list, "list");
+        if (const auto* array = list ? list->as_array() : nullptr) {
+            out.listed = true;
+            for (const auto& one : *array) site(one, out.list);
+        } else if (list && !list->is_string()) {
+            refuse(list->source(), "list wants sites, list = [{name = \"tip\", x = 0, y = 2}], or the name of a table of them");
+        }
+        return out;
+    }
+
+    /// A table of texts under a name, each of them of a known one.
+    void named(const toml::table& from, std::string_view name, const Names& known, std::vector<SaidSetting>& out) {
+        const auto* inner = table(from, name);
+        if (!inner) return;
+        if (!known.empty()) only(*inner, known, fmt::format("{}: ", name));
+        settings(*inner, "", out);
+    }
+
+    void a_class(const toml::table& from, std::vector<SaidClass>& out) {
+        only(from, class_keys, "[[class]]: ");
+        SaidClass c;
+        c.place = place(from.source());
+        c.name = scalar(from, "name"), c.afferent = scalar(from, "afferent"), c.per_site = scalar(from, "per_site");
+        c.sigma = scalar(from, "sigma"), c.hot_spots = scalar(from, "hot_spots"), c.hot_spot_spread = scalar(from, "hot_spot_spread");
+        c.velocity = scalar(from, "velocity"), c.velocity_spread = scalar(from, "velocity_spread");
+        if (const auto* density = from.get("density"); density && !density->is_table())
+            c.even_density = scalar(*density, "density");
+        else
+            named(from, "density", {}, c.density);
+        named(from, "set", {}, c.set), named(from, "spread", {}, c.spread), named(from, "source", class_sources, c.source);
+        out.push_back(std::move(c));
+    }
+};
+
+SkinText skin_from(const toml::table& top, SkinReading& reading) {
+    SkinText out;
+    reading.only(top, skin_keys, "");
+    out.title = reading.scalar(top, "title"), out.unit = reading.scalar(top, "unit"), out.seed = reading.scalar(top, "seed"),
+    out.felt_area = reading.scalar(top, "felt_area");
+    if (const auto* nerve = top.get("nerve")) out.nerve = reading.pair(*nerve, "nerve");
+    if (const auto* sites = top.get("sites")) out.sites = reading.sites(*sites);
+    reading.tables(top, "region", "each region", [&](const toml::table& one) { reading.region(one, out.regions); });
+    reading.tables(top, "class", "each class of afferents", [&](const toml::table& one) { reading.a_class(one, out.classes); });
+    reading.named(top, "source", skin_sources, out.source);
+    return out;
+}
+
+}  // namespace
+
+Result<SkinText> read_skin_text(std::string_view text, const std::string& file) {
+    SkinReading reading(file);
+    try {
+        const toml::table top = toml::parse(text);
+        auto out = skin_from(top, reading);
+        if (reading.wrong) return *reading.wrong;
+        out.file = file;
+        return out;
+    } catch (const toml::parse_error& error) {
+        return bad_input(std::string(error.description()), reading.place(error.source()));
+    }
+}
+
+}  // namespace corpuscle::skins

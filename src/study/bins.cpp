@@ -1,0 +1,48 @@
+#include "study/bins.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace corpuscle {
+
+Bins::Bins(std::vector<Row> rows, const Clock& clock, double bin)
+    : rows_(std::move(rows)), since_start_(clock), bin_(bin), t0_(std::exchange(since_start_.t0, 0.0)), now_(rows_.size()) {}
+
+std::int64_t Bins::bin_of(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_ + 1e-9)); }
+
+/// The bin that fills is done, and ends at `to` (s since the start).
+void Bins::put(double to) {
+    if (std::exchange(told_, false)) text_.clear();
+    const double from = static_cast<double>(at_) * bin_;
+    for (std::size_t r = 0; r < now_.size(); ++r)
+        fmt::format_to(std::back_inserter(text_), "{},{:.9f},{:.9f},{},{:.6g}\n", rows_[r].name, t0_ + from, t0_ + to, now_[r],
+                       static_cast<double>(now_[r]) / (to - from) / rows_[r].units);
+    now_.assign(now_.size(), 0);
+    ++at_;
+}
+
+void Bins::fill_up_to(std::int64_t bin) {
+    while (at_ < bin) put(static_cast<double>(at_ + 1) * bin_);
+}
+
+void Bins::count(const Spike& s, std::size_t row) {
+    fill_up_to(bin_of(since_start_.time(s.step, s.offset)));
+    ++now_[row];
+}
+
+void Bins::known_to(std::int64_t sample) { fill_up_to(bin_of(since_start_.time(sample))); }
+
+void Bins::end(std::int64_t samples) {
+    const double end = since_start_.time(samples);
+    fill_up_to(std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(end / bin_ - 1e-9)) - 1, 0));
+    put(end);
+}
+
+std::string_view Bins::lines() {
+    if (std::exchange(told_, true)) text_.clear();
+    return {text_.data(), text_.size()};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,143 @@
+// The summary of a skin as a document and as a table.
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "signal/version.hpp"
+#include "study/json_number.hpp"
+#include "study/skin_summary.hpp"
+#include "study/summary.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_first_spikes = 100;
+
+/// Units of a class in each region.
+Json density_document(const Innervation& skin, std::size_t c) {
+    const auto& plan = skin.plan;
+    std::vector<std::int64_t> units(plan.sites.regions.size());
+    for (std::size_t u = skin.first[c]; u < skin.first[c + 1]; ++u) ++units[skin.units[u].region];
+    Json out = Json::object();
+    for (std::size_t r = 0; r < units.size(); ++r) {
+        out[plan.sites.regions[r]] = {{"units", units[r]}};
+        if (!plan.classes[c].density.empty()) out[plan.sites.regions[r]]["units_per_cm2"] = plan.classes[c].density[r] * 1e-4;
+    }
+    return out;
+}
+
+Json class_document(const Innervation& skin, std::size_t c) {
+    const auto& k = skin.plan.classes[c];
+    Json out = {{"name", k.name}, {"units", skin.first[c + 1] - skin.first[c]}};
+    if (k.per_site > 0) out["units_at_each_site"] = k.per_site;
+    out["regions"] = density_document(skin, c);
+    out["receptive_field"] = {{"sigma_m", k.sigma}, {"hot_spots", k.hot_spots}, {"hot_spot_spread_m", k.hot_spot_spread}};
+    out["conduction"] = {{"velocity_m_s", k.velocity}, {"standard_deviation_m_s", k.velocity_spread}};
+    out["afferent"] = document_of(k.afferent);
+    out["spreads"] = document_of(k.spreads);
+    return out;
+}
+
+Json skin_document(const Innervation& skin) {
+    const auto& plan = skin.plan;
+    std::vector<std::int64_t> sites(plan.sites.regions.size());
+    for (const auto r : plan.sites.region) ++sites[r];
+    Json regions = Json::object();
+    for (std::size_t r = 0; r < sites.size(); ++r)
+        regions[plan.sites.regions[r]] = {{"sites", sites[r]}, {"area_cm2", 1e4 * static_cast<double>(sites[r]) * plan.sites.area}};
+    Json out = {
+        {"name", plan.name}, {"sentence", plan.sentence}, {"seed", plan.seed}, {"units", skin.units.size()}, {"sites", plan.sites.size()}};
+    out["site_area_m2"] = plan.sites.area, out["felt_area_m2"] = plan.felt_area;
+    out["nerve_m"] = plan.nerve ? Json{plan.nerve->x, plan.nerve->y} : Json(nullptr);
+    out["regions"] = regions;
+    return out;
+}
+
+Json skin_input_document(const SkinSummary& s, const SkinTold& told) {
+    Json phases = Json::array(), facts = Json::object();
+    for (const auto& p : s.phases()) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
+    for (const auto& f : told.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
+    return {{"name", s.name()},         {"sentence", s.sentence()},
+            {"contact", told.contact},  {"parameters", facts},
+            {"force_min_N", s.least()}, {"force_max_N", s.greatest()},
+            {"samples", s.samples()},   {"rate_Hz", s.clock().rate()},
+            {"t0_s", s.clock().t0},     {"touched_from_s", json_number(s.touched_from())},
+            {"phases", phases},         {"remarks", told.remarks}};
+}
+
+std::string region_name(const SkinSummary& s, const SkinRow& r) {
+    return r.region == SkinRow::all ? "all" : s.skin().plan.sites.regions[r.region];
+}
+
+std::string phase_name(const SkinSummary& s, const SkinRow& r) { return r.phase == SkinRow::all ? "all" : s.phases()[r.phase].name; }
+
+Json skin_row_document(const SkinSummary& s, const SkinRow& r) {
+    return {{"afferent", s.skin().plan.classes[r.of].name},
+            {"region", region_name(s, r)},
+            {"phase", phase_name(s, r)},
+            {"units", r.units},
+            {"touched", r.touched},
+            {"active", r.active},
+            {"spikes", r.spikes},
+            {"rate_of_active_Hz", r.rate()},
+            {"rate_while_touched_Hz", json_number(r.touched_rate)},
+            {"busiest_Hz", r.busiest},
+            {"first_spike_s", json_number(r.first)},
+            {"median_first_spike_s", json_number(r.median_first)}};
+}
+
+std::string hertz_cell(double x) { return std::isfinite(x) ? fmt::format("{:.1f}", x) : "-"; }
+std::string millisecond_cell(double x) { return std::isfinite(x) ? fmt::format("{:.2f}", 1e3 * x) : "-"; }
+
+}  // namespace
+
+Json SkinSummary::document(const SkinTold& told) const {
+    Json out = {{"program", "corpuscle"}, {"version", version}};
+    out["options"] = {{"method", told.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", told.sampled}};
+    out["skin"] = skin_document(*skin_);
+    out["input"] = skin_input_document(*this, told);
+    out["classes"] = Json::array(), out["rates"] = Json::array(), out["first_spikes"] = Json::array();
+    for (std::size_t c = 0; c < skin_->plan.classes.size(); ++c) out["classes"].push_back(class_document(*skin_, c));
+    for (const auto& r : rows_) out["rates"].push_back(skin_row_document(*this, r));
+    for (const auto& f : first_spikes(most_first_spikes))
+        out["first_spikes"].push_back({{"unit", f.unit},
+                                       {"afferent", skin_->unit_name(f.unit)},
+                                       {"region", skin_->plan.sites.regions[skin_->units[f.unit].region]},
+                                       {"time_s", f.time}});
+    const auto& w = told.work;
+    out["work"] = {
+        {"steps", w.steps}, {"afferent_steps", w.afferent_steps}, {"at_rest", w.at_rest}, {"spikes", w.spikes}, {"capped_steps", w.capped}};
+    out["warnings"] = told.warnings;
+    return out;
+}
+
+std::vector<std::vector<std::string>> SkinSummary::table() const {
+    const bool phases = !phases_.empty(), regions = skin_->plan.sites.regions.size() > 1;
+    std::vector<std::vector<std::string>> out = {{"afferent"}};
+    if (regions) out[0].push_back("region");
+    if (phases) out[0].push_back("phase");
+    for (const auto* heading : {"units", "touched", "active", "spikes", "touched (Hz)", "busiest (Hz)", "first (ms)", "median first (ms)"})
+        out[0].push_back(heading);
+    const auto put = [&](const SkinRow& r) {
+        std::vector<std::string> cells = {skin_->plan.classes[r.of].name};
+        if (regions) cells.push_back(region_name(*this, r));
+        if (phases) cells.push_back(phase_name(*this, r));
+        for (const auto n : {r.units, r.touched, r.active, r.spikes}) cells.push_back(fmt::format("{}", n));
+        for (const auto x : {r.touched_rate, r.busiest}) cells.push_back(hertz_cell(x));
+        for (const auto x : {r.first, r.median_first}) cells.push_back(millisecond_cell(x));
+        out.push_back(std::move(cells));
+    };
+    const auto put_if = [&](auto shown) {
+        for (const auto& r : rows_)
+            if (shown(r)) put(r);
+    };
+    put_if([](const SkinRow& r) { return r.region == SkinRow::all && r.phase == SkinRow::all; });
+    put_if([](const SkinRow& r) { return r.region == SkinRow::all && r.phase != SkinRow::all; });
+    put_if([](const SkinRow& r) { return r.region != SkinRow::all && r.phase == SkinRow::all && r.active > 0; });
+    return out;
+}
+
+}  // namespace corpuscle

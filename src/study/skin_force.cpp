@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "signal/settings.hpp"
+#include "study/skin_run.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Few samples at a time: what is touched in a block is what is touched at any moment of it.
+constexpr std::size_t pressed_block = 64, site_block = 256;
+
+class PressedForce final : public SkinForce {
+    Source& source_;
+    Contact& contact_;
+    Frames frames_{1, pressed_block};
+    std::int64_t first_ = 0;
+
+public:
+    PressedForce(Source& source, Contact& contact) : source_(source), contact_(contact) {}
+    double done() const override { return source_.done(); }
+
+    Result<Block> next() override {
+        frames_.count = 0;
+        if (auto ok = source_.read(frames_); !ok) return ok.error();
+        const std::span<const double> force(frames_.force[0].data(), frames_.count);
+        if (const auto at = first_not_finite(force); at < force.size())
+            return bad_input(
+                fmt::format("the force of sample {} is {}, not a finite number", first_ + static_cast<std::int64_t>(at), force[at]));
+        auto felt = contact_.press(force, first_);
+        if (!felt) return felt.error();
+        first_ += static_cast<std::int64_t>(force.size());
+        return Block{*felt, force};
+    }
+};
+
+class SitesForce final : public SkinForce {
+    Source& source_;
+    std::vector<std::uint32_t> sites_;
+    Frames frames_;
+    std::vector<double> force_, total_ = std::vector<double>(site_block);  // [site][step]
+
+public:
+    SitesForce(Source& source, std::vector<std::uint32_t> sites, std::size_t all)
+        : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all * site_block) {}
+    double done() const override { return source_.done(); }
+
+    Result<Block> next() override {
+        frames_.count = 0;
+        if (auto ok = source_.read(frames_); !ok) return ok.error();
+        std::fill(total_.begin(), total_.end(), 0.0);
+        for (std::size_t c = 0; c < sites_.size(); ++c) {
+            std::copy_n(frames_.force[c].begin(), frames_.count, force_.begin() + static_cast<std::ptrdiff_t>(sites_[c] * site_block));
+            for (std::size_t t = 0; t < frames_.count; ++t) total_[t] += frames_.force[c][t];
+        }
+        return Block{{force_.data(), site_block}, {total_.data(), frames_.count}};
+    }
+};
+
+/// The place of each channel's name among the sites'; nothing if one is not there.
+std::optional<std::vector<std::uint32_t>> by_name(const Sites& sites, const std::vector<Channel>& channels) {
+    std::map<std::string_view, std::uint32_t> places;
+    for (std::size_t s = 0; s < sites.size(); ++s) places.emplace(sites.names[s], static_cast<std::uint32_t>(s));
+    std::vector<std::uint32_t> found;
+    for (const auto& c : channels) {
+        const auto at = places.find(c.name);
+        if (at == places.end()) return {};
+        found.push_back(at->second);
+    }
+    return found;
+}
+
+}  // namespace
+
+std::unique_ptr<SkinForce> pressed_force(Source& source, Contact& contact) { return std::make_unique<PressedForce>(source, contact); }
+std::unique_ptr<SkinForce> site_force(Source& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
+    return std::make_unique<SitesForce>(source, std::move(sites), all_sites);
+}
+
+Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const Source& source) {
+    if (auto named = by_name(plan.sites, source.channels())) return *named;
+    if (source.channels().size() != plan.sites.size())
+        return bad_input(
+            fmt::format("{} has {} channels, and {} has {} sites, which are called {} ...; name the channels after sites with "
+                        "--layout, choose as many with --channel, or take a population that stands at the channels "
+                        "(sites = \"channels\")",
+                        source.name(), source.channels().size(), plan.name, plan.sites.size(), plan.sites.names[0]));
+    std::vector<std::uint32_t> in_order(plan.sites.size());
+    std::iota(in_order.begin(), in_order.end(), 0U);
+    return in_order;
+}
+
+}  // namespace corpuscle

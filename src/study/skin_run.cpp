@@ -1,0 +1,78 @@
+#include "study/skin_run.hpp"
+
+#include <chrono>
+
+namespace corpuscle {
+namespace {
+
+class AloneAnswerer final : public SkinAnswerer {
+    Skin& skin_;
+    Pool& pool_;
+
+public:
+    AloneAnswerer(Skin& skin, Pool& pool) : skin_(skin), pool_(pool) {}
+    Result<void> answer(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
+        return skin_.respond(force, steps, spikes, pool_);
+    }
+    Result<void> last(std::vector<Spike>& spikes) override { return skin_.last(spikes), Result<void>{}; }
+    SkinWork work() const override { return skin_.work(); }
+};
+
+/// Says when it is time again to keep what there is: so seldom that it costs nothing.
+class Every {
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    static constexpr std::chrono::seconds often{10};
+
+public:
+    bool now() {
+        const auto t = std::chrono::steady_clock::now();
+        if (t - last_ < often) return false;
+        last_ = t;
+        return true;
+    }
+};
+
+/// One block: answered, or told again.
+Result<void> skin_block(const SkinForce::Block& block, std::int64_t first, SkinAnswerer& skin, SkinSpool* spool,
+                        std::vector<Spike>& spikes) {
+    spikes.clear();
+    const auto steps = block.total.size();
+    if (spool && first < spool->step()) return spool->told(first + static_cast<std::int64_t>(steps), spikes);
+    if (auto ok = skin.answer(block.force, steps, spikes); !ok) return ok;
+    return spool ? spool->answered(spikes) : Result<void>{};
+}
+
+}  // namespace
+
+std::unique_ptr<SkinAnswerer> alone_answerer(Skin& skin, Pool& pool) { return std::make_unique<AloneAnswerer>(skin, pool); }
+
+Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer& skin, std::span<SkinListener* const> listeners,
+                          const SkinRunOptions& options) {
+    for (auto* l : listeners)
+        if (auto ok = l->begin(input); !ok) return ok.error();
+    std::vector<Spike> spikes;
+    std::int64_t samples = 0;
+    Every while_it_runs;
+    for (;;) {
+        auto block = force.next();
+        if (!block) return block.error();
+        const std::size_t steps = block->total.size();
+        if (steps == 0) break;
+        if (auto ok = skin_block(*block, samples, skin, options.spool, spikes); !ok) return ok.error();
+        for (auto* l : listeners)
+            if (auto ok = l->block(input, {samples, steps, block->force, block->total, spikes}); !ok) return ok.error();
+        samples += static_cast<std::int64_t>(steps);
+        const bool stop = !options.keep_on(force.done());
+        if (options.spool && samples > options.spool->step() && (stop || while_it_runs.now()))
+            if (auto ok = options.spool->keep(); !ok) return ok.error();
+        if (stop) return Error{Code::interrupted, "interrupted"};
+    }
+    if (samples == 0) return bad_input("no samples of force", {input.name});
+    spikes.clear();
+    if (auto ok = skin.last(spikes); !ok) return ok.error();
+    for (auto* l : listeners)
+        if (auto ok = l->end(input, samples, spikes); !ok) return ok.error();
+    return skin.work();
+}
+
+}  // namespace corpuscle

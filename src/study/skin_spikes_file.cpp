@@ -1,0 +1,28 @@
+#include "study/skin_spikes_file.hpp"
+
+#include <iterator>
+
+#include "io/spikes.hpp"
+
+namespace corpuscle {
+
+SkinSpikesFile::SkinSpikesFile(OutputFile file) : file_(std::move(file)) { (void)file_.write("afferent,channel,time_s\n"); }
+
+Result<void> SkinSpikesFile::begin(const SkinInput& input) {
+    names_.clear();
+    for (std::size_t u = 0; u < input.skin.units.size(); ++u)
+        names_.push_back(csv_field(input.skin.unit_name(u)) + "," + csv_field(input.skin.plan.sites.regions[input.skin.units[u].region]));
+    return {};
+}
+
+Result<void> SkinSpikesFile::put(const Clock& clock, std::span<const Spike> spikes) {
+    text_.clear();
+    for (const auto& s : spikes) fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[s.unit], clock.time(s.step, s.offset));
+    return file_.write({text_.data(), text_.size()});
+}
+
+Result<void> SkinSpikesFile::block(const SkinInput& input, const SkinAnswered& answered) { return put(input.clock, answered.spikes); }
+
+Result<void> SkinSpikesFile::end(const SkinInput& input, std::int64_t, std::span<const Spike> last) { return put(input.clock, last); }
+
+}  // namespace corpuscle

@@ -1,0 +1,27 @@
+#pragma once
+// Spikes of a skin as text, written as they come.
+
+#include <fmt/format.h>
+
+#include "study/skin_written.hpp"
+
+namespace corpuscle {
+
+/// spikes.csv: afferent,channel,time_s, as of afferents on channels; the channel is the region. In order of time; to the nanosecond.
+class SkinSpikesFile final : public SkinWrittenFile {
+    OutputFile file_;
+    std::vector<std::string> names_;  // "sa1#17,palm" of each unit
+    fmt::memory_buffer text_;
+
+    Result<void> put(const Clock&, std::span<const Spike>);
+
+public:
+    explicit SkinSpikesFile(OutputFile file);
+    Result<void> begin(const SkinInput&) override;
+    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
+    std::vector<std::string> paths() const override { return {file_.path()}; }
+    Result<void> commit() override { return file_.commit(); }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,161 @@
+// A skin answers as its afferents would one by one, whatever the blocks, threads and instruction sets, and whether it was saved on the way.
+
+#include "model/catalog.hpp"
+#include "signal/random.hpp"
+#include "skin/skin.hpp"
+#include "support/property.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double skin_T = 1e-3;
+
+/// Two classes on a grid, spread, with delays; or as few as they come.
+std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t columns, bool spread, double velocity) {
+    SkinPlan plan{"small", "", *grid_sites(rows, columns, 2e-3), {}, 7};
+    for (const char* name : {"sa1", "fa1", "sa2"}) {
+        SkinClass c{name, *plan_afferent(name, {})};
+        c.per_site = 2, c.sigma = 1.5e-3, c.hot_spots = 2, c.hot_spot_spread = 1e-3;
+        c.velocity = velocity, c.velocity_spread = velocity / 10;
+        if (spread) c.spreads.push_back({name, "V_th", "V", 0.03, {}});
+        plan.classes.push_back(std::move(c));
+    }
+    if (velocity > 0) plan.nerve = Position{0, -0.2, 0};
+    auto skin = innervate(std::move(plan));
+    EXPECT_TRUE(skin) << skin.error().text();
+    return *skin;
+}
+
+/// [site][step]: presses that come and go, on some sites, far enough apart for afferents to come to rest.
+struct Touch {
+    std::size_t sites, steps;
+    std::vector<double> force;
+    Touch(std::size_t sites, std::size_t steps, std::uint64_t seed) : sites(sites), steps(steps), force(sites * steps) {
+        for (std::size_t s = 0; s < sites; ++s) {
+            const auto w = philox({static_cast<std::uint32_t>(s), 0, 0, 0}, seed);
+            if (w[0] % 3 == 0) continue;
+            const std::size_t from = w[1] % steps, to = std::min(steps, from + w[2] % 300);
+            for (std::size_t t = from; t < to; ++t) force[s * steps + t] = 10e-3 * static_cast<double>((w[3] + 7 * t) % 4001);
+        }
+    }
+    SiteForce at(std::size_t step) const { return {force.data() + step, steps}; }
+};
+
+std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& skin, InstructionSet set = *instruction_set(),
+                                SkinShare share = {}) {
+    auto made = Skin::make(skin, Run{skin_T}, set == InstructionSet::scalar ? InstructionSet::baseline : set, share);
+    EXPECT_TRUE(made) << made.error().text();
+    return std::move(*made);
+}
+
+std::vector<Spike> whole(Skin& skin, const Touch& touch, Pool& pool) {
+    std::vector<Spike> spikes;
+    EXPECT_TRUE(skin.respond(touch.at(0), touch.steps, spikes, pool));
+    skin.last(spikes);
+    return spikes;
+}
+
+TEST(Skin, AnswersAsItsAfferentsWouldOneByOne) {
+    Pool pool(1);
+    const auto map = small_skin(5, 6, true, 40);
+    const Touch touch(30, 9000, 3);  // long enough to come to rest, and to be woken
+    auto skin = make_skin(map);
+    const auto spikes = whole(*skin, touch, pool);
+    EXPECT_GT(skin->work().at_rest, 0);
+    std::vector<Spike> alone;
+    for (std::size_t c = 0; c < map->plan.classes.size(); ++c) {
+        const auto& f = map->fields[c];
+        const std::size_t first = map->first[c], count = map->first[c + 1] - first;
+        const auto plans =
+            copies_of(map->plan.classes[c].afferent, static_cast<std::uint32_t>(count), map->plan.classes[c].spreads, map->plan.seed);
+        std::vector<double> felt(count * touch.steps);
+        for (std::size_t s = 0; s < touch.sites; ++s)
+            for (std::size_t k = f.begin[s]; k < f.begin[s + 1]; ++k)
+                for (std::size_t t = 0; t < touch.steps; ++t)
+                    felt[f.unit[k] * touch.steps + t] += f.weight[k] * touch.force[s * touch.steps + t];
+        for (std::size_t u = 0; u < count; ++u) {
+            const auto afferent = make_afferent((*plans)[u], corpuscle::Run{skin_T});
+            auto state = afferent->start();
+            std::vector<Spike> own;
+            Answer answer{own, static_cast<std::uint32_t>(first + u)};
+            ASSERT_TRUE(afferent->respond({felt.data() + u * touch.steps, touch.steps}, state, answer));
+            const double delay = map->units[first + u].delay / skin_T, steps = std::floor(delay);
+            for (auto s : own) {
+                s.offset += delay - steps, s.step += static_cast<std::int64_t>(steps);
+                if (s.offset > 1) s.offset -= 1, ++s.step;
+                alone.push_back(s);
+            }
+        }
+    }
+    std::sort(alone.begin(), alone.end());
+    ASSERT_GT(alone.size(), 1000U);
+    EXPECT_EQ(spikes, alone);
+}
+
+TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
+    EXPECT_TRUE(rc::check([] {
+        Pool pool(1);
+        const bool spread = *rc::gen::arbitrary<bool>();
+        const auto map = small_skin(3, 4, spread, *rc::gen::element(0.0, 30.0));
+        const Touch touch(12, 6000, *rc::gen::arbitrary<std::uint32_t>());
+        const auto expected = whole(*make_skin(map), touch, pool);
+        auto skin = make_skin(map);
+        std::vector<Spike> spikes;
+        for (std::size_t at = 0; at < touch.steps;) {
+            const std::size_t steps = std::min<std::size_t>(touch.steps - at, *rc::gen::element(1, 1, 7, 31, 32, 33, 300, 1500));
+            RC_ASSERT(bool(skin->respond(touch.at(at), steps, spikes, pool)));
+            at += steps;
+            if (*rc::gen::inRange(0, 4) > 0) continue;
+            const auto saved = skin->save();
+            skin = make_skin(map);
+            RC_ASSERT(bool(skin->resume(saved)));
+        }
+        skin->last(spikes);
+        RC_ASSERT(spikes == expected);
+    }));
+}
+
+TEST(Skin, GivesTheSameOnThreadsInSharesAndOnEveryInstructionSet) {
+    Pool one(1), three(3);
+    const auto map = small_skin(16, 24, true, 30);
+    const Touch touch(16 * 24, 3000, 11);
+    const auto expected = whole(*make_skin(map), touch, one);
+    ASSERT_GT(expected.size(), 1000U);
+    EXPECT_EQ(whole(*make_skin(map), touch, three), expected);
+    for (const auto set : instruction_sets()) EXPECT_EQ(whole(*make_skin(map, set), touch, one), expected) << name_of(set);
+    std::vector<Spike> together;
+    for (std::uint32_t part = 0; part < 3; ++part) {
+        const auto own = whole(*make_skin(map, *instruction_set(), {part, 3}), touch, one);
+        together.insert(together.end(), own.begin(), own.end());
+    }
+    std::sort(together.begin(), together.end());
+    EXPECT_EQ(together, expected);
+}
+
+TEST(Skin, AForceThatIsNoNumberIsToldBySiteAndSample) {
+    Pool pool(1);
+    auto skin = make_skin(small_skin(2, 2, false, 0));
+    Touch touch(4, 100, 1);
+    touch.force[2 * 100 + 40] = std::nan("");
+    std::vector<Spike> spikes;
+    const auto ok = skin->respond(touch.at(0), 100, spikes, pool);
+    ASSERT_FALSE(ok);
+    EXPECT_NE(ok.error().sentence.find("the force at site r2c1 is nan at sample 40"), std::string::npos) << ok.error().sentence;
+}
+
+TEST(Skin, RefusesAStateThatIsNotItsOwnOrIsCutShort) {
+    Pool pool(1);
+    const auto map = small_skin(3, 3, true, 20);
+    auto skin = make_skin(map);
+    const Touch touch(9, 500, 5);
+    (void)whole(*skin, touch, pool);
+    auto saved = skin->save();
+    EXPECT_FALSE(make_skin(small_skin(3, 3, false, 20))->resume(saved));
+    for (std::size_t size = 0; size < saved.size(); size += 97) EXPECT_FALSE(make_skin(map)->resume(std::span(saved).first(size)));
+    EXPECT_TRUE(make_skin(map)->resume(saved));
+    saved.push_back({});
+    EXPECT_FALSE(make_skin(map)->resume(saved));
+}
+
+}  // namespace
+}  // namespace corpuscle
