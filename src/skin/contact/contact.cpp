@@ -121,10 +121,13 @@ public:
 
     std::vector<Fact> facts() const override {
         std::vector<Fact> out;
-        for (const auto& f : contact_fields)
-            if (std::find(indenter_.measures.begin(), indenter_.measures.end(), f.name) != indenter_.measures.end() || f.name == "x" ||
-                f.name == "y" || p_.*f.at != ContactParams{}.*f.at)
+        const auto& own = indenter_.measures;
+        for (const auto& f : contact_fields) {
+            const bool target = f.name == "x1" || f.name == "y1", place = f.name == "x" || f.name == "y";
+            const bool path = target ? moves(p_) : place || p_.*f.at != 0;
+            if (std::find(own.begin(), own.end(), f.name) != own.end() || (is_path_measure(f.name) && path))
                 out.push_back({fmt::format("contact.{}", f.name), p_.*f.at, std::string(f.unit)});
+        }
         return out;
     }
 

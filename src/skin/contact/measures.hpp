@@ -61,6 +61,9 @@ Result<const Indenter*> indenter_named(std::string_view name);
 /// A contact's measures as asked for; those that neither wish nor row gives come from the sites.
 Result<ContactParams> contact_params(const Indenter&, std::span<const Wish>, const Sites&);
 
+/// Of where a contact is and goes; every indenter has these.
+bool is_path_measure(std::string_view name);
+
 /// Whether it is moved over the skin.
 inline bool moves(const ContactParams& p) { return p.x1 != p.x || p.y1 != p.y; }
 
