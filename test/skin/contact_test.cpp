@@ -75,7 +75,10 @@ TEST(Contacts, LoseWhatLiesOffTheSkinAndSaySo) {
     for (const auto* indenter : {"flat", "sphere", "edge", "grating"}) {
         const auto contact = pressing(indenter, {"x=10.5mm", "y=0mm"}, sites);  // the skin's very edge
         EXPECT_NEAR(sum(map_at(*contact, sites, 2)), 1, std::string(indenter) == "grating" ? 0.2 : 1e-9) << indenter;
-        EXPECT_NE(contact->remarks().back().find("% of the force, over time, was off the skin"), std::string::npos) << indenter;
+        const auto remarks = contact->remarks();
+        EXPECT_TRUE(std::any_of(remarks.begin(), remarks.end(), [](const auto& r) {
+            return r.find("% of the force, over time, was off the skin") != r.npos;
+        })) << indenter;
     }
     EXPECT_EQ(sum(map_at(*pressing("sphere", {"x=1m", "y=0"}, sites), sites, 1)), 0);
     EXPECT_EQ(sum(map_at(*pressing("sphere", {}, sites), sites, -1)), 0);
@@ -136,7 +139,7 @@ TEST(Flat, HasItsEdgeAndNoInfinity) {
 }
 
 TEST(Edge, IsAsWideAsHertzsCylinderAndTurns) {
-    const double F = 1, R = 2e-3, L = 10e-3, E = 80e3, b = std::sqrt(4 * F * R / (M_PI * L * E)), p0 = 2 * F / (M_PI * b * L);
+    const double F = 1, R = 2e-3, L = 10e-3, E = 100e3, b = std::sqrt(4 * F * R / (M_PI * L * E)), p0 = 2 * F / (M_PI * b * L);
     const auto sites = sheet(8e-3, 0.1e-3);
     const auto flat = map_at(*pressing("edge", {"edge_radius=2mm", "x=0", "y=0"}, sites), sites, F);
     EXPECT_NEAR(flat[flat.size() / 2] / 1e-8, p0, 0.02 * p0);

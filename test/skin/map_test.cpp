@@ -182,8 +182,8 @@ TEST(PopulationFile, SaysWhereItIsWrongAndWhatWouldBeRight) {
               "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, source)");
     EXPECT_EQ(wrong_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: of which unit? Write density = \"70 /cm2\"");
-    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "{pda = \"1 /cm2\"}"),
-              "pad.toml:9:18: density: there is no region 'pda'; did you mean 'pad'? (there are pad)");
+    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),
+              "pad.toml:9:18: density: there is no region 'paed'; did you mean 'pad'? (there are pad)");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"70 cm\""), "pad.toml:9:11: density: '70 cm' is a length; 1/m2 is wanted, such as '2 1/m2'");
     EXPECT_EQ(wrong_in(text, "unit = \"mm\"", ""),
               "pad.toml:3:9: pitch = 1: of which unit? Write pitch = \"1 mm\", or unit = \"mm\" at the top for all lengths");
@@ -194,7 +194,7 @@ TEST(PopulationFile, SaysWhereItIsWrongAndWhatWouldBeRight) {
               "pad.toml:2:1: [sites] wants one of these: rows and columns; a list; pitch and regions ([[region]])");
     EXPECT_EQ(wrong_in(text, "width = [10, 8]", "height = 3"), "pad.toml:6:11: a capsule has neither height nor angle");
     EXPECT_EQ(wrong_in(text, "[0, 20]]", "[0, 20, 1]]"), "pad.toml:6:31: capsule: a place wants two numbers, [x, y]");
-    EXPECT_EQ(wrong_in(text, "density = \"70 /cm2\"", "density = \"70 /cm2\"\nspread = {f_B = \"5%\", f_X = \"5%\"}").substr(0, 64),
+    EXPECT_EQ(wrong_in(text, "density = \"70 /cm2\"", "density = \"70 /cm2\"\nspread = {f_B = \"5%\", f_X = \"5%\"}").substr(0, 65),
               "pad.toml:10:29: sa1: unknown parameter 'f_X'; did you mean 'f_B'?");
     EXPECT_EQ(wrong_in(text, "density = \"70 /cm2\"", "per_site = 1.5"),
               "pad.toml:9:12: per_site = 1.5: a whole number from 1 to 1000 is wanted");
@@ -232,7 +232,7 @@ TEST(PopulationFile, SensorsStandInAListATableOrWhereARecordingHasThem) {
     ASSERT_TRUE(recorded) << recorded.error().text();
     EXPECT_EQ(recorded->sites.names, (std::vector<std::string>{"p1", "p2"}));
     const Channel nowhere[] = {{0, "p1"}};
-    EXPECT_EQ(read_skin_plan("sites = \"channels\"\n" + classes, "c.toml", nowhere).error().text().substr(0, 43),
+    EXPECT_EQ(read_skin_plan("sites = \"channels\"\n" + classes, "c.toml", nowhere).error().text().substr(0, 44),
               "c.toml:1:9: channel 'p1' has no place on the");
 }
 

@@ -183,7 +183,7 @@ std::span<const NamedTouch> named_touches() {
          "ramp-hold",
          "sphere",
          "1 N of a fingertip moved from the palm to the tip of the index finger of 'hand' in 10 s",
-         {{"radius", 10e-3}, {"x", 29.6e-3}, {"y", 52.6e-3}, {"x1", 47.2e-3}, {"y1", 177.4e-3}, {"t_move", 10}},
+         {{"radius", 8e-3}, {"x", 29.6e-3}, {"y", 52.6e-3}, {"x1", 47.2e-3}, {"y1", 177.4e-3}, {"t_move", 10}},
          {{"F_max", 1}, {"t_rest", 0}, {"t_up", 0.1}, {"t_hold", 9.8}, {"t_down", 0.1}, {"t_post", 0}}},
         {"scan",
          "ramp-hold",
