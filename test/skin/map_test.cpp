@@ -183,7 +183,7 @@ TEST(PopulationFile, SaysWhereItIsWrongAndWhatWouldBeRight) {
     EXPECT_EQ(wrong_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: of which unit? Write density = \"70 /cm2\"");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),
-              "pad.toml:9:18: density: there is no region 'paed'; did you mean 'pad'? (there are pad)");
+              "pad.toml:9:19: density: there is no region 'paed'; did you mean 'pad'? (there are pad)");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"70 cm\""), "pad.toml:9:11: density: '70 cm' is a length; 1/m2 is wanted, such as '2 1/m2'");
     EXPECT_EQ(wrong_in(text, "unit = \"mm\"", ""),
               "pad.toml:3:9: pitch = 1: of which unit? Write pitch = \"1 mm\", or unit = \"mm\" at the top for all lengths");
