@@ -6,8 +6,8 @@
 #include "circuit/analyses.hpp"
 #include "model/spread.hpp"
 #include "signal/version.hpp"
-#include "study/studies.hpp"
 #include "stream_verbs.hpp"
+#include "study/studies.hpp"
 #include "sweep_verbs.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -47,6 +47,8 @@ Examples:
   corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
   corpuscle respond press --afferent sa1,sa1-circuit --corner ss --temp 85 --supply 0.65V
   corpuscle respond press --afferent sa1-circuit --set sa1-circuit.C_u=4pF --set sa1-circuit.summer.N3B=8x4 --trace 'vf,i(N3B)' -o answer
+  corpuscle respond stroke --population hand --out hand --report      17,000 afferents of a hand that is stroked
+  corpuscle respond frames.csv --population 'grid 8x8' --out skin     a sensor's 64 channels, each a site of a skin
   corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out answer --report
   corpuscle respond eskin.csv --rate 100Hz --scale 40      a clock that comes in bursts: rows taken as even
   corpuscle respond grip.csv --rate 250Hz --scale 0.002 --range 0..4095 --despike 200 --notch 50Hz     torn, and with hum
@@ -114,6 +116,27 @@ void add_netlist_words(CLI::App& verb, NetlistWords& w) {
         ->group(group);
 }
 
+void add_skin_words(CLI::App& verb, RespondWords& w) {
+    const auto group = "Skins";
+    verb.add_option("--population,-p", w.population,
+                    "a whole skin in the place of --afferent: hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)")
+        ->type_name("NAME|FILE")
+        ->group(group);
+    verb.add_option(
+            "--contact", w.contact,
+            "what presses a force of one channel into the skin: flat (default), sphere, edge, grating; --set contact.radius=5mm and "
+            "'corpuscle list contact' say more")
+        ->type_name("INDENTER")
+        ->group(group);
+    verb.add_option("--events", w.events, "write the skin's spikes as lines, jsonl, aer or aedat2 (doc/events.md) in place of spikes.csv")
+        ->type_name("FORMAT")
+        ->group(group);
+    verb.add_option("--checkpoint", w.checkpoint,
+                    "keep how far it is in this file: killed or interrupted, the same command goes on from there")
+        ->type_name("FILE")
+        ->group(group);
+}
+
 void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     auto& verb = *app.add_subcommand("respond", "force recordings or named stimuli -> spikes, rates, report");
     verb.footer(respond_examples);
@@ -132,6 +155,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     verb.add_option("--spread", w.spreads, "a parameter that differs between copies: its standard deviation, as a share or with its unit")
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=10%");
+    add_skin_words(verb, w);
     verb.add_option("--method", w.method, "how time is stepped: exact, or the thesis's own backward-euler")
         ->check(CLI::IsMember({"exact", "backward-euler"}))
         ->capture_default_str()
@@ -146,7 +170,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->type_name("N");
     verb.add_flag("--float", w.in_float,
                   "single precision: up to twice as fast, but spikes move (doc/lanes.md says how far); no currents and membranes are kept");
-    verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz); of a recording: its rows are this evenly spaced")
+    verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz; of a skin 1 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
     verb.add_option("--channel,-c", w.channels,
                     "which channels of a recording: names, or numbers and ranges (2-5) that count all columns but the time")

@@ -38,8 +38,8 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
         for (const auto& f : formats) names.push_back(f.name);
         return bad_usage(fmt::format("--events {}: there are {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
     }
-    auto ok = w.events.empty() ? add<SkinSpikesFile>("spikes.csv")
-                               : add<SkinEventsFile>(fmt::format("spikes.{}", format->extension), w.events);
+    auto ok =
+        w.events.empty() ? add<SkinSpikesFile>("spikes.csv") : add<SkinEventsFile>(fmt::format("spikes.{}", format->extension), w.events);
     if (!ok) return ok;
     if (ok = add<SkinUnitsFile>("units.csv", std::cref(summary)); !ok) return ok;
     if (*bin)
@@ -86,7 +86,8 @@ std::vector<std::string> SkinOutputs::names() const {
     return all;
 }
 
-Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinTold& told, const std::string& document, const std::string& command) {
+Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinTold& told, const std::string& document,
+                                 const std::string& command) {
     const auto put = [](OutputFile& file, const std::string& text) {
         auto ok = file.write(text);
         return ok ? file.commit() : ok;

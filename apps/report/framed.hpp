@@ -31,13 +31,16 @@ public:
             if (frame >= most_) {
                 halve();
             } else {
-                for (; done_.size() < frame; now_.assign(now_.size(), V{})) done_.push_back(current());
+                while (done_.size() < frame) close();
                 end_ = static_cast<std::int64_t>(frame + 1) * width_;
             }
         }
         return end_;
     }
-    void add(std::uint32_t place, V value) { now_[place] += value; }
+    void add(std::uint32_t place, V value) {
+        if (now_[place] == V{}) held_.push_back(place);
+        now_[place] += value;
+    }
 
     std::size_t places() const { return now_.size(); }
     std::int64_t width() const { return width_; }
@@ -52,13 +55,23 @@ private:
     std::size_t most_ = 2;
     std::int64_t width_ = 1, end_ = 0;  // samples
     std::vector<Frame> done_;
-    std::vector<V> now_;
+    std::vector<V> now_;               // of the frame that fills
+    std::vector<std::uint32_t> held_;  // places that are not 0 there; some may be named twice, or be 0 again
 
     Frame current() const {
+        auto places = held_;
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
         Frame frame;
-        for (std::size_t p = 0; p < now_.size(); ++p)
-            if (now_[p] != V{}) frame.push_back({static_cast<std::uint32_t>(p), now_[p]});
+        for (const auto p : places)
+            if (now_[p] != V{}) frame.push_back({p, now_[p]});
         return frame;
+    }
+
+    void close() {
+        done_.push_back(current());
+        for (const auto p : held_) now_[p] = V{};
+        held_.clear();
     }
 
     static Frame sum(const Frame& a, const Frame& b) {
@@ -76,7 +89,11 @@ private:
 
     void halve() {
         if (done_.size() % 2 == 1) {
-            for (const auto& e : done_.back()) now_[e.place] = e.value + now_[e.place];
+            for (const auto& e : done_.back()) {
+                const V value = now_[e.place];
+                now_[e.place] = V{};
+                add(e.place, e.value), now_[e.place] += value;  // in the order of time
+            }
             done_.pop_back();
         }
         std::vector<Frame> half;

@@ -110,8 +110,34 @@ class Skin {
     marksOf({first, units}) { return [firstAt(this.firstUnits, first), firstAt(this.firstUnits, first + units)]; }
     unitsOf(mark) { return this.firstUnits[mark + 1] - this.firstUnits[mark]; }
 
-    /// The last frame may be shorter.
-    frameLength(frame) { return Math.min(this.marks.width, this.duration - frame * this.marks.width) || this.marks.width; }
+    /// Frames that a rate is taken over, with the one that is shown the last of them: about `seconds`.
+    framesOver(seconds) { return Math.max(1, Math.round(seconds / this.marks.width)); }
+    /// How long the frames up to this one last; the last of all may be shorter.
+    lengthOver(frame, frames) { return Math.min((frame + 1) * this.marks.width, this.duration) - Math.max(0, frame + 1 - frames) * this.marks.width; }
+
+    /// Spikes of marks in the frames up to this one: those that have some, and by mark how many.
+    recent(frame, frames) {
+        if (this.known && this.known.frame === frame && this.known.frames === frames) return this.known;
+        const counts = new Uint32Array(this.marks.places), some = [];
+        for (let f = Math.max(0, frame + 1 - frames); f <= frame; ++f)
+            this.marks.each(f, (mark, n) => { if (!counts[mark]) some.push(mark); counts[mark] += n; });
+        return (this.known = {frame, frames, counts, some});
+    }
+
+    /// The greatest rate that each class has over so many frames, Hz of one unit.
+    greatest(frames) {
+        const counts = new Int32Array(this.marks.places), most = this.classes.map(() => 0), ends = this.classes.map((one) => this.marksOf(one)[1]);
+        for (let f = 0; f < this.marks.count; ++f) {
+            if (f >= frames) this.marks.each(f - frames, (mark, n) => { counts[mark] -= n; });
+            let c = 0;
+            this.marks.each(f, (mark, n) => {
+                counts[mark] += n;
+                while (mark >= ends[c]) ++c;
+                most[c] = Math.max(most[c], counts[mark] / this.unitsOf(mark) / this.lengthOver(f, frames));
+            });
+        }
+        return most.map((rate) => rate || 1);
+    }
     frameAt(t) { return Math.max(0, Math.min(this.marks.count - 1, Math.floor((t - this.t0) / this.marks.width + 1e-9))); }
 
     /// [x, y] of the middle of a mark's units, mm.

@@ -30,7 +30,7 @@ class Scene {
     /// Maps stand side by side; as large as the window has room for.
     layOut(width) {
         const count = this.skin.classes.length, [x0, y0, x1, y1] = this.all, aspect = Math.max(0.3, Math.min(3.5, (x1 - x0) / (y1 - y0)));
-        const most = Math.max(240, Math.min(560, 0.56 * innerHeight));
+        const most = Math.max(260, Math.min(600, 0.58 * innerHeight));
         const wide = (columns) => Math.min((width - 12 * (columns - 1)) / columns, Math.max(most * aspect, 170));
         let columns = count;
         while (columns > 1 && wide(columns) < Math.min(165, 0.9 * most * aspect)) columns = Math.ceil(columns / 2);
@@ -144,7 +144,7 @@ class SkinMap {
     renew() { this.idle = this.colours = null; }
 
     place(mark) { return [this.scene.x(this.at[2 * (mark - this.from)]), this.scene.y(this.at[2 * (mark - this.from) + 1])]; }
-    get pixels() { return Math.max(0.75, Math.min(7, this.radius * this.scene.scale)); }
+    get pixels() { return Math.max(0.75, Math.min(5, this.radius * this.scene.scale)); }
 
     idleLayer() {
         if (this.idle) return this.idle;
@@ -170,7 +170,7 @@ class SkinMap {
         const steps = this.colours.length, r = this.pixels;
         this.values(this, (mark, level) => {
             context.fillStyle = this.colours[Math.max(0, Math.min(steps - 1, Math.floor(level * steps)))];
-            dot(context, ...this.place(mark), r * (1.05 + 0.35 * level));
+            dot(context, ...this.place(mark), Math.max(1.5, r * (1.05 + 0.35 * level)));
         });
         this.ring(context);
     }

@@ -1,7 +1,7 @@
 "use strict";
 // Plots over time beneath the maps: how often each class fires, and the spikes of its units.
 
-/// Rates of classes, in bins that are as wide as about 200 of them fill the window.
+/// Rates of classes, in bins that are as wide as about 100 of them fill the window.
 class SkinRatePanel extends PopulationPanel {
     /// `fine`: {frames, classes}: spikes of each class in narrow bins.
     constructor({fine, ...rest}) {
@@ -11,7 +11,7 @@ class SkinRatePanel extends PopulationPanel {
 
     /// For a window of so many seconds.
     static binned({frames, classes}, input, span) {
-        const join = 2 ** Math.max(0, Math.round(Math.log2(span / 200 / frames.width))), bins = Math.ceil(frames.count / join), bin = join * frames.width;
+        const join = 2 ** Math.max(0, Math.round(Math.log2(span / 100 / frames.width))), bins = Math.ceil(frames.count / join), bin = join * frames.width;
         const counts = classes.map(() => new Float64Array(bins));
         for (let f = 0; f < frames.count; ++f) frames.each(f, (c, n) => { counts[c][Math.floor(f / join)] += n; });
         const length = (k) => Math.min(bin, input.samples * input.T - k * bin) || bin;

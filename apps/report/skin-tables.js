@@ -39,6 +39,16 @@ function showClasses(skin, host) {
     host.innerHTML = tableHtml(["class", "units", "model", "receptive field", "conduction", "what it is, and after whom"], rows, (c) => c === 1);
 }
 
+/// Where the population's numbers are from: what several classes share is told once.
+function showSources(skin, host) {
+    const {classes, skin: about} = skin.data.summary, told = new Map();
+    const tell = ({of, source}, name) => told.set(source, [...(told.get(source) || []), name ? `${of} of ${name}` : of]);
+    about.sources.forEach((one) => tell(one, ""));
+    classes.forEach(({name, sources}) => sources.forEach((one) => tell(one, name)));
+    host.innerHTML = Array.from(told, ([source, of]) => `<li>${escaped(of.join(", "))}: ${escaped(source)}</li>`).join("");
+    host.hidden = !told.size;
+}
+
 /// Units of each class in each region, and how many that is a square centimetre.
 function showDensities(skin, host) {
     const {classes, skin: about} = skin.data.summary, names = skin.regions;

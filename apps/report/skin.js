@@ -6,7 +6,7 @@ const at = (id) => document.getElementById(id);
 const view = new SkinView({span: at("span"), now: at("now")});
 const scene = new Scene(skin);
 const player = new Player(view, skin.marks.width, at);
-const shown = {mode: "now", region: "all"};
+const shown = {mode: "", frames: 1, most: [], region: "all"};
 const totals = skin.marks.totals();
 
 function showHeading({title, program, command, remarks, summary}) {
@@ -18,29 +18,36 @@ function showHeading({title, program, command, remarks, summary}) {
     at("remarks").innerHTML = remarks.map((text) => `<li>${escaped(text)}</li>`).join("");
 }
 
-/// What a mark fires, Hz, in a frame or over all.
-function rateOf(mark, spikes, seconds) { return spikes / skin.unitsOf(mark) / seconds; }
-
-/// The greatest rate that a map of this class ever shows.
-function greatestRate(one, mode) {
-    const [from, to] = skin.marksOf(one);
-    let most = 0;
-    if (mode === "all") for (let m = from; m < to; ++m) most = Math.max(most, rateOf(m, totals[m], skin.duration));
-    else
-        for (let f = 0; f < skin.marks.count; ++f)
-            skin.marks.each(f, (m, n) => { if (m >= from && m < to) most = Math.max(most, rateOf(m, n, skin.frameLength(f))); });
-    return most || 1;
-}
+const rateOf = (mark, spikes, seconds) => spikes / skin.unitsOf(mark) / seconds;  // of one unit
 
 /// Rates of a class as levels 0 ... 1 for its map.
 function rateValues(map, call) {
-    const most = map.most[shown.mode];
+    const {one, from, to} = map, mine = (mark) => mark >= from && mark < to;
     map.active = 0;
-    const tell = (mark, spikes, seconds) => { ++map.active; call(mark, rateOf(mark, spikes, seconds) / most); };
-    if (shown.mode === "all") for (let m = map.from; m < map.to; ++m) { if (totals[m]) tell(m, totals[m], skin.duration); }
-    else skin.marks.each(scene.frame, (m, n) => { if (m >= map.from && m < map.to) tell(m, n, skin.frameLength(scene.frame)); });
+    const tell = (mark, spikes, seconds) => { ++map.active; call(mark, rateOf(mark, spikes, seconds) / shown.most[one.index]); };
+    if (shown.mode === "all") for (let m = from; m < to; ++m) { if (totals[m]) tell(m, totals[m], skin.duration); }
+    else {
+        const {counts, some} = skin.recent(scene.frame, shown.frames);
+        for (const mark of some) if (mine(mark)) tell(mark, counts[mark], skin.lengthOver(scene.frame, shown.frames));
+    }
     map.count.textContent = `${map.active} active`;
-    map.canvas.setAttribute("aria-label", `${map.one.name}: ${map.active} of ${map.to - map.from} active, ${shown.mode === "all" ? "over all" : `at ${timeText(skin.t0 + scene.frame * skin.marks.width, skin.marks.width)}`}`);
+    map.canvas.setAttribute("aria-label", `${one.name}: ${map.active} of ${to - from} active, ${shown.mode === "all" ? "over all" : `at ${timeText(skin.t0 + scene.frame * skin.marks.width, skin.marks.width)}`}`);
+}
+
+/// What the maps show: the rate over some time up to now, or over all.
+function chooseMode(mode) {
+    shown.mode = mode;
+    shown.frames = mode === "all" ? 1 : Number(mode);
+    shown.most = mode === "all" ? skin.classes.map((one) => { const [from, to] = skin.marksOf(one); let most = 0; for (let m = from; m < to; ++m) most = Math.max(most, rateOf(m, totals[m], skin.duration)); return most || 1; })
+                                : skin.greatest(shown.frames);
+}
+
+/// From one frame to about half a second, and all; at first about a tenth of a second.
+function modeOptions() {
+    const frames = [...new Set([0, 0.05, 0.1, 0.2, 0.5].map((seconds) => skin.framesOver(seconds)))].filter((n) => n < skin.marks.count || n === 1);
+    const first = frames.reduce((best, n) => (Math.abs(n - skin.framesOver(0.1)) < Math.abs(best - skin.framesOver(0.1)) ? n : best));
+    at("mode").innerHTML = frames.map((n) => `<option value="${n}" ${n === first ? "selected" : ""}>rate over the last ${quantity(n * skin.marks.width, "s", true)}</option>`).join("") + '<option value="all">mean rate over all</option>';
+    chooseMode(String(first));
 }
 
 const scaleHtml = (low, high, colours) => `<span class="scale">${low} <span class="ramp" style="background: linear-gradient(to right, ${colours.join(", ")})"></span> ${high}</span>`;
@@ -53,7 +60,7 @@ function captionOf(map, low, high, colours) {
 
 function rateCaptions() {
     for (const map of scene.maps)
-        if (map.most) captionOf(map, "0", escaped(quantity(map.most[shown.mode], "Hz", true)), rateRamp(map.one.color));
+        if (map.ofRates) captionOf(map, "0", escaped(quantity(shown.most[map.one.index], "Hz", true)), rateRamp(map.one.color));
 }
 
 function makeMaps() {
@@ -61,8 +68,8 @@ function makeMaps() {
     const [rates, firsts] = [document.querySelector("#maps .row"), document.querySelector("#firsts .row")];
     [rates, firsts].forEach((host) => host.replaceChildren());
     for (const one of skin.classes) {
-        const map = new SkinMap(rates, scene, one, {values: rateValues, ramp: rateRamp, force: () => shown.mode === "now"});
-        map.most = {now: greatestRate(one, "now"), all: greatestRate(one, "all")};
+        const map = new SkinMap(rates, scene, one, {values: rateValues, ramp: rateRamp, force: () => shown.mode !== "all"});
+        map.ofRates = true;
     }
     rateCaptions();
     makeFirsts(firsts);
@@ -160,9 +167,8 @@ function tellUnit() {
     const unit = scene.chosen;
     if (unit === null) return void (at("unit").textContent = "");
     const mark = firstAt(skin.firstUnits, unit + 1) - 1, first = skin.first[unit], many = skin.unitsOf(mark);
-    let now = 0;
-    skin.marks.each(scene.frame, (m, n) => { if (m === mark) now = n; });
-    at("unit").textContent = `${skin.unitName(unit)}${many > 1 ? ` and ${many - 1} neighbours` : ""}, ${skin.regionName(unit)}: ${quantity(rateOf(mark, now, skin.frameLength(scene.frame)), "Hz", true)} now, ` +
+    const now = skin.recent(scene.frame, shown.frames).counts[mark], seconds = skin.lengthOver(scene.frame, shown.frames);
+    at("unit").textContent = `${skin.unitName(unit)}${many > 1 ? ` and ${many - 1} neighbours` : ""}, ${skin.regionName(unit)}: ${quantity(rateOf(mark, now, seconds), "Hz", true)} now, ` +
         `${totals[mark]} spikes${Number.isNaN(first) ? "" : `, the first at ${timeText(skin.t0 + first, 1e-4)}`}`;
 }
 
@@ -181,7 +187,7 @@ function connect() {
     at("out").onclick = () => view.zoom(2);
     at("whole").onclick = () => view.whole();
     at("fit").onchange = () => { view.fit = at("fit").checked; view.request(); };
-    at("mode").onchange = () => { shown.mode = at("mode").value; rateCaptions(); scene.request(); };
+    at("mode").onchange = () => { chooseMode(at("mode").value); rateCaptions(); scene.request(); };
     at("map-in").onclick = () => scene.zoom(1 / 1.5);
     at("map-out").onclick = () => scene.zoom(1.5);
     const parts = partsOf();
@@ -230,7 +236,7 @@ window.corpuscle = {
     get frame() { return scene.frame; },
     get playing() { return player.playing; },
     skin, scene, view,
-    active: () => Object.fromEntries(scene.maps.filter((map) => map.most).map((map) => [map.one.name, map.active])),
+    active: () => Object.fromEntries(scene.maps.filter((map) => map.ofRates).map((map) => [map.one.name, map.active])),
 };
 
 showHeading(skin.data);
@@ -238,7 +244,9 @@ at("about-maps").textContent = skin.together > 1 ? `a mark stands for ${skin.tog
                                                  : `a mark is a unit; frames of ${quantity(skin.marks.width, "s", true)}`;
 at("about-skin").textContent = [skin.data.summary.skin.sentence, `${skin.data.summary.skin.units} units`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
 showSkinRates(skin, document.querySelector("#rates .scroll"), "all");
+showSources(skin, document.querySelector("#classes .sources"));
 showVersions(skin.data.versions);
+modeOptions();
 connect();
 draw();
 player.start();

@@ -16,6 +16,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_first_spikes = 100;
 
+Json sources_document(const std::vector<Sourced>& all) {
+    Json out = Json::array();
+    for (const auto& s : all) out.push_back({{"of", s.of}, {"source", s.source}});
+    return out;
+}
+
 /// Units of a class in each region.
 Json density_document(const Innervation& skin, std::size_t c) {
     const auto& plan = skin.plan;
@@ -38,6 +44,7 @@ Json class_document(const Innervation& skin, std::size_t c) {
     out["conduction"] = {{"velocity_m_s", k.velocity}, {"standard_deviation_m_s", k.velocity_spread}};
     out["afferent"] = document_of(k.afferent);
     out["spreads"] = document_of(k.spreads);
+    out["sources"] = sources_document(k.sources);
     return out;
 }
 
@@ -53,6 +60,7 @@ Json skin_document(const Innervation& skin) {
     out["site_area_m2"] = plan.sites.area, out["felt_area_m2"] = plan.felt_area;
     out["nerve_m"] = plan.nerve ? Json{plan.nerve->x, plan.nerve->y} : Json(nullptr);
     out["regions"] = regions;
+    out["sources"] = sources_document(plan.sources);
     return out;
 }
 

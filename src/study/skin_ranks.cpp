@@ -44,9 +44,7 @@ void unpack_into(const std::string& text, std::vector<Spike>& spikes) {
     }
 }
 
-std::string told_error(const Error& error) {
-    return std::string(1, went_wrong) + static_cast<char>(error.code) + error.text();
-}
+std::string told_error(const Error& error) { return std::string(1, went_wrong) + static_cast<char>(error.code) + error.text(); }
 
 void doze() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
 
