@@ -19,6 +19,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -277,7 +278,8 @@ int soak(const std::string& program, int seconds) {
             const auto* from = second.data() + static_cast<std::size_t>((*ours)->frames() % rate) * sites;
             std::copy_n(from, sites, frame.begin());
             wanted.clear(), at = 0;
-            for (const auto& s : *(*ours)->push(frame)) {
+            const auto spikes_here = (*ours)->push(frame);
+            for (const auto& s : *spikes_here) {
                 address_events::Packed packed;
                 (*format)->put(s, reinterpret_cast<char*>(&packed));
                 wanted.push_back(packed);
@@ -315,6 +317,7 @@ int soak(const std::string& program, int seconds) {
 
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
+    ::prctl(PR_SET_TIMERSLACK, 1);  // ns; threads begin with their maker's
     const std::string what = argc > 1 ? argv[1] : "";
     const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";

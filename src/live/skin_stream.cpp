@@ -16,15 +16,20 @@ Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Inner
     return stream;
 }
 
-/// A blow on all sites, then as it was: what a skin asks for when all of it fires, it has then.
+/// Blows of 10 N as every unit feels it, now and again, then as it was: what a skin asks for when all of it fires, it has then.
 Result<void> SkinStream::warm_up() {
     const auto start = skin_->save();
     touched_.resize(sites()), every_.resize(sites());
     std::iota(every_.begin(), every_.end(), 0U);
     spikes_.reserve(8 * innervation_->units.size() + 64);
+    const auto& plan = innervation_->plan;
+    const double blow = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
     std::vector<double> frame(sites());
-    for (int k = 0; k < 32; ++k) {
-        std::fill(frame.begin(), frame.end(), k % 8 < 4 ? 0.0 : 10.0);
+    std::uint32_t chance = 1;
+    const auto frames = std::clamp<std::size_t>(2'000'000 / innervation_->units.size(), 32, 512);
+    for (std::size_t k = 0; k < frames; ++k) {
+        chance = 1664525 * chance + 1013904223;
+        std::fill(frame.begin(), frame.end(), chance >> 31 == 0 ? 0.0 : blow);
         if (auto pushed = push(frame); !pushed) return pushed.error();
     }
     return skin_->resume(start);

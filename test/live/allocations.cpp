@@ -38,6 +38,8 @@ int main() {
         if (!plan) return std::puts(plan.error().text().c_str()), 1;
         const auto skin = innervate(std::move(*plan));
         auto stream = SkinStream::make(*skin, clock);
+        const double felt =
+            (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at a site that feel as 1 N
         const auto format = event_format("lines", event_units(**skin, clock));
         if (!stream || !format) return std::puts("refused"), 1;
         FrameDecoder decoder({FrameKind::f64, FrameStamp::none, (*stream)->sites()});
@@ -46,10 +48,10 @@ int main() {
         long spikes = 0, bytes = 0;
         const long before = asked;
         for (int k = 0; k < 3000; ++k) {
-            for (std::size_t s = 0; s < sent.size(); ++s)
-                sent[s] = k % 500 < 100 ? 0
-                          : k % 7 == 0  ? 5
-                                        : static_cast<double>((s * 31 + 17 * static_cast<std::size_t>(k / 50)) % 300) * 0.01;
+            for (std::size_t s = 0; s < sent.size(); ++s) {
+                const auto varied = static_cast<double>((s * 31 + 17 * static_cast<std::size_t>(k / 50)) % 300) * 0.01;
+                sent[s] = felt * (k % 500 < 100 ? 0 : k % 7 == 0 ? 5 : varied);
+            }
             const auto* const from = reinterpret_cast<const char*>(sent.data());
             const auto size = sent.size() * sizeof(double);
             for (std::size_t at = 0; at < size;) {
