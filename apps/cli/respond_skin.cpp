@@ -73,7 +73,7 @@ void add_touch(std::vector<Wish>& wishes, const NamedTouch& touch) {
                 wishes.push_back({std::string(of), std::string(s.name), fmt::format("{}", s.value), true});
     };
     add("contact", touch.settings);
-    add(touch.force, touch.of_force);
+    add(touch.force, touch.force_settings);
 }
 
 /// A parameter of a class: "sa1.f_B=25Hz".

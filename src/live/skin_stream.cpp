@@ -17,7 +17,7 @@ Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Inner
 /// A blow on all sites, then as it was: what a skin asks for when all of it fires, it has then.
 Result<void> SkinStream::warm_up() {
     const auto start = skin_->save();
-    touched_.reserve(sites());
+    touched_.resize(sites());
     spikes_.reserve(8 * innervation_->units.size() + 64);
     std::vector<double> frame(sites());
     for (int k = 0; k < 32; ++k) {
@@ -29,11 +29,10 @@ Result<void> SkinStream::warm_up() {
 
 Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
     if (frame.size() != sites()) return bad_input(fmt::format("a frame of {} forces for {} sites", frame.size(), sites()));
-    touched_.clear();
-    for (std::uint32_t s = 0; s < frame.size(); ++s)
-        if (frame[s] != 0) touched_.push_back(s);
+    std::size_t touched = 0;  // without a branch: noise makes zeros come and go
+    for (std::size_t s = 0; s < frame.size(); ++s) touched_[touched] = static_cast<std::uint32_t>(s), touched += frame[s] != 0;
     spikes_.clear();
-    if (auto ok = skin_->respond({frame.data(), 1, touched_, false}, 1, spikes_, here_); !ok) return ok.error();
+    if (auto ok = skin_->respond({frame.data(), 1, std::span(touched_).first(touched), false}, 1, spikes_, here_); !ok) return ok.error();
     return std::span<const Spike>(spikes_);
 }
 

@@ -51,6 +51,7 @@ std::vector<Spike> Conduction::on_their_way() const {
 
 void Conduction::put_back(std::span<const Spike> spikes, std::int64_t now) {
     told_ = now;
+    for (auto& step : arriving_) step.clear();
     for (const auto& s : spikes) at(s.step).push_back(s);
 }
 

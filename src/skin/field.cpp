@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t field_steps = 4;  // a multiple of it: rows of sums begin on whole vectors
 
-std::size_t padded(std::size_t steps) { return steps == 1 ? 1 : (steps + field_steps - 1) / field_steps * field_steps; }
+std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
 void add(double weight, const double* force, double* sum, std::size_t steps) {
     for (std::size_t t = 0; t < steps; ++t) sum[t] += weight * force[t];
@@ -40,19 +40,19 @@ FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size
 }
 
 void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool& pool) {
+    const Call call{force, touched, at, steps};
+    if (steps == 1) return feel_one_step(call);
     while (sums_.size() < pool.threads()) sums_.emplace_back(piece_tiles * force_tile * skin_steps);
-    pool.each(pieces_.size(),
-              [&](std::size_t piece, unsigned thread) { feel_piece(piece, force, touched, at, steps, sums_[thread].data()); });
+    pool.each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { feel_piece(piece, call, sums_[thread].data()); });
 }
 
-void FeltForce::feel_piece(std::size_t piece, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at,
-                           std::size_t steps, double* sums) {
+void FeltForce::feel_piece(std::size_t piece, const Call& call, double* sums) {
+    const auto& [force, touched, at, steps] = call;
     const auto& p = pieces_[piece];
     const std::size_t first = piece * piece_tiles, tiles = std::min(piece_tiles, tiles_ - first), stride = padded(steps);
     auto* without = without_.data() + first;
     std::fill_n(without, tiles, std::uint8_t{1});
     double* rows = rows_.data() + first * steps * force_tile;
-    if (steps == 1) sums = rows;  // one step: sums stand as rows do
     for (const auto s : touched) {
         const double* f = force.of + s * force.stride + at;
         for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
@@ -61,7 +61,7 @@ void FeltForce::feel_piece(std::size_t piece, const SiteForce& force, std::span<
             add(p.weight[k], f, sums + unit * stride, steps);
         }
     }
-    for (std::size_t tile = 0; steps > 1 && tile < tiles; ++tile)
+    for (std::size_t tile = 0; tile < tiles; ++tile)
         if (!without[tile]) turn(sums + tile * force_tile * stride, stride, steps, rows + tile * steps * force_tile);
 }
 

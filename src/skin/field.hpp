@@ -29,14 +29,34 @@ private:
         std::vector<double> weight;
     };
 
+    /// The same of a tile, unit by unit: a site with its weight for each of its units, then another for each ... [k][unit]; a weight of
+    /// 0 where a unit feels fewer. For single steps, which live skins take.
+    struct OneStep {
+        std::size_t most = 0;             ///< k
+        std::vector<std::ptrdiff_t> row;  ///< if the sites at each k stand in a row: its first, which may be before all sites
+        lanes::Buffer<std::uint32_t> site;
+        lanes::Buffer<double> weight;
+    };
+    struct Call {
+        const SiteForce& force;
+        std::span<const std::uint32_t> touched;
+        std::size_t at, steps;
+    };
+
     std::size_t units_, tiles_;
     std::vector<Piece> pieces_;
+    std::vector<OneStep> one_step_;         // of each tile; made when a single step comes
+    std::vector<std::size_t> reach_begin_;  // with it: which tiles feel a site
+    std::vector<std::uint32_t> reach_;
+    std::vector<double> now_;  // force of all sites at that step, between zeros
     lanes::Buffer<double> rows_;
     std::vector<std::uint8_t> without_;
     std::vector<lanes::Buffer<double>> sums_;  // of each thread: [unit of a piece][step]
 
-    void feel_piece(std::size_t piece, const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps,
-                    double* sums);
+    void feel_piece(std::size_t piece, const Call&, double* sums);
+    void make_one_step();
+    void make_tile(std::size_t tile, std::size_t sites);
+    void feel_one_step(const Call&);
 };
 
 }  // namespace corpuscle

@@ -13,7 +13,8 @@ namespace corpuscle {
 /// The units of one class: what they feel, and they.
 struct SkinCrowd {
     std::unique_ptr<Population> population;
-    FeltForce felt;
+    std::shared_ptr<FeltForce> felt;
+    bool as_before = false;  ///< another class stands as this one and feels the same: it has worked that out
 };
 
 struct Skin::Held {

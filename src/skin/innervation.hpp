@@ -22,6 +22,7 @@ struct ReceptiveFields {
     std::vector<std::size_t> begin;
     std::vector<std::uint32_t> unit;
     std::vector<double> weight;
+    bool operator==(const ReceptiveFields&) const = default;
 };
 
 struct Innervation {

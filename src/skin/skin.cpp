@@ -25,7 +25,8 @@ std::size_t share_begin(std::size_t units, std::uint32_t part, std::uint32_t of)
 }
 
 /// The share of one class; nothing if it has no units of it.
-Result<std::optional<SkinCrowd>> crowd_of(const Innervation& skin, std::size_t of, const Run& run, InstructionSet set, SkinShare share) {
+Result<std::optional<SkinCrowd>> crowd_of(const Innervation& skin, std::size_t of, const Run& run, InstructionSet set, SkinShare share,
+                                          std::vector<std::shared_ptr<FeltForce>>& felt) {
     const auto& c = skin.plan.classes[of];
     const std::size_t all = skin.first[of + 1] - skin.first[of], first = share_begin(all, share.part, share.of),
                       count = share_begin(all, share.part + 1, share.of) - first;
@@ -41,11 +42,25 @@ Result<std::optional<SkinCrowd>> crowd_of(const Innervation& skin, std::size_t o
     for (std::size_t u = 0; u < count; ++u) numbers[u] = static_cast<std::uint32_t>(skin.first[of] + first + u);
     auto population = make_population({each, count, numbers}, run, set);
     if (!population) return population.error();
-    return std::optional<SkinCrowd>(SkinCrowd{std::move(*population), FeltForce(skin.fields[of], first, count, skin.plan.sites.size())});
+    const auto same = static_cast<std::size_t>(std::find(skin.fields.begin(), skin.fields.end(), skin.fields[of]) - skin.fields.begin());
+    const bool as_before = felt[same] && skin.first[same + 1] - skin.first[same] == all;
+    felt[of] = as_before ? felt[same] : std::make_shared<FeltForce>(skin.fields[of], first, count, skin.plan.sites.size());
+    return std::optional<SkinCrowd>(SkinCrowd{std::move(*population), felt[of], as_before});
+}
+
+/// Whether all that touches at one step are numbers.
+bool all_numbers(const SiteForce& force, std::span<const std::uint32_t> touched) {
+    double sums[4] = {};  // 0, or no number
+    for (std::size_t k = 0; k < touched.size(); ++k) {
+        const double f = force.of[touched[k] * force.stride];
+        sums[k % 4] += f - f;
+    }
+    return sums[0] == 0 && sums[1] == 0 && sums[2] == 0 && sums[3] == 0;
 }
 
 /// The first site with a force that is no number, and when.
 std::optional<Error> no_number(const Skin::Held& held, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t steps) {
+    if (steps == 1 && all_numbers(force, touched)) return {};
     for (const auto s : touched)
         if (const auto t = first_not_finite({force.of + s * force.stride, steps}); t < steps)
             return bad_input(fmt::format("{}: the force at site {} is {} at sample {}, not a finite number", held.skin->plan.name,
@@ -73,9 +88,9 @@ Result<void> Skin::Held::feel(const SiteForce& force, std::size_t at, std::size_
     if (auto wrong = no_number(*this, {force.of + at, force.stride}, felt, steps)) return *wrong;
     left.clear();
     for (auto& c : crowds) {
-        c.felt.feel(force, felt, at, steps, pool);
+        if (!c.as_before) c.felt->feel(force, felt, at, steps, pool);
         PopulationAnswer answer{&left};
-        if (auto ok = c.population->respond(c.felt.tiles(), steps, answer, pool); !ok) return ok;
+        if (auto ok = c.population->respond(c.felt->tiles(), steps, answer, pool); !ok) return ok;
         const auto all = static_cast<std::int64_t>(steps * c.population->units());
         work.afferent_steps += all - answer.passed, work.at_rest += answer.passed, work.capped += answer.capped;
     }
@@ -88,8 +103,9 @@ Result<void> Skin::Held::feel(const SiteForce& force, std::size_t at, std::size_
 
 Result<std::unique_ptr<Skin>> Skin::make(std::shared_ptr<const Innervation> skin, const Run& run, InstructionSet set, SkinShare share) {
     auto held = std::make_unique<Held>(skin, run, share);
+    std::vector<std::shared_ptr<FeltForce>> felt(skin->plan.classes.size());
     for (std::size_t c = 0; c < skin->plan.classes.size(); ++c) {
-        auto crowd = crowd_of(*skin, c, run, set, share);
+        auto crowd = crowd_of(*skin, c, run, set, share, felt);
         if (!crowd) return crowd.error();
         if (*crowd) held->crowds.push_back(std::move(**crowd));
     }

@@ -7,11 +7,11 @@
 namespace corpuscle {
 namespace {
 
-const std::string root = test::root();
+const std::string project_root = test::root();
 
 /// The lines of the README's shell blocks that call the program, without what stands behind a '#'.
 std::vector<std::string> commands() {
-    std::istringstream text(test::read_file(root + "/README.md"));
+    std::istringstream text(test::read_file(project_root + "/README.md"));
     std::vector<std::string> out;
     bool shell = false;
     for (std::string line; std::getline(text, line);) {
@@ -28,7 +28,7 @@ TEST(Readme, EveryCommandItShowsRuns) {
     for (int k = 0; k < 1000; ++k) touch += fmt::format("{},{}\n", k / 1e3, k < 200 ? 0 : 2000);
     folder.write("touch.csv", touch);
     for (const auto* part : {"circuits", "process", "examples"})
-        std::filesystem::copy(root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
+        std::filesystem::copy(project_root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
     const bool real = std::filesystem::exists(press);
     if (real) std::filesystem::copy(press, folder / "fbg_press_S6_T16.csv");
     const auto shown = commands();
@@ -43,7 +43,7 @@ TEST(Readme, EveryCommandItShowsRuns) {
 }
 
 TEST(Readme, ItsProgramIsTheExampleThatRuns) {
-    const auto example = test::read_file(root + "/examples/respond.cpp"), readme = test::read_file(root + "/README.md");
+    const auto example = test::read_file(project_root + "/examples/respond.cpp"), readme = test::read_file(project_root + "/README.md");
     EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
 }
 
@@ -51,12 +51,12 @@ TEST(Readme, EveryPageItPointsToIsThere) {
     for (const auto* page :
          {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md", "doc/measures.md",
           "doc/circuits.md", "doc/chips.md", "doc/lanes.md", "doc/populations.md", "doc/real-recordings.md"}) {
-        const auto text = test::read_file(root + "/" + page);
+        const auto text = test::read_file(project_root + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
             const auto target = text.substr(at + 2, text.find(')', at) - at - 2);
             if (target.starts_with("http")) continue;
-            EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(root) / std::filesystem::path(page).parent_path() / target))
+            EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(project_root) / std::filesystem::path(page).parent_path() / target))
                 << page << " points to " << target;
         }
     }

@@ -11,7 +11,7 @@ namespace {
 
 using test::Folder;
 
-const std::string root = test::root();
+const std::string recordings_root = test::root();
 
 using test::run;
 
@@ -21,12 +21,12 @@ void link_recordings(const Folder& folder) {
         std::filesystem::create_symlink(std::filesystem::absolute(test::shared(name)), folder / name);
 }
 
-std::vector<std::string> commands() {
-    std::istringstream text(test::read_file(root + "/doc/real-recordings.md"));
+std::vector<std::string> documented_commands() {
+    std::istringstream text(test::read_file(recordings_root + "/doc/real-recordings.md"));
     std::vector<std::string> out;
     for (std::string line; std::getline(text, line);) {
         if (!line.starts_with("corpuscle ")) continue;
-        if (const auto at = line.find("LAYOUT"); at != std::string::npos) line.replace(at, 6, root + "/examples/layouts");
+        if (const auto at = line.find("LAYOUT"); at != std::string::npos) line.replace(at, 6, recordings_root + "/examples/layouts");
         out.push_back(line.substr(std::string("corpuscle ").size()));
     }
     return out;
@@ -37,7 +37,7 @@ TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
     const Folder folder;
     link_recordings(folder);
     std::string all;
-    for (const auto& words : commands()) {
+    for (const auto& words : documented_commands()) {
         const auto ran = run(folder, words);
         EXPECT_EQ(ran.status, 0) << words << '\n' << ran.err;
         all += words + " ";

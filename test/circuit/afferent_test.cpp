@@ -30,7 +30,7 @@ std::shared_ptr<const CircuitDesign> design(const std::string& text) {
     const auto netlist = sure(parsed(text));
     return sure(CircuitDesign::of(std::make_shared<const Circuit>(sure(netlist.elaborate()))));
 }
-std::string refusal(const std::string& text) {
+std::string afferent_refusal(const std::string& text) {
     const auto netlist = parsed(text);
     if (!netlist) return netlist.error().text();
     auto circuit = netlist->elaborate();
@@ -203,7 +203,7 @@ TEST(CircuitAfferent, FallingIsTheOtherFlank) {
 TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
     const std::string t = "t\niin 0 a force 1u\nr1 a 0 1k\n", file = corpuscle::test::root() + "/process/test.cir";
     const auto says = [&](const std::string& text, const std::string& what) {
-        EXPECT_NE(refusal(text).find(what), std::string::npos) << refusal(text);
+        EXPECT_NE(afferent_refusal(text).find(what), std::string::npos) << afferent_refusal(text);
     };
     says("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force, such as 'iin 0 fin force 60n'");
     says(t, file + ": nothing says what a spike is: '.spike v(NODE) LEVEL [rise|fall]'");
@@ -216,7 +216,7 @@ TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
     says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: 'now' is too much");
     says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n",
          file + ":2:9: iin: force has 2 numbers; wanted is force, or force and a scale");
-    EXPECT_EQ(refusal(t + ".spike v(a) 1\n"), "");
+    EXPECT_EQ(afferent_refusal(t + ".spike v(a) 1\n"), "");
 }
 
 TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {

@@ -9,8 +9,8 @@ namespace corpuscle::circuit {
 namespace {
 
 /// In the plain model an array is a transistor, exactly: inversion levels divide along a stack as voltages do along resistors.
-constexpr const char* plain = ".model x {}mos(level=80 isq=112n vto=0.46 n=1.27 sigmal=0 zetal=0 ve=1e30 js=0 jssw=0)\n";
-constexpr const char* exact = ".options gmin=0 reltol=1e-12 vntol=1e-14\n";
+constexpr const char* plain_model = ".model x {}mos(level=80 isq=112n vto=0.46 n=1.27 sigmal=0 zetal=0 ve=1e30 js=0 jssw=0)\n";
+constexpr const char* exactly = ".options gmin=0 reltol=1e-12 vntol=1e-14\n";
 
 /// m columns of n units between two nodes; the inner nodes of each column are its own.
 std::string units(const std::string& name, const std::string& drain, const std::string& source, int m, int n,
@@ -27,11 +27,11 @@ std::string units(const std::string& name, const std::string& drain, const std::
     return text;
 }
 
-struct Bias {
+struct ArrayBias {
     double d, g, s, b;
 };
-constexpr Bias biases[] = {{0.5, 0.5, 0, 0},  {0.02, 0.5, 0, 0},   {0.35, 0.35, 0, 0},  {0.7, 0.2, 0, 0},     {1.8, 1.8, 0, 0},
-                           {0.02, 1.8, 0, 0}, {0.7, 0.35, 0.1, 0}, {0.3, 0.4, 0, 0.35}, {-0.2, 0.5, 0, -0.3}, {0.1, 0.7, 0.6, 0}};
+constexpr ArrayBias biases[] = {{0.5, 0.5, 0, 0},  {0.02, 0.5, 0, 0},   {0.35, 0.35, 0, 0},  {0.7, 0.2, 0, 0},     {1.8, 1.8, 0, 0},
+                                {0.02, 1.8, 0, 0}, {0.7, 0.35, 0.1, 0}, {0.3, 0.4, 0, 0.35}, {-0.2, 0.5, 0, -0.3}, {0.1, 0.7, 0.6, 0}};
 
 /// The current of `array`, between d and s, over that of `one`, which the netlist also has.
 void expect_same(const std::string& what, const std::string& array, const std::string& one, double tolerance = 1e-9) {
@@ -41,7 +41,7 @@ void expect_same(const std::string& what, const std::string& array, const std::s
             const auto common = fmt::format("vg g 0 {}\nvb b 0 {}\nvs s 0 {}\n", sign * at.g, sign * at.b, sign * at.s);
             const auto current = [&](const std::string& device) {
                 return ran(what + "\n" + common + fmt::format("vd d 0 {}\n", sign * at.d) + device +
-                           fmt::format(fmt::runtime(plain), type) + exact + ".op\n")
+                           fmt::format(fmt::runtime(plain_model), type) + exactly + ".op\n")
                     .number("i(vd)");
             };
             const double a = current(array), b = current(one);
@@ -90,7 +90,7 @@ TEST(Arrays, SmallSignalsOfAStackAreThoseOfItsUnits) {
             std::vector<double> out;
             for (const char* source : {"vd", "vg", "vs", "vb"})
                 out.push_back(ran(fmt::format("slopes\nvd d 0 {}\nvg g 0 {}\nvs s 0 {}\nvb b 0 {}\n", at.d, at.g, at.s, at.b) + device +
-                                  fmt::format(fmt::runtime(plain), 'n') + exact + ".tf i(vd) " + source + "\n")
+                                  fmt::format(fmt::runtime(plain_model), 'n') + exactly + ".tf i(vd) " + source + "\n")
                                   .number("transfer_function"));
             return out;
         };
@@ -107,13 +107,13 @@ double split_gain(int n, const std::string& model, const std::string& size) {
     const auto unit = "g {} 0 x " + size;
     const auto found = ran("split\nvdd vdd 0 0.7\nvg g 0 0.35\nvin in 0 0.35\nvout out 0 0.35\n" + units("a", "in", "0", n, 1, unit) +
                            units("b", "y", "0", 1, n, unit) + units("c", "vdd", "y", n, 1, unit) + units("d", "out", "y", 1, n, unit) +
-                           model + exact + ".op\n");
+                           model + exactly + ".op\n");
     return found.number("i(vout)") / found.number("i(vin)");
 }
 
 TEST(Arrays, ASplitMirrorAttenuatesByEquations38And39) {
     for (const int n : {4, 8, 16}) {
-        const double gain = split_gain(n, fmt::format(fmt::runtime(plain), 'n'), "w=1.5u l=0.5u"), N2 = n * n;
+        const double gain = split_gain(n, fmt::format(fmt::runtime(plain_model), 'n'), "w=1.5u l=0.5u"), N2 = n * n;
         EXPECT_NEAR(gain * N2 * (N2 + 2), 1, 5e-4) << n;           // what is left: M_C and M_D are not saturated without end
         EXPECT_NEAR(1 / (N2 * N2) / gain - 1, 2 / N2, 6e-4) << n;  // eq. 40 and 41 take S_C >> S_B + S_D: too high by 2/N^2
     }
@@ -140,10 +140,10 @@ TEST(Arrays, TheThesissStageOfM3AndM4Divides288) {  // tables 5, 7, 20: 8x1 and 
         const auto found = ran(
             "stage\nvdd vdd 0 0.7\nvg g 0 0.35\nvin in 0 0.35\nvout out 0 0.35\n" + units("a", "in", "0", 8, 1, "g {} 0 x w=1.5u l=0.5u") +
             units("b", "y", "0", 2, 4, "g {} 0 x w=1.5u l=0.5u") + units("c", "vdd", "y", 8, 1, "g {} 0 x w=1.5u l=0.5u") +
-            units("d", "out", "y", 2, 4, "g {} 0 x w=1.5u l=0.5u") + model + exact + ".op\n");
+            units("d", "out", "y", 2, 4, "g {} 0 x w=1.5u l=0.5u") + model + exactly + ".op\n");
         return found.number("i(vin)") / found.number("i(vout)");
     };
-    EXPECT_NEAR(stage(fmt::format(fmt::runtime(plain), 'n')), 288, 0.05);
+    EXPECT_NEAR(stage(fmt::format(fmt::runtime(plain_model), 'n')), 288, 0.05);
     // the card's N device; had its Early factor no knee and acted from 0 V on, 340 to 350
     EXPECT_NEAR(stage(".model x nmos(level=80 isq=112n vto=0.4606 n=1.27 zetal=15n ve=8e6 js=0 jssw=0)\n"), 329.2, 0.2);
 }

@@ -43,7 +43,7 @@ Answers answers_of(const std::vector<Chip>& chips, const std::shared_ptr<const C
     return out;
 }
 
-std::vector<Chip> drawn(const std::shared_ptr<const CircuitDesign>& design, std::span<const double> force, int count) {
+std::vector<Chip> drawn_chips(const std::shared_ptr<const CircuitDesign>& design, std::span<const double> force, int count) {
     const Chips chips{static_cast<double>(count), 3};
     std::vector<Chip> out;
     for (int k = 0; k < count; ++k) out.push_back({k, design, chips.draw(static_cast<std::uint64_t>(k)), force, batch_T});
@@ -71,7 +71,7 @@ void expect_near(const ChipAnswer& one, const ChipAnswer& other, double allowed)
 TEST(Batch, AnswersDependOnNoNeighbourAndNoInstructionSet) {
     const auto spiker = design_of(test::root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
-    auto chips = drawn(spiker, force, 11);
+    auto chips = drawn_chips(spiker, force, 11);
     const auto before = std::getenv("CORPUSCLE_ISA");
     const std::string kept = before ? before : "";
     const auto first = answers_of(chips, spiker, {.lanes = 8, .show_every = 50});
@@ -89,7 +89,7 @@ TEST(Batch, AChipOnItsLaneDoesAsByItself) {
     const auto spiker = design_of(test::root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
     const BatchOptions options{.show_every = 50};
-    const auto chips = drawn(spiker, force, 6);
+    const auto chips = drawn_chips(spiker, force, 6);
     for (const auto& [number, answer] : answers_of(chips, spiker, options)) {
         const auto alone = run_chip_alone(chips[static_cast<std::size_t>(number)], options);
         EXPECT_FALSE(answer.alone);
@@ -136,7 +136,7 @@ TEST(Batch, AChipThatNoLaneCanHoldGoesByItself) {
 TEST(Batch, AChipStopsAtItsCap) {
     const auto spiker = design_of(test::root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
-    const auto chips = drawn(spiker, force, 3);
+    const auto chips = drawn_chips(spiker, force, 3);
     const auto whole = answers_of(chips, spiker), cut = answers_of(chips, spiker, {.lanes = 4, .most_iterations = 600});
     for (const auto& [number, answer] : cut) {
         EXPECT_GT(whole.at(number).work.iterations, 700);
@@ -169,7 +169,7 @@ TEST(Chips, OnLanesAndAlone) {
         ASSERT_TRUE(press);
         Frames frames(1, 4000);
         ASSERT_TRUE((*press)->read(frames));
-        const auto chips = drawn(design, frames.force[0], 5);
+        const auto chips = drawn_chips(design, frames.force[0], 5);
         for (const auto& [number, answer] : answers_of(chips, design)) {
             EXPECT_FALSE(answer.alone);
             expect_near(answer, run_chip_alone(chips[static_cast<std::size_t>(number)], {}), 2e-4);

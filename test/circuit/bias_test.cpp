@@ -8,14 +8,14 @@ namespace corpuscle::circuit {
 namespace {
 
 /// circuits/bias.cir, another section of the card, other values, another temperature.
-struct Asked {
+struct BiasAsked {
     std::string section = "tt";
     double I = 200e-9, supply = 0.7, celsius = 27;
     std::string more = "";
     double shift = 0;  ///< of both thresholds, V
 };
 
-std::string text_of(const Asked& asked) {
+std::string text_of(const BiasAsked& asked) {
     std::ifstream file(test::root() + "/circuits/bias.cir");
     std::string text, line;
     while (std::getline(file, line)) {
@@ -29,7 +29,7 @@ std::string text_of(const Asked& asked) {
 
 struct Bias {
     double V_Q, I_part, V_BN, V_BP;  ///< I_part: I_Q over the current asked for
-    explicit Bias(const Asked& asked) {
+    explicit Bias(const BiasAsked& asked) {
         Values shifted;
         if (asked.shift != 0) shifted = {{"vtn_shift", asked.shift}, {"vtp_shift", asked.shift}};
         const auto found = ran(text_of(asked), shifted);
@@ -79,16 +79,16 @@ struct Ranges {
     double I[2], supply[2], celsius[2];
 
     Ranges(const std::string& section, double shift) {
-        Asked usual;
+        BiasAsked usual;
         usual.section = section, usual.shift = shift;
         if (section == "ss") usual.supply = 0.75;
         for (int side = 0; side < 2; ++side) {
-            supply[side] = end_of(usual, &Asked::supply, side == 0 ? 0.4 : 1.0);
-            celsius[side] = end_of({.section = section, .shift = shift}, &Asked::celsius, side == 0 ? -100 : 150);
-            I[side] = end_of({.section = section, .shift = shift}, &Asked::I, side == 0 ? 5e-9 : 5e-6);
+            supply[side] = end_of(usual, &BiasAsked::supply, side == 0 ? 0.4 : 1.0);
+            celsius[side] = end_of({.section = section, .shift = shift}, &BiasAsked::celsius, side == 0 ? -100 : 150);
+            I[side] = end_of({.section = section, .shift = shift}, &BiasAsked::I, side == 0 ? 5e-9 : 5e-6);
         }
     }
-    static double end_of(Asked asked, double Asked::* what, double edge) {
+    static double end_of(BiasAsked asked, double BiasAsked::* what, double edge) {
         const auto works = [&](double value) { return asked.*what = value, Bias(asked).works(); };
         double inside = asked.*what, outside = edge;
         if (works(edge)) return edge;

@@ -62,7 +62,7 @@ std::vector<double> spikes_of(const Ran& ran) {
     return ADD_FAILURE() << ran.title() << ": no spikes", std::vector<double>();
 }
 
-constexpr double up = 0.25, held = 0.375, down = 0.625, rest = 0.75;  // s, of the press
+constexpr double up = 0.25, held = 0.375, down = 0.625, let_go = 0.75;  // s, of the press
 
 TEST(SaChip, FiresUnderThePressAsItsModelDoes) {
     const auto press = stimulus("press");
@@ -89,7 +89,7 @@ TEST(FaChip, FiresInBothRampsAndNotAtTheEndOfThePlateau) {
         EXPECT_EQ(chip.between(0, up), 0U);
         EXPECT_GT(chip.between(up, held), 0U);
         EXPECT_EQ(chip.between(down - 0.1, down), 0U);
-        EXPECT_GT(chip.between(down, rest), 0U);
+        EXPECT_GT(chip.between(down, let_go), 0U);
         EXPECT_NEAR(static_cast<double>(chip.spikes.size()), static_cast<double>(model.spikes.size()),
                     0.25 * static_cast<double>(model.spikes.size()));
     }
@@ -101,7 +101,7 @@ TEST(Chips, AsPrintedFireOtherwise) {
     const auto sa1 = heard("sa1.cir", press, {{"as_printed", 1}}), fa1 = heard("fa1.cir", press, {{"as_printed", 1}});
     EXPECT_GE(sa1.between(up, held), 3U);
     EXPECT_EQ(sa1.between(held + 0.05, 1), 0U);
-    EXPECT_GT(fa1.between(up, held), 2 * fa1.between(down, rest));
+    EXPECT_GT(fa1.between(up, held), 2 * fa1.between(down, let_go));
     EXPECT_GT(fa1.spikes.size(), 12U);
 }
 

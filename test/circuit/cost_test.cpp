@@ -14,7 +14,7 @@ namespace {
 
 using test::Folder;
 
-std::unique_ptr<TestBench> bench_of(std::shared_ptr<const Circuit> circuit) {
+std::unique_ptr<TestBench> cost_bench(std::shared_ptr<const Circuit> circuit) {
     if (!circuit) return nullptr;
     auto bench = TestBench::make(std::move(circuit));
     if (!bench) return ADD_FAILURE() << bench.error().text(), nullptr;
@@ -30,7 +30,7 @@ std::shared_ptr<const Circuit> file(const std::string& name, const Values& param
 }
 
 Cost cost(std::shared_ptr<const Circuit> circuit) {
-    auto bench = bench_of(std::move(circuit));
+    auto bench = cost_bench(std::move(circuit));
     auto found = cost_of(*bench);
     if (!found) return ADD_FAILURE() << found.error().text(), Cost();
     return std::move(*found);
@@ -38,7 +38,7 @@ Cost cost(std::shared_ptr<const Circuit> circuit) {
 
 /// With its transients.
 Cost cost_in_time(std::shared_ptr<const Circuit> circuit) {
-    auto bench = bench_of(std::move(circuit));
+    auto bench = cost_bench(std::move(circuit));
     Accountant accountant(*bench);
     RunOrders orders;
     if (const auto watched = accountant.watch(orders); !watched) ADD_FAILURE() << watched.error().text();
@@ -113,7 +113,7 @@ TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
     for (const auto& entry : std::filesystem::directory_iterator(test::root() + "/circuits")) {
         if (entry.path().extension() != ".cir") continue;
         const auto name = entry.path().filename().string();
-        auto bench = bench_of(file(name));
+        auto bench = cost_bench(file(name));
         const auto found = cost_of(*bench);
         ASSERT_TRUE(found) << name << ": " << found.error().text();
         const auto& p = found->power[0].second;

@@ -135,13 +135,13 @@ TEST(DifficultInTime, AFemtofaradLeaksAwayAsItShould) {
     EXPECT_LT(most, 1e-3);
 }
 
-struct Kept {
+struct Faded {
     double amplitude = 0, turns = 0;  ///< of 1, and off in periods
     long steps = 0;
 };
 
 /// A tank without loss after a thousand of its periods, at a hundred steps a period or more.
-Kept after_a_thousand_periods(double reltol, Integration method) {
+Faded after_a_thousand_periods(double reltol, Integration method) {
     const auto circuit = InTime::text(
         fmt::format("tank\nl1 a 0 1m\nc1 a 0 1u\nr1 a 0 1e15\n.ic v(a)=1\n.tran 1u {:.15g} uic\n", 1000 * two_pi * std::sqrt(1e-9)));
     TransientPlan plan;

@@ -11,7 +11,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-struct Matrix {
+struct SparseMatrix {
     Pattern pattern;
     std::vector<double> values;
 
@@ -27,7 +27,7 @@ struct Matrix {
 };
 
 /// Conductances over seven decades between random nodes, and some rows of a voltage source: 1 beside the diagonal, 0 on it.
-Matrix random_circuit(std::mt19937& chance, int nodes, int sources) {
+SparseMatrix random_circuit(std::mt19937& chance, int nodes, int sources) {
     std::vector<std::tuple<int, int, double>> all;
     std::uniform_real_distribution<double> decade(-12, -5);
     const auto node = [&] { return static_cast<int>(chance() % static_cast<unsigned>(nodes)); };
@@ -42,13 +42,13 @@ Matrix random_circuit(std::mt19937& chance, int nodes, int sources) {
     for (int k = 0; k < sources; ++k) add(k, nodes + k, 1), add(nodes + k, k, 1), add(nodes + k, nodes + k, 0);
     std::vector<std::pair<int, int>> entries;
     for (const auto& [row, column, value] : all) entries.emplace_back(row, column);
-    Matrix out{Pattern(nodes + sources, entries), {}};
+    SparseMatrix out{Pattern(nodes + sources, entries), {}};
     out.values.resize(out.pattern.entries());
     for (const auto& [row, column, value] : all) out.values[out.pattern.place(row, column)] += value;
     return out;
 }
 
-void solves(Solver<double>& solver, const Matrix& m, std::mt19937& chance) {
+void solves(Solver<double>& solver, const SparseMatrix& m, std::mt19937& chance) {
     const auto n = static_cast<std::size_t>(m.pattern.size());
     std::vector<double> x(n), b(n), size(n);
     for (double& v : x) v = std::normal_distribution<double>()(chance);
@@ -84,7 +84,7 @@ TEST(Elimination, SolvesWhatItWasMadeForAndWhatIsLikeIt) {
 }
 
 TEST(Elimination, AMatrixThatItsPivotsDoNotServeIsFactoredAnew) {
-    Matrix m{Pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}}), {1, 1e-3, 1e-3, 1}};
+    SparseMatrix m{Pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}}), {1, 1e-3, 1e-3, 1}};
     Solver<double> solver(m.pattern);
     solver.settle(m.values);
     std::mt19937 chance(2);

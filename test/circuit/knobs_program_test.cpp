@@ -22,8 +22,8 @@ std::size_t spikes_in(const Folder& folder, const std::string& out) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
 }
 
-/// A divider of the supply, charged by the force.
-constexpr const char* divider =
+/// A divider_text of the supply, charged by the force.
+constexpr const char* divider_text =
     "divider\n.param supply=1 r_top=1k\nvdd vdd 0 {supply}\nxdiv vdd mid half\niin 0 mid force 1m\n"
     ".subckt half a b\nrtop a b {r_top}\nrlow b 0 1k\nclow b 0 1u\n.ends\n.spike v(mid) 1.2\n.save v(mid)\n";
 
@@ -53,7 +53,7 @@ TEST(KnobsProgram, TheChipAnswersInAnyFolderAndWhatIsSetChangesIt) {
 
 TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
     const Folder folder;
-    folder.write("a.cir", divider), folder.write("b.cir", divider);
+    folder.write("a.cir", divider_text), folder.write("b.cir", divider_text);
     const auto ran = run(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
     ASSERT_EQ(ran.status, 1) << "vdd is the node, div.a only a port";
     EXPECT_TRUE(has(ran.err, "--trace div.a: no netlist that takes part has such a node or device")) << ran.err;
@@ -70,8 +70,8 @@ TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
 
 TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
     const Folder folder;
-    folder.write("a.cir", divider);
-    auto other = std::string(divider);
+    folder.write("a.cir", divider_text);
+    auto other = std::string(divider_text);
     other.replace(other.find("supply=1 r_top=1k"), 17, "r_top=1k v=1"), other.replace(other.find("{supply}"), 8, "{v}");
     folder.write("b.cir", other);
     const auto says = [&](const std::string& words, int status, const std::string& what) {
@@ -98,7 +98,7 @@ TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
 
 TEST(KnobsProgram, CopiesOfANetlistSpreadItsParametersAndAreTheChipsOfASeed) {
     const Folder folder;
-    folder.write("a.cir", divider);
+    folder.write("a.cir", divider_text);
     const auto ran = run(folder, "respond step -a a.cir --copies 3 --spread a.cir.R_top=5% --trace 'i(rtop)' -o out --quiet");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto copies = read_file(folder / "out/copies.csv");
@@ -117,7 +117,7 @@ TEST(KnobsProgram, CopiesOfANetlistSpreadItsParametersAndAreTheChipsOfASeed) {
 
 TEST(KnobsProgram, RunTakesTheSameAndSavesTracesBesideItsOwn) {
     const Folder folder;
-    folder.write("a.cir", std::string(divider) + ".op\n.expect v(mid) 0.5 1%\n");
+    folder.write("a.cir", std::string(divider_text) + ".op\n.expect v(mid) 0.5 1%\n");
     EXPECT_EQ(run(folder, "run a.cir").status, 0);
     const auto ran = run(folder, "run a.cir --supply 2V --set DIV.top=3k --trace 'vdd,i(div.rtop),mid' --json");
     ASSERT_EQ(ran.status, 0) << ran.err;

@@ -23,11 +23,11 @@ Knob knob(const std::string& text) {
 }
 
 /// Files of a test's own, and what is set of the first, which is called own.cir.
-class Files {
+class KnobFiles {
     corpuscle::test::Folder folder_;
 
 public:
-    Files(const std::string& netlist, const std::map<std::string, std::string>& more = {}) {
+    KnobFiles(const std::string& netlist, const std::map<std::string, std::string>& more = {}) {
         folder_.write("own.cir", netlist);
         for (const auto& [name, text] : more) folder_.write(name, text);
     }
@@ -84,7 +84,7 @@ TEST(Knobs, ANumberHasTheUnitsOfTheDoor) {
 }
 
 TEST(Knobs, WhatIsSetIsWhatTheCircuitHasAndNothingElseIs) {
-    const Files files(blocks);
+    const KnobFiles files(blocks);
     const auto plain = sure(files.set({}));
     const auto c = sure(files.set({"C_u=4pF", "GAIN=3", "one.left.N1=8x3", "xtwo.xright.mn1.w=1.2um", "triple.n1.M=5",
                                    "two.left.ru=20 kohm", "two.right.cu=7p", "triple.ru.m=4", "p=2 V", "temp=85"}));
@@ -107,7 +107,7 @@ TEST(Knobs, WhatIsSetIsWhatTheCircuitHasAndNothingElseIs) {
 }
 
 TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
-    const Files files(blocks);
+    const KnobFiles files(blocks);
     const auto says = [&](const std::string& knob_text, const std::string& what) {
         const auto said = files.refusal({knob_text});
         EXPECT_NE(said.find("--set " + knob_text + ": "), std::string::npos) << said;
@@ -144,7 +144,7 @@ constexpr const char* cards =
     ".lib devices\n.model nm nmos (level=80 vto='0.4+shift')\n.endl\n";
 
 TEST(Knobs, AChipOfASeedIsTheOneThatADrawOfManyHas) {
-    const Files files("t\nm1 a a 0 0 nm\n.model nm nmos (level=80 avt=1n)\nv1 a 0 1\n.op\n", {});
+    const KnobFiles files("t\nm1 a a 0 0 nm\n.model nm nmos (level=80 avt=1n)\nv1 a 0 1\n.op\n", {});
     const auto chip = own_draw(sure(files.set({"mismatch=7/5"})));
     ASSERT_TRUE(chip);
     EXPECT_EQ(chip->seed, 7U);
@@ -156,7 +156,7 @@ TEST(Knobs, AChipOfASeedIsTheOneThatADrawOfManyHas) {
 
 TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
     const std::string netlist = "t\n.lib 'card.lib' tt\nm1 a a 0 0 nm\nv1 a 0 1\n.op\n";
-    const Files files(netlist, {{"card.lib", cards}});
+    const KnobFiles files(netlist, {{"card.lib", cards}});
     EXPECT_NEAR(sure(files.set({})).models[0].values.at("vto"), 0.4, 1e-12);
     EXPECT_NEAR(sure(files.set({"corner=SS"})).models[0].values.at("vto"), 0.44, 1e-12);
     EXPECT_NEAR(sure(files.set({"corner=ss", "corner=tt"})).models[0].values.at("vto"), 0.4, 1e-12);
@@ -164,7 +164,7 @@ TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
         files.refusal({"corner=sz"}).find("--set corner=sz: no corner 'sz': library 'card.lib' has tt, ss, devices; did you mean 'ss'?"),
         std::string::npos)
         << files.refusal({"corner=sz"});
-    const Files two(
+    const KnobFiles two(
         netlist + ".include 'more.inc'\n",
         {{"card.lib", cards}, {"other.lib", ".lib usual\n.param r=1k\n.endl\n"}, {"more.inc", ".lib 'other.lib' usual\nr1 a 0 {r}\n"}});
     const auto c = sure(two.set({"corner=ss"}));
@@ -188,14 +188,14 @@ TEST(Carried, NetlistsByNameAreTheFilesOfTheProject) {
                 1e-12);
 }
 
-std::string spiker(const std::string& section, const std::string& more) {
+std::string spiker_text(const std::string& section, const std::string& more) {
     auto text = corpuscle::test::read_file(test::root() + "/circuits/spiker.cir");
     text.replace(text.find("tt"), 2, section);
     text.insert(text.find(".save"), more);
     return text;
 }
 
-std::vector<Spike> spikes_of(const Netlist& netlist, std::uint32_t copy) {
+std::vector<Spike> spikes_of_copy(const Netlist& netlist, std::uint32_t copy) {
     const auto afferent = sure(CircuitDesign::of(netlist))->make(1e-3, false, copy);
     std::vector<double> force(200 + static_cast<std::size_t>(afferent->delay()), 4.0);
     return corpuscle::test::spikes(*afferent, force, 4096);
@@ -203,18 +203,18 @@ std::vector<Spike> spikes_of(const Netlist& netlist, std::uint32_t copy) {
 
 TEST(Knobs, MismatchIsTheFirstChipOfADraw) {
     for (const std::string section : {"tt", "mc"}) {
-        const auto drawn = sure(parsed(spiker(section, ".mc 3 seed=7\n"))), plain = sure(parsed(spiker(section, "")));
+        const auto drawn = sure(parsed(spiker_text(section, ".mc 3 seed=7\n"))), plain = sure(parsed(spiker_text(section, "")));
         auto with = [&](const Netlist& netlist) {
             Changes changes;
             changes.mismatch = 7;
             return netlist.with(changes);
         };
-        const auto chip = spikes_of(drawn, 1);
+        const auto chip = spikes_of_copy(drawn, 1);
         ASSERT_GT(chip.size(), 3U);
-        EXPECT_EQ(spikes_of(with(plain), 0), chip);
-        EXPECT_EQ(spikes_of(with(drawn), 0), chip) << "in place of .mc";
-        EXPECT_EQ(spikes_of(with(plain), 2), spikes_of(drawn, 2)) << "its copies are the chips of that seed";
-        EXPECT_NE(spikes_of(plain, 0), chip);
+        EXPECT_EQ(spikes_of_copy(with(plain), 0), chip);
+        EXPECT_EQ(spikes_of_copy(with(drawn), 0), chip) << "in place of .mc";
+        EXPECT_EQ(spikes_of_copy(with(plain), 2), spikes_of_copy(drawn, 2)) << "its copies are the chips of that seed";
+        EXPECT_NE(spikes_of_copy(plain, 0), chip);
         auto variants = sure(Variants::of(with(drawn)));
         EXPECT_EQ(variants.count(), 1U);
         EXPECT_FALSE(variants.draws());
@@ -225,7 +225,7 @@ TEST(Knobs, MismatchIsTheFirstChipOfADraw) {
 TEST(Knobs, AnotherNumberIsAnotherMarkAlsoInAFormula) {
     const std::string text =
         "t\n.param g=1 v0=0\niin 0 a force 1u\nr1 a 0 1k\nb1 a 0 i={g*1u*v(a)}\nc1 a 0 1n\n.ic v(a)={v0}\n.spike v(a) 1\n";
-    const Files files(text);
+    const KnobFiles files(text);
     const auto mark = [&](const std::vector<std::string>& knobs) {
         return sure(CircuitDesign::of(std::make_shared<const Circuit>(sure(files.set(knobs)))))->mark;
     };
@@ -237,8 +237,8 @@ TEST(Knobs, AnotherNumberIsAnotherMarkAlsoInAFormula) {
 }
 
 TEST(Traced, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
-    const auto c = sure(Files("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
-                              "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
+    const auto c = sure(KnobFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
+                                  "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
                             .set({}));
     const auto is = [&](const std::string& word, const std::string& name) {
         const auto found = traced(c, word);

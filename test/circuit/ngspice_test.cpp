@@ -11,7 +11,7 @@ namespace corpuscle::circuit::test {
 namespace {
 
 /// ngspice leaves 1e-7 of the largest value of a curve, and currents below what its own tolerances mean.
-void hold(const Plot& mine, const Plot& theirs, double share) {
+void hold_plot(const Plot& mine, const Plot& theirs, double share) {
     ASSERT_EQ(mine.points(), theirs.points()) << mine.name;
     std::size_t held = 0;
     for (const auto& c : theirs.curves) {
@@ -48,7 +48,7 @@ TEST_P(Deck, GivesWhatNgspiceGives) {
         for (const auto& mine : outcome.plots())
             if (mine.name == plot.name || (plot.name == "Operating Point" && mine.name == plot.name)) {
                 found = true;
-                hold(mine, plot, mine.is_complex ? 1e-3 : 1e-5);
+                hold_plot(mine, plot, mine.is_complex ? 1e-3 : 1e-5);
             }
         if (!found) ADD_FAILURE() << "no plot of ours is called '" << plot.name << "'";
     }
@@ -74,7 +74,7 @@ TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
         ASSERT_EQ(theirs.size(), 1U);
         const auto mine = ours(folder / "native.cir").plots();
         ASSERT_EQ(mine.size(), 1U);
-        hold(mine[0], theirs[0], 1e-5);
+        hold_plot(mine[0], theirs[0], 1e-5);
     }
     EXPECT_EQ(decks_seen, 4);
 }

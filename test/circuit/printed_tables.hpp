@@ -177,7 +177,7 @@ struct Otherwise {
     const char* erratum;
 };
 
-inline constexpr Otherwise otherwise[] = {
+inline constexpr Otherwise built_otherwise[] = {
     {"2", "M3A-B", "mp3a mp3b", "W", 6.0, "F10a: a P pair, as the common mode is 0.1 V"},
     {"3", "M4A,B", "mn4a mn4b", "W", 1.5, "S11: N, as its current is subtracted"},
     {"5", "M6A", "mn6a", "m", 16, "S7: 1/64 as M5"},

@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double turn = 2 * std::numbers::pi;
 constexpr double most_off = 5e-3;  // V of a swing of 1 V: fifty steps, 1e-4 each, all to one side
 
 /// The largest distance of v(out) from a closed form must stay below `allowed`, V.
@@ -57,7 +57,7 @@ std::complex<double> swing(const Points& p, int unknown, double f) {
     const double from = p.t.back() - 2 / f;
     for (std::size_t k = 1; k < p.t.size(); ++k) {
         if (p.t[k] < from) continue;
-        const double a = two_pi * f * p.t[k], w = p.t[k] - p.t[k - 1];
+        const double a = turn * f * p.t[k], w = p.t[k] - p.t[k - 1];
         const double row[count + 1] = {
             1, std::sin(a), std::cos(a), std::sin(2 * a), std::cos(2 * a), p.x[k][static_cast<std::size_t>(unknown)]};
         for (int i = 0; i < count; ++i)
@@ -108,7 +108,7 @@ RandomCircuit draw_sine_first_order(Dice& dice) {
     RandomCircuit out;
     double tau = 0;
     const auto parts = first_order(dice, tau);
-    const double f = dice.decades(0.1, 10) / (two_pi * tau), w = two_pi * f, x = w * tau, lag = std::atan(x);
+    const double f = dice.decades(0.1, 10) / (turn * tau), w = turn * f, x = w * tau, lag = std::atan(x);
     out.text = fmt::format("first order under a sine, tau {:.3g} s\nv1 in 0 sin(0 1 {:.12g})\n{}.tran {:.6g} {:.9g}\n", tau, f, parts,
                            0.001 / f, 5 / f);
     out.low = -1.01, out.high = 1.01;
@@ -123,7 +123,7 @@ RandomCircuit draw_tank(Dice& dice) {
     RandomCircuit out;
     out.text = fmt::format("tank, {:.3g} F and Q = {:.3g}\nl1 out 0 {:.9g}\nc1 out 0 {:.9g}\nr1 out 0 {:.9g}\n.ic v(out)=1\n", C, Q,
                            1 / (natural * natural * C), C, R) +
-               fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * two_pi / omega);
+               fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * turn / omega);
     out.low = -1.01, out.high = 1.01;
     out.judge =
         follows([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); }, 4 * most_off);
@@ -134,7 +134,7 @@ RandomCircuit draw_tank(Dice& dice) {
 RandomCircuit draw_gm_c(Dice& dice) {
     const double I = dice.decades(1e-15, 1e-3), k = std::max(1.0, std::round(I / 100e-9)),
                  C = dice.decades(std::max(1e-15, k * 1e-15), 1e-3);
-    const double corner = I / (2 * 0.033) / (two_pi * (C + k * 100e-15)), f = corner * dice.decades(0.1, 3);
+    const double corner = I / (2 * 0.033) / (turn * (C + k * 100e-15)), f = corner * dice.decades(0.1, 3);
     const double stop = std::ceil(f / corner) / f + 4 / f;
     RandomCircuit out;
     const auto p = [&](int stack) { return fmt::format(" pch w=6u l=0.5u m={:.0f} stack={}\n", 2 * k, stack); };

@@ -17,7 +17,7 @@ std::string latch(double d) {
         d);
 }
 
-struct Looked {
+struct LookedAt {
     std::unique_ptr<TestBench> bench = {};
     std::vector<RestState> states = {};
     long count(bool stable) const {
@@ -29,13 +29,13 @@ struct Looked {
         return at == states.end() ? nullptr : &*at;
     }
 };
-Looked looked(const std::string& text) {
-    Looked out;
+LookedAt looked(const std::string& text) {
+    LookedAt out;
     auto bench = TestBench::make(circuit_from(text));
-    if (!bench) return ADD_FAILURE() << bench.error().text(), Looked();
+    if (!bench) return ADD_FAILURE() << bench.error().text(), LookedAt();
     out.bench = std::move(*bench);
     auto states = rest_states(*out.bench);
-    if (!states) return ADD_FAILURE() << states.error().text(), Looked();
+    if (!states) return ADD_FAILURE() << states.error().text(), LookedAt();
     out.states = std::move(*states);
     return out;
 }

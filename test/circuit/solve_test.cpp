@@ -31,7 +31,7 @@ Netlist netlist_of(const std::string& text) {
     return std::move(*netlist);
 }
 
-std::unique_ptr<TestBench> bench_of(const std::string& text) {
+std::unique_ptr<TestBench> solve_bench(const std::string& text) {
     auto circuit = netlist_of(text).elaborate();
     EXPECT_TRUE(circuit) << circuit.error().text();
     auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
@@ -52,7 +52,7 @@ double found(const RunOutcome& outcome, const std::string& name) {
     return outcome.analyses[0].findings.plots[0].curve(name)->values[0].real();
 }
 
-std::string refusal(const std::string& text) {
+std::string solve_refusal(const std::string& text) {
     const auto outcome = run_text(text);
     EXPECT_FALSE(outcome) << text;
     return outcome ? "" : outcome.error().text();
@@ -62,17 +62,17 @@ TEST(Topology, WhatHasNoAnswerIsRefusedWithItsLineAndWhy) {
     const auto has = [](const std::string& said, std::initializer_list<const char*> words) {
         for (const char* w : words) EXPECT_NE(said.find(w), std::string::npos) << said << "\nlacks: " << w;
     };
-    has(refusal("t\nv1 a 0 1\nr1 a 0 1k\nc1 a b 1n\nc2 b 0 1n\n.op\n"), {"test.cir:4", "'b'", "no path to ground", "c1, c2"});
-    has(refusal("t\nv1 a 0 1\nr1 a 0 1k\ni1 0 b 1m\ni2 b 0 1m\n.op\n"), {"test.cir:4", "'b'", "current sources"});
-    has(refusal("t\nv1 a 0 1\nv2 a 0 2\nr1 a 0 1k\n.op\n"), {"test.cir:3", "v2", "v1", "loop"});
-    has(refusal("t\nv1 a 0 1\nl1 a 0 1m\nr1 a 0 1k\n.op\n"), {"test.cir:3", "l1", "loop"});
-    has(refusal("t\nr1 a b 1k\nr2 b a 1k\nv1 a b 1\n.op\n"), {"ground"});
-    has(refusal("t\nv1 a 0 1\nr1 a b 1k\nm1 b g 0 0 n\n.model n nmos(level=80)\n.op\n"), {"'g'", "no path to ground"});
-    has(refusal("t\nv1 a 0 1\nr1 a 0 1k\nm1 a a 0 0 n\n.model n nmos(level=1)\n.op\n"), {"test.cir:5", "level=80"});
-    has(refusal("t\nv1 a 0 1\nr1 a 0 1k\n"), {"no analysis", ".op"});
-    has(refusal("t\nv1 a 0 1\nr1 a 0 1k\n.dc vx 0 1 0.1\n"), {"test.cir:4", "vx"});
-    has(refusal("t\nv1 a 0 1\nr1 a 0 1k\n.dc v1 0 1 -0.1\n"), {"test.cir:4", "step"});
-    has(refusal("t\nv1 a 0 1\nd1 a 0 dx\n.model dx d(isx=1)\n.op\n"), {"test.cir:4", "isx"});
+    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\nc1 a b 1n\nc2 b 0 1n\n.op\n"), {"test.cir:4", "'b'", "no path to ground", "c1, c2"});
+    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\ni1 0 b 1m\ni2 b 0 1m\n.op\n"), {"test.cir:4", "'b'", "current sources"});
+    has(solve_refusal("t\nv1 a 0 1\nv2 a 0 2\nr1 a 0 1k\n.op\n"), {"test.cir:3", "v2", "v1", "loop"});
+    has(solve_refusal("t\nv1 a 0 1\nl1 a 0 1m\nr1 a 0 1k\n.op\n"), {"test.cir:3", "l1", "loop"});
+    has(solve_refusal("t\nr1 a b 1k\nr2 b a 1k\nv1 a b 1\n.op\n"), {"ground"});
+    has(solve_refusal("t\nv1 a 0 1\nr1 a b 1k\nm1 b g 0 0 n\n.model n nmos(level=80)\n.op\n"), {"'g'", "no path to ground"});
+    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\nm1 a a 0 0 n\n.model n nmos(level=1)\n.op\n"), {"test.cir:5", "level=80"});
+    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\n"), {"no analysis", ".op"});
+    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\n.dc vx 0 1 0.1\n"), {"test.cir:4", "vx"});
+    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\n.dc v1 0 1 -0.1\n"), {"test.cir:4", "step"});
+    has(solve_refusal("t\nv1 a 0 1\nd1 a 0 dx\n.model dx d(isx=1)\n.op\n"), {"test.cir:4", "isx"});
 }
 
 TEST(Topology, AMistypedNodeIsTold) {
@@ -206,7 +206,7 @@ std::string four_transistors(const std::array<std::string, 4>& more) {
 }
 
 TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
-    auto drawn = bench_of(four_transistors({}));
+    auto drawn = solve_bench(four_transistors({}));
     const auto& circuit = *drawn->circuit;
     for (std::uint64_t chip = 0; chip < 50; ++chip) {
         Draw draw{9, chip, true, {}};
@@ -223,7 +223,7 @@ TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
             const auto own = mismatch(card, size, 9, device, chip), all = process(card, model.type == "pmos", draw.process);
             more[device++] = fmt::format(" delvto={:.17g} mulu0={:.17g}", own.V_T + all.V_T, own.factor);
         }
-        const auto written = bench_of(four_transistors(more));
+        const auto written = solve_bench(four_transistors(more));
         const auto a = drawn->rest(), b = written->rest();
         ASSERT_TRUE(a && b);
         for (std::size_t n = 0; n < a->x.size(); ++n) EXPECT_NEAR(a->x[n], b->x[n], 1e-5 * std::abs(b->x[n])) << n;
@@ -236,7 +236,7 @@ TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
     std::vector<std::vector<double>> first;
     for (const auto set : instruction_sets()) {
         ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
-        auto bench = bench_of(four_transistors({}));
+        auto bench = solve_bench(four_transistors({}));
         for (std::uint64_t chip = 0; chip < 20; ++chip) {
             bench->draw({9, chip, true, {}});
             const auto rest = bench->rest();

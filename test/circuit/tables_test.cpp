@@ -24,14 +24,17 @@ int letters_of(const std::string& name) {
     return name.find(',') != std::string::npos ? 2 : 1;
 }
 
-double named(const Element& e, const char* name, double otherwise) {
+double named_value(const Element& e, const char* name, double otherwise) {
     const auto found = e.values.find(name);
     return found == e.values.end() ? otherwise : found->second;
 }
 
 /// m, n, W, L of an array, lengths in um.
 std::vector<std::pair<std::string, double>> size_of(const Element& e) {
-    return {{"m", named(e, "m", 1)}, {"n", named(e, "stack", 1)}, {"W", 1e6 * named(e, "w", 0)}, {"L", 1e6 * named(e, "l", 0)}};
+    return {{"m", named_value(e, "m", 1)},
+            {"n", named_value(e, "stack", 1)},
+            {"W", 1e6 * named_value(e, "w", 0)},
+            {"L", 1e6 * named_value(e, "l", 0)}};
 }
 
 /// Circuits as the tables size them; with a part's name only those that include it, its text as given.
@@ -88,7 +91,7 @@ struct Compared {
                                                   row.table, row.name, size[j].first, printed[j], stand.circuit, size[j].second, name));
     }
     double wanted_of(const Row& row, const std::string& local, const std::string& what, double printed) {
-        for (const auto& other : otherwise) {
+        for (const auto& other : built_otherwise) {
             if (std::string_view(other.table) != row.table || std::string_view(other.name) != row.name || what != other.what) continue;
             const auto devices = words(other.device);
             if (std::find(devices.begin(), devices.end(), local) == devices.end()) continue;
@@ -104,7 +107,7 @@ Values as_printed(double yes) { return {{"as_printed", yes}}; }
 TEST(Tables, SizeEveryArrayOfTheCircuitsButForTheErrata) {
     const Compared compared{Circuits(as_printed(1))};
     EXPECT_TRUE(compared.differences.empty()) << fmt::format("{}", fmt::join(compared.differences, "\n"));
-    for (const auto& other : otherwise)
+    for (const auto& other : built_otherwise)
         EXPECT_TRUE(compared.used.contains(&other))
             << "table " << other.table << " " << other.name << ": nothing is built otherwise by " << other.erratum;
 }
@@ -148,7 +151,7 @@ TEST(Tables, WidthsTellPFromN) {
 std::vector<std::string> changes(const Element& a, const Element& b) {
     std::vector<std::string> out;
     for (const auto& [name, value] : a.values)
-        if (named(b, name.c_str(), value) != value)
+        if (named_value(b, name.c_str(), value) != value)
             out.push_back(fmt::format("{} {} {:g} -> {:g}", a.name, name, value, b.values.at(name)));
     if (a.value != b.value) out.push_back(fmt::format("{} {:g} -> {:g}", a.name, a.value, b.value));
     if (a.waveform.dc != b.waveform.dc) out.push_back(fmt::format("{} dc {:g} -> {:g}", a.name, a.waveform.dc, b.waveform.dc));

@@ -1,20 +1,21 @@
 // Noise that thermodynamics knows before any netlist is solved: kT/C, 4kTg, 2qI.
 
 #include <fmt/format.h>
+#include <numbers>
 
 #include "netlist_runner.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, boltzmann = 1.380649e-23, charge = 1.602176634e-19;
+constexpr double boltzmann = 1.380649e-23, charge = 1.602176634e-19;
 double kelvin(double celsius) { return celsius + 273.15; }
 
 // 200 points a decade are integrated as powers of f between them, to 2e-5; five decades to either side of the corner leave out 1.3e-5.
 TEST(ThermalNoise, AResistorLeavesKTByCOnACapacitor) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-9}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}})
         for (const double celsius : {-55.0, 27.0, 125.0}) {
-            const double corner = 1 / (2 * pi * R * C);
+            const double corner = 1 / (2 * std::numbers::pi * R * C);
             const auto found = ran(fmt::format("kT/C\nv1 in 0 0\nr1 in out {}\nc1 out 0 {}\n.temp {}\n.noise v(out) v1 dec 200 {} {}\n", R,
                                                C, celsius, corner * 1e-5, corner * 1e5));
             EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(celsius) / C), 1, 5e-5) << R << " ohm";
@@ -46,7 +47,7 @@ TEST(ThermalNoise, ATransistorLeavesKTByCWithItsOwnCapacitances) {
                     const double sign = type[0] == 'p' ? -1 : 1;
                     const auto probe = ran(open_drain(type, sign * gate, 0, celsius, load, 1, 1e6));
                     const auto y = 1.0 / probe.complex("v(d)")[0];  // at 1 Hz
-                    const double C = y.imag() / (2 * pi), corner = y.real() / (2 * pi * C);
+                    const double C = y.imag() / (2 * std::numbers::pi), corner = y.real() / (2 * std::numbers::pi * C);
                     const auto found = ran(open_drain(type, sign * gate, 0, celsius, load, corner * 1e-5, corner * 1e5));
                     EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(celsius) / C), 1, 1e-4)
                         << type << " V_G " << gate << " at " << celsius << " C, " << C << " F, corner " << corner << " Hz";

@@ -69,12 +69,12 @@ public:
 };
 
 /// What a deck's comments ask.
-struct Asked {
+struct TransientAsked {
     double volts = 0, seconds = 0, level = 0;
     std::string spikes;
 };
-Asked asked_of(const std::string& deck) {
-    Asked out;
+TransientAsked asked_of(const std::string& deck) {
+    TransientAsked out;
     std::istringstream lines(deck);
     const auto number = [](std::istream& from) {
         std::string word;
@@ -109,7 +109,7 @@ RunOutcome native_run(const std::string& path) {
     return ours(Netlist::parse(text, path, [](const std::string& file) -> Result<std::string> { return read_file(file); }));
 }
 
-double furthest(const Wave& mine, const Wave& theirs, const Asked& asked, double& when) {
+double furthest(const Wave& mine, const Wave& theirs, const TransientAsked& asked, double& when) {
     double worst = 0;
     for (const auto* grid : {&mine.times(), &theirs.times()})
         for (const double t : *grid)
@@ -141,7 +141,7 @@ void hold_spikes(const std::string& name, const Wave& mine, const Wave& theirs, 
 }
 
 /// Every voltage that both give.
-void hold(const Plot& mine, const Plot& theirs, const Asked& asked) {
+void hold_waves(const Plot& mine, const Plot& theirs, const TransientAsked& asked) {
     std::printf("%zu points here, %zu there", mine.points(), theirs.points());
     int held = 0;
     for (const auto& curve : theirs.curves) {
@@ -173,7 +173,7 @@ TEST_P(TransientDeck, GoesAsInNgspice) {
     ASSERT_EQ(theirs.size(), 1U) << log;
     const auto mine = native_run(path).plots();
     ASSERT_EQ(mine.size(), 1U);
-    hold(mine[0], theirs[0], asked_of(read_file(path)));
+    hold_waves(mine[0], theirs[0], asked_of(read_file(path)));
 }
 
 class TransistorDeck : public testing::TestWithParam<std::string> {};
@@ -183,7 +183,7 @@ TEST_P(TransistorDeck, GoesHereByFormulasAsByOurOwnTransistors) {
     const auto mine = native_run(path).plots(), formulas = ours(path).plots();
     ASSERT_EQ(mine.size(), 1U);
     ASSERT_EQ(formulas.size(), 1U);
-    hold(mine[0], formulas[0], asked_of(read_file(path)));
+    hold_waves(mine[0], formulas[0], asked_of(read_file(path)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ngspice, TransientDeck, testing::ValuesIn(transient_decks()), [](const auto& one) { return one.param; });

@@ -8,7 +8,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19, n = 1.27, e = 2.71828182845904523536;
+constexpr double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19, n = 1.27, euler = 2.71828182845904523536;
 constexpr const char* exact = ".options gmin=0 reltol=1e-12 vntol=1e-14\n";
 
 TEST(WeakInversion, TheCurrentIsEquation42LeftByAQuarterOfTheInversionLevel) {
@@ -21,7 +21,7 @@ TEST(WeakInversion, TheCurrentIsEquation42LeftByAQuarterOfTheInversionLevel) {
                                  V_G, V_B) +
                      exact + ".op\n")
                      .number("i(vd)");
-            const double equation = 2 * e * I_S * std::exp((V_G + (n - 1) * V_B - V_T) / (n * v_t)), i_f = I / I_S;
+            const double equation = 2 * euler * I_S * std::exp((V_G + (n - 1) * V_B - V_T) / (n * v_t)), i_f = I / I_S;
             EXPECT_NEAR(I / equation, 1 - i_f / 4, 0.1 * i_f * i_f + 1e-10) << V_G << ", " << V_B;  // exp(-V_DS/phi_t) is 2e-12
         }
 }
@@ -86,8 +86,8 @@ struct Inverter {
 
 TEST(WeakInversion, AnInvertersCurrentIsEquation45) {
     const Inverter at({});
-    const double I_S = 112e-9 * 3 * 2 / 8, equation = 2 * e * I_S * std::exp((at.V_Q - 0.81) / (n * v_t));  // 45b with 2e^1, V_BN = 0
-    EXPECT_NEAR(at.I_Q / equation, 1 - at.I_Q / I_S / 4, 1e-5);                                             // exp(-V_Q/phi_t) is 1e-6
+    const double I_S = 112e-9 * 3 * 2 / 8, equation = 2 * euler * I_S * std::exp((at.V_Q - 0.81) / (n * v_t));  // 45b with 2e^1, V_BN = 0
+    EXPECT_NEAR(at.I_Q / equation, 1 - at.I_Q / I_S / 4, 1e-5);                                                 // exp(-V_Q/phi_t) is 1e-6
     EXPECT_LT(at.I_Q / I_S, 1e-3);
 }
 

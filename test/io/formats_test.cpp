@@ -13,8 +13,8 @@ namespace {
 
 using test::Folder;
 
-constexpr double rate = 500;
-const std::vector<std::vector<double>> force = [] {
+constexpr double sample_rate = 500;
+const std::vector<std::vector<double>> two_channels = [] {
     std::vector<std::vector<double>> f(2, std::vector<double>(5000));
     for (std::size_t k = 0; k < 5000; ++k) f[0][k] = static_cast<double>(k % 1000) / 1024, f[1][k] = f[0][k] / 2;
     return f;
@@ -22,15 +22,15 @@ const std::vector<std::vector<double>> force = [] {
 
 std::string interleaved() {
     std::string data;
-    for (std::size_t k = 0; k < force[0].size(); ++k)
-        for (const auto& c : force) data.append(reinterpret_cast<const char*>(&c[k]), sizeof(double));
+    for (std::size_t k = 0; k < two_channels[0].size(); ++k)
+        for (const auto& c : two_channels) data.append(reinterpret_cast<const char*>(&c[k]), sizeof(double));
     return data;
 }
 
 std::string text() {
     std::string out = "t_s,ch1_N,ch2_N\n";
-    for (std::size_t k = 0; k < force[0].size(); ++k)
-        out += fmt::format("{},{},{}\n", static_cast<double>(k) / rate, force[0][k], force[1][k]);
+    for (std::size_t k = 0; k < two_channels[0].size(); ++k)
+        out += fmt::format("{},{},{}\n", static_cast<double>(k) / sample_rate, two_channels[0][k], two_channels[1][k]);
     return out;
 }
 
@@ -50,7 +50,7 @@ const std::pair<std::string_view, void (*)(const Folder&, const std::string& nam
                            : kind == ".flac" ? SF_FORMAT_FLAC
                            : kind == ".au"   ? SF_FORMAT_AU
                                              : SF_FORMAT_AIFF;
-         test::write_sound(f / name, outer | (outer == SF_FORMAT_FLAC ? SF_FORMAT_PCM_16 : SF_FORMAT_FLOAT), 500, force);
+         test::write_sound(f / name, outer | (outer == SF_FORMAT_FLAC ? SF_FORMAT_PCM_16 : SF_FORMAT_FLOAT), 500, two_channels);
      }},
     {"hdf5",
      [](const Folder& f, const std::string& name) {
@@ -69,10 +69,10 @@ TEST(EveryFormat, GivesTheSameForce) {
             const std::string name = "x" + extension;
             if (format.name == "text" && extension != ".csv") continue;  // recording_test reads them in every style
             writer->second(folder, name);
-            const auto made = test::recording(folder / name, {.rate = rate, .scale = 1});
-            EXPECT_EQ(made.force, force) << name;
+            const auto made = test::recording(folder / name, {.rate = sample_rate, .scale = 1});
+            EXPECT_EQ(made.force, two_channels) << name;
             EXPECT_EQ(made.names, (std::vector<std::string>{"ch1", "ch2"})) << name;
-            EXPECT_EQ(made.clock.rate(), rate) << name;
+            EXPECT_EQ(made.clock.rate(), sample_rate) << name;
         }
     }
 }

@@ -13,14 +13,16 @@ namespace corpuscle {
 namespace {
 
 using test::Folder;
-using Rows = std::vector<std::vector<double>>;
+using LabRows = std::vector<std::vector<double>>;
 
-using Read = test::WholeRecording;
+using LabRead = test::WholeRecording;
 using test::try_recording;
 
-Read read(const std::string& path, const RecordingOptions& options, std::size_t block = 5) { return test::recording(path, options, block); }
+LabRead read_lab(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
+    return test::recording(path, options, block);
+}
 
-std::string said(const Folder& folder, const std::string& text, const RecordingOptions& options) {
+std::string lab_said(const Folder& folder, const std::string& text, const RecordingOptions& options) {
     return test::refusal(folder.write("x.csv", text), options);
 }
 
@@ -28,7 +30,7 @@ bool mentions(const std::vector<std::string>& sentences, const std::string& word
     return std::any_of(sentences.begin(), sentences.end(), [&](const auto& s) { return s.find(words) != std::string::npos; });
 }
 
-double finding(const Read& r, std::string_view name, std::uint32_t channel = 0) {
+double finding(const LabRead& r, std::string_view name, std::uint32_t channel = 0) {
     for (const auto& f : r.quality.findings)
         if (f.name == name && f.channel == channel) return f.value;
     return -1;
@@ -37,16 +39,16 @@ double finding(const Read& r, std::string_view name, std::uint32_t channel = 0) 
 TEST(BadFields, AreErrorsUnlessSaidOtherwise) {
     const Folder folder;
     const std::string text = "F_N\n1\n2\nNaN\n4\n";
-    EXPECT_EQ(said(folder, text, {.rate = 10}), "x.csv:4:1: column 'F': 'NaN' where a number should be");
-    EXPECT_EQ(read(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::interpolate}).force, (Rows{{1, 2, 3, 4}}));
-    EXPECT_EQ(read(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::drop}).force, (Rows{{1, 2, 4}}));
+    EXPECT_EQ(lab_said(folder, text, {.rate = 10}), "x.csv:4:1: column 'F': 'NaN' where a number should be");
+    EXPECT_EQ(read_lab(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::interpolate}).force, (LabRows{{1, 2, 3, 4}}));
+    EXPECT_EQ(read_lab(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2, 4}}));
 }
 
 TEST(BadFields, OneBadFieldDropsItsRowInEveryChannel) {
     const Folder folder;
     const auto path = folder.write("x.csv", "a_N,b_N\n1,2\n3,x\n5,6\n7\n9,10\n");
-    EXPECT_EQ(read(path, {.rate = 10, .bad_fields = BadFields::drop}).force, (Rows{{1, 5, 9}, {2, 6, 10}}));
-    EXPECT_EQ(read(path, {.rate = 10, .bad_fields = BadFields::interpolate}).force, (Rows{{1, 3, 5, 7, 9}, {2, 4, 6, 8, 10}}));
+    EXPECT_EQ(read_lab(path, {.rate = 10, .bad_fields = BadFields::drop}).force, (LabRows{{1, 5, 9}, {2, 6, 10}}));
+    EXPECT_EQ(read_lab(path, {.rate = 10, .bad_fields = BadFields::interpolate}).force, (LabRows{{1, 3, 5, 7, 9}, {2, 4, 6, 8, 10}}));
 }
 
 TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
@@ -61,23 +63,23 @@ TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
     const auto refused = try_recording(path, {.bad_fields = BadFields::drop});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().sentence.find("not evenly spaced"), std::string::npos);
-    EXPECT_EQ(read(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (Rows{right}));
+    EXPECT_EQ(read_lab(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (LabRows{right}));
 }
 
 TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
     const Folder folder;
     const auto path = folder.write("x.csv", "t_s,F_N\n0,0\n1,1\n?,2\n3,3\n4,4\n");
-    const auto r = read(path, {.bad_fields = BadFields::interpolate});
-    EXPECT_EQ(r.force, (Rows{{0, 1, 2, 3, 4}}));
+    const auto r = read_lab(path, {.bad_fields = BadFields::interpolate});
+    EXPECT_EQ(r.force, (LabRows{{0, 1, 2, 3, 4}}));
     EXPECT_EQ(r.clock.rate(), 1);
 }
 
 TEST(Range, ReadingsOutsideAreBadAndFilledInUnlessSaidOtherwise) {
     const Folder folder;
     const auto path = folder.write("x.csv", "F_N\n1\n999\n3\n4\n");
-    EXPECT_EQ(read(path, {.rate = 10, .range = std::pair{0.0, 10.0}}).force, (Rows{{1, 2, 3, 4}}));
-    EXPECT_EQ(read(path, {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::drop}).force, (Rows{{1, 3, 4}}));
-    EXPECT_EQ(said(folder, "F_N\n1\n999\n3\n", {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::error}),
+    EXPECT_EQ(read_lab(path, {.rate = 10, .range = std::pair{0.0, 10.0}}).force, (LabRows{{1, 2, 3, 4}}));
+    EXPECT_EQ(read_lab(path, {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::drop}).force, (LabRows{{1, 3, 4}}));
+    EXPECT_EQ(lab_said(folder, "F_N\n1\n999\n3\n", {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::error}),
               "x.csv:3: 'F': 999 is outside --range 0..10");
 }
 
@@ -86,7 +88,7 @@ TEST(Offset, IsTakenOffBeforeTheScaleAndTheSignBeforeBoth) {
     const auto path = folder.write("x.csv", "F\n-512\n-612\n512\n");
     RecordingOptions options{.rate = 10, .scale = 0.01, .absolute = true};
     options.offset = 512;
-    EXPECT_EQ(read(path, options).force, (Rows{{0, 1, 0}}));
+    EXPECT_EQ(read_lab(path, options).force, (LabRows{{0, 1, 0}}));
 }
 
 TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
@@ -101,13 +103,13 @@ TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
     options.despike = {{5.0}};
     options.notch = {50};
     options.lowpass = 30;
-    const auto whole = read(path, options, 100'000);
+    const auto whole = read_lab(path, options, 100'000);
     ASSERT_EQ(whole.force[0].size(), 3000U);
-    for (const std::size_t block : {1, 7, 4096}) EXPECT_EQ(read(path, options, block).force, whole.force);
+    for (const std::size_t block : {1, 7, 4096}) EXPECT_EQ(read_lab(path, options, block).force, whole.force);
     for (std::size_t k = 200; k < 3000; ++k) EXPECT_NEAR(whole.force[0][k], 2 + std::sin(0.05 * static_cast<double>(k)), 0.25);
     options.resample = 100;
-    const auto slower = read(path, options, 4096);
-    EXPECT_EQ(read(path, options, 3).force, slower.force);
+    const auto slower = read_lab(path, options, 4096);
+    EXPECT_EQ(read_lab(path, options, 3).force, slower.force);
     EXPECT_NEAR(slower.force[0][100], whole.force[0][250], 1e-9);
 }
 
@@ -115,7 +117,7 @@ TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
     const Folder folder;
     RecordingOptions options{.rate = 100};
     options.notch = {12};
-    EXPECT_EQ(said(folder, "F_N\n0\n-1.7e308\n1.7e308\n-1.7e308\n1.7e308\n", options),
+    EXPECT_EQ(lab_said(folder, "F_N\n0\n-1.7e308\n1.7e308\n-1.7e308\n1.7e308\n", options),
               "x.csv: 'F': sample 2 comes out as no finite number: a reading is too large for --scale or the filters");
 }
 
@@ -123,13 +125,13 @@ TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
     const Folder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N,total_N\n0,1,2,3\n1,1,2,3\n");
     const auto layout = folder.write("layout.csv", "# where they sit\nchannel,name,x_mm,y_mm\n2,heel,10,-20\na,toe,0.5,1\n");
-    const auto r = read(path, {.layout = layout});
+    const auto r = read_lab(path, {.layout = layout});
     ASSERT_EQ(r.channels.size(), 2U);
     EXPECT_EQ(r.channels[0].name, "heel");
-    EXPECT_EQ(r.force, (Rows{{2, 2}, {1, 1}}));
+    EXPECT_EQ(r.force, (LabRows{{2, 2}, {1, 1}}));
     EXPECT_DOUBLE_EQ(r.channels[0].position->x, 0.01);
     EXPECT_DOUBLE_EQ(r.channels[1].position->y, 0.001);
-    const auto one = read(path, {.channels = {"b"}, .layout = layout});
+    const auto one = read_lab(path, {.channels = {"b"}, .layout = layout});
     EXPECT_EQ(one.channels[0].name, "heel");
 }
 
@@ -163,14 +165,14 @@ TEST(Verdict, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
         full += fmt::format("{:.2f},{}\n", t, std::min(4095, k % 500 * 20));
     }
     const auto quality = [&](const std::string& text, const RecordingOptions& options = {}) {
-        return read(folder.write("x.csv", text), options, 500).quality;
+        return read_lab(folder.write("x.csv", text), options, 500).quality;
     };
     EXPECT_TRUE(quality(good).warnings.empty());
     EXPECT_TRUE(quality(good).sentences.empty());
     EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, where the models are fitted to 0.2 to 4 N"));
     EXPECT_TRUE(mentions(quality(negative).warnings, "a press is positive here"));
     EXPECT_TRUE(mentions(quality(weak).sentences, "no force reaches 0.2 N"));
-    EXPECT_NEAR(finding(read(folder.write("x.csv", good), {}), "below_0.2N"), 0.205, 0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
+    EXPECT_NEAR(finding(read_lab(folder.write("x.csv", good), {}), "below_0.2N"), 0.205, 0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
     EXPECT_TRUE(mentions(quality(full, {.scale = 1e-3}).warnings, "reads 4095, the highest a 12-bit converter can say"));
 }
 

@@ -144,7 +144,7 @@ void write_deflated(const std::string& path, const std::vector<Packed>& members)
     ASSERT_EQ(zip_close(z), 0);
 }
 
-std::string ramp(std::size_t count, double step = 1) {
+std::string ramp_of(std::size_t count, double step = 1) {
     std::string data;
     for (std::size_t k = 0; k < count; ++k) data += bytes_of(static_cast<double>(k) * step, false);
     return data;
@@ -152,10 +152,10 @@ std::string ramp(std::size_t count, double step = 1) {
 
 TEST(Npz, TheArrayIsChosenByNameAndRateOrTimesStandBesideIt) {
     const Folder folder;
-    const Packed force{"force_mN.npy", npy("'<f8'", "(9000, 2)", ramp(18000))},
-        turned{"turned.npy", npy("'<f8'", "(9000, 2)", ramp(18000), true)},
-        rate{"fs.npy", npy("'<i8'", "()", bytes_of(std::int64_t(250), false))}, times{"t.npy", npy("'<f8'", "(9000,)", ramp(9000, 0.01))},
-        words{"who.npy", npy("'<U1'", "(1,)", std::string(4, 'a'))};
+    const Packed force{"force_mN.npy", npy("'<f8'", "(9000, 2)", ramp_of(18000))},
+        turned{"turned.npy", npy("'<f8'", "(9000, 2)", ramp_of(18000), true)},
+        rate{"fs.npy", npy("'<i8'", "()", bytes_of(std::int64_t(250), false))},
+        times{"t.npy", npy("'<f8'", "(9000,)", ramp_of(9000, 0.01))}, words{"who.npy", npy("'<U1'", "(1,)", std::string(4, 'a'))};
     const auto path = folder / "x.npz";
     for (const bool deflated : {false, true}) {
         const auto write = [&](const std::vector<Packed>& members) {

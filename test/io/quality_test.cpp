@@ -11,12 +11,12 @@
 namespace corpuscle {
 namespace {
 
-constexpr double tau = 2 * std::numbers::pi;
+constexpr double turns = 2 * std::numbers::pi;
 
 std::vector<double> grip(int n, double rate, double hum, double noise) {
     std::vector<double> x;
     for (int k = 0; k < n; ++k)
-        x.push_back(2 + 1.5 * std::sin(tau * 0.8 * k / rate) + hum * std::sin(tau * 50 * k / rate + 1) +
+        x.push_back(2 + 1.5 * std::sin(turns * 0.8 * k / rate) + hum * std::sin(turns * 50 * k / rate + 1) +
                     noise * normal(1, 0, 0, static_cast<std::uint64_t>(k)));
     return x;
 }

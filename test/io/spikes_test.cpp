@@ -13,7 +13,9 @@ namespace {
 using test::Folder;
 using test::sure;
 
-std::vector<NamedTrain> read(const Folder& folder, const std::string& text) { return sure(read_spikes(folder.write("x.csv", text))); }
+std::vector<NamedTrain> read_trains(const Folder& folder, const std::string& text) {
+    return sure(read_spikes(folder.write("x.csv", text)));
+}
 
 std::string refused(const std::string& path) {
     const auto trains = read_spikes(path);
@@ -24,7 +26,8 @@ std::string refused(const std::string& path) {
 
 TEST(SpikeFiles, OursAreReadByAfferentAndChannel) {
     const Folder folder;
-    const auto trains = read(folder, "afferent,channel,time_s\nsa1,fz,0.5\nfa1,fz,0.25\nsa1,fz,0.125\nsa1,\"a \"\"b\"\", c\",1e-3\n");
+    const auto trains =
+        read_trains(folder, "afferent,channel,time_s\nsa1,fz,0.5\nfa1,fz,0.25\nsa1,fz,0.125\nsa1,\"a \"\"b\"\", c\",1e-3\n");
     ASSERT_EQ(trains.size(), 3U);
     EXPECT_EQ(trains[0].name(), "sa1,a \"b\", c");
     EXPECT_EQ(trains[1].name(), "fa1,fz");
@@ -33,12 +36,12 @@ TEST(SpikeFiles, OursAreReadByAfferentAndChannel) {
 
 TEST(SpikeFiles, OthersAreReadByUnitAndSecondsByTheirHeading) {
     const Folder folder;
-    const auto trains = read(folder, "# made elsewhere\ntime_s,unit\n1.5,10\n1.25,9\n");
+    const auto trains = read_trains(folder, "# made elsewhere\ntime_s,unit\n1.5,10\n1.25,9\n");
     ASSERT_EQ(trains.size(), 2U);
     EXPECT_EQ(trains[0].name(), "9") << "numbers by value: 9 before 10";
-    EXPECT_EQ(read(folder, "unit; t [ms]\nn1; 250\n")[0].times, std::vector<double>{0.25});
-    EXPECT_EQ(read(folder, "time\n0.5\n0.25\n")[0].times.size(), 2U) << "one train without a name";
-    EXPECT_TRUE(read(folder, "afferent,channel,time_s\n").empty()) << "all were silent";
+    EXPECT_EQ(read_trains(folder, "unit; t [ms]\nn1; 250\n")[0].times, std::vector<double>{0.25});
+    EXPECT_EQ(read_trains(folder, "time\n0.5\n0.25\n")[0].times.size(), 2U) << "one train without a name";
+    EXPECT_TRUE(read_trains(folder, "afferent,channel,time_s\n").empty()) << "all were silent";
 }
 
 TEST(SpikeFiles, WhatIsWrongIsNamedWithItsPlace) {
@@ -93,7 +96,7 @@ TEST(SpikeFiles, AnyNameWithoutALineBreakComesBackFromItsField) {
     EXPECT_TRUE(rc::check("written and read", [&] {
         const auto letters = rc::gen::container<std::string>(rc::gen::element('a', ',', '"', ' ', ';', '#', '\t', '=', '\xf6'));
         const auto afferent = *letters, channel = *letters;
-        const auto back = read(folder, "afferent,channel,time_s\n" + csv_field(afferent) + "," + csv_field(channel) + ",0.5\n");
+        const auto back = read_trains(folder, "afferent,channel,time_s\n" + csv_field(afferent) + "," + csv_field(channel) + ",0.5\n");
         RC_ASSERT(back.size() == 1U);
         RC_ASSERT(back[0].afferent == afferent);
         RC_ASSERT(back[0].channel == channel);

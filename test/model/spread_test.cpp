@@ -30,16 +30,16 @@ std::vector<double> values(const std::vector<AfferentPlan>& copies, std::string_
     return all;
 }
 
-double mean(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size()); }
+double mean_of(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size()); }
 
-double covariance(const std::vector<double>& x, const std::vector<double>& y) {
-    const double a = mean(x), b = mean(y);
+double covariance_of(const std::vector<double>& x, const std::vector<double>& y) {
+    const double a = mean_of(x), b = mean_of(y);
     double sum = 0;
     for (std::size_t k = 0; k < x.size(); ++k) sum += (x[k] - a) * (y[k] - b);
     return sum / static_cast<double>(x.size());
 }
 
-double deviation(const std::vector<double>& x) { return std::sqrt(covariance(x, x)); }
+double deviation(const std::vector<double>& x) { return std::sqrt(covariance_of(x, x)); }
 
 double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
 double above(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
@@ -52,7 +52,7 @@ TEST(Spread, IsNormalAboutTheValueByAShareOrByAnAmount) {
     for (const auto* said : {"sa1.f_B=10%", "sa1.f_B=2.5Hz"}) {
         const auto x = values(draw("sa1", {{"sa1.f_B=25Hz"}, {said}}), "f_B");
         const double n = static_cast<double>(x.size());
-        EXPECT_NEAR(mean(x), 25, 4 * 2.5 / std::sqrt(n)) << said;
+        EXPECT_NEAR(mean_of(x), 25, 4 * 2.5 / std::sqrt(n)) << said;
         EXPECT_NEAR(deviation(x), 2.5, 4 * 2.5 / std::sqrt(2 * n)) << said;
         for (const double z : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
             const auto more = static_cast<double>(std::count_if(x.begin(), x.end(), [&](double v) { return v > 25 + 2.5 * z; }));
@@ -64,10 +64,10 @@ TEST(Spread, IsNormalAboutTheValueByAShareOrByAnAmount) {
 TEST(Spread, IsANormalCutOffWhereTheRowOrAnOrderEndsIt) {
     // Below V_reset = 0.45 V no threshold can stand; below 0 A no leak.
     const auto V_th = values(draw("sa1", {{"sa1.V_reset=0.45V"}, {"sa1.V_th=100mV"}}), "V_th");
-    EXPECT_NEAR(mean(V_th), 0.5 + 0.1 * mean_above(-0.5), 4 * 0.1 * deviation_above(-0.5) / std::sqrt(1e5));
+    EXPECT_NEAR(mean_of(V_th), 0.5 + 0.1 * mean_above(-0.5), 4 * 0.1 * deviation_above(-0.5) / std::sqrt(1e5));
     EXPECT_GT(*std::min_element(V_th.begin(), V_th.end()), 0.45);
     const auto leak = values(draw("sa1", {{}, {"sa1.I_leak0=1uA"}}), "I_leak0");
-    EXPECT_NEAR(mean(leak), 0.5e-6 + 1e-6 * mean_above(-0.5), 4e-6 * deviation_above(-0.5) / std::sqrt(1e5));
+    EXPECT_NEAR(mean_of(leak), 0.5e-6 + 1e-6 * mean_above(-0.5), 4e-6 * deviation_above(-0.5) / std::sqrt(1e5));
     EXPECT_GE(*std::min_element(leak.begin(), leak.end()), 0);
 }
 
@@ -79,8 +79,8 @@ TEST(Spread, OfTwoParametersInAnOrderIsDrawnForBothTogether) {
     for (std::size_t k = 0; k < V_th.size(); ++k) apart.push_back(V_th[k] - V_reset[k]), sum.push_back(V_th[k] + V_reset[k]);
     const double sd = 0.25 * std::sqrt(2.0), z = -0.25 / sd, root = std::sqrt(1e5);
     EXPECT_GT(*std::min_element(apart.begin(), apart.end()), 0);
-    EXPECT_NEAR(mean(apart), 0.25 + sd * mean_above(z), 4 * sd * deviation_above(z) / root);
-    EXPECT_NEAR(mean(sum), 0.75, 4 * sd / root);
+    EXPECT_NEAR(mean_of(apart), 0.25 + sd * mean_above(z), 4 * sd * deviation_above(z) / root);
+    EXPECT_NEAR(mean_of(sum), 0.75, 4 * sd / root);
     EXPECT_NEAR(deviation(sum), sd, 4 * sd / root / std::sqrt(2.0));
 }
 
@@ -111,7 +111,7 @@ TEST(Spread, IsAnotherOneForEverySeedNumberAndName) {
         return x;
     }();
     for (const auto* other : {&f_C, &other_seed, &other_name, &next})
-        EXPECT_NEAR(covariance(f_B, *other) / deviation(f_B) / deviation(*other), 0, 4 / std::sqrt(1e5));
+        EXPECT_NEAR(covariance_of(f_B, *other) / deviation(f_B) / deviation(*other), 0, 4 / std::sqrt(1e5));
 }
 
 TEST(Spread, GivesCopiesWithNamesAndNumbersThatShareWhatTheyAreMadeOf) {

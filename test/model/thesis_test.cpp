@@ -12,7 +12,7 @@ namespace {
 
 using test::Asked, test::train;
 
-struct Case {
+struct ThesisCase {
     std::string afferent;
     double V_th, V_reset;
     std::vector<std::string> settings() const {
@@ -23,7 +23,7 @@ struct Case {
     }
 };
 
-const Case cases[] = {{"sa1", 0.5, 0.25}, {"fa1", 0.5, 0.25}, {"sa1", 1, 0.5}, {"fa1", 1, 0.5}, {"sa1", 0.2, 0}, {"fa1", 0.2, 0}};
+const ThesisCase cases[] = {{"sa1", 0.5, 0.25}, {"fa1", 0.5, 0.25}, {"sa1", 1, 0.5}, {"fa1", 1, 0.5}, {"sa1", 0.2, 0}, {"fa1", 0.2, 0}};
 
 /// The largest distance between spikes of the same number; infinite if there are not equally many.
 double worst(const std::vector<double>& a, const std::vector<double>& b) {
@@ -54,7 +54,7 @@ TEST(Thesis, PrintedClosedFormTimesAreMet) {
     near(train("fa1", "press", {.settings = cases[3].settings()}), {387.7107, 700.5009, 757.6866});
 }
 
-double slope(const Case& c, Method method) {
+double slope(const ThesisCase& c, Method method) {
     const auto right = c.exact();
     double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
     int n = 0;
@@ -75,7 +75,7 @@ TEST(Thesis, BackwardEulerConvergesWithTheStep) {
 }
 
 /// Algorithms 4 to 6, as the errata correct them, straight from the page.
-std::vector<double> algorithm(const Case& c, double T) {
+std::vector<double> algorithm(const ThesisCase& c, double T) {
     const auto F = test::force("press", {.rate = 1 / T});
     const bool sa1 = c.afferent == "sa1";
     const auto k2 = [T](double f) { return 1 / (1 + 2 * M_PI * f * T); };
@@ -113,7 +113,7 @@ TEST(Thesis, GoldenCasesAreMet) {
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path));
     for (const auto& g : golden["cases"]) {
-        const Case c{g["model"] == "SA-I" ? "sa1" : "fa1", g["lif"]["theta"], g["lif"]["u_rst"]};
+        const ThesisCase c{g["model"] == "SA-I" ? "sa1" : "fa1", g["lif"]["theta"], g["lif"]["u_rst"]};
         const auto right = g["spike_times"].get<std::vector<double>>();
         if (g["variant"] == "exact") {
             EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), right), 1e-6)

@@ -32,7 +32,7 @@ std::string all_of(const SweepResults& results) {
 
 std::string all_of(const std::string& path) { return all_of(sure(SweepResults::look(path))); }
 
-void run(const Sweep& sweep, const std::string& path, const SweepRun& how) {
+void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRun& how) {
     auto results = sure(SweepResults::open(path, sweep));
     SweepCount count;
     const auto ok = run_sweep(sweep, results, how, count);
@@ -43,7 +43,7 @@ void run(const Sweep& sweep, const std::string& path, const SweepRun& how) {
 TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
     const Folder folder;
     const PlainSweep sweep(1000);
-    run(sweep, folder / "r.sqlite", {.threads = 3});
+    run_sweep_of(sweep, folder / "r.sqlite", {.threads = 3});
     EXPECT_EQ(folder.names(), std::vector<std::string>{"r.sqlite"});
     const auto results = sure(SweepResults::look(folder / "r.sqlite"));
     EXPECT_EQ(results.units(), 1000);
@@ -116,7 +116,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
     const PlainSweep sweep(300, "x", pause);
     const SweepRun how{.threads = 2, .between_writes = soon};
     const auto begun = std::chrono::steady_clock::now();
-    run(sweep, folder / "whole.sqlite", how);
+    run_sweep_of(sweep, folder / "whole.sqlite", how);
     const std::chrono::duration<double> length = std::chrono::steady_clock::now() - begun;
     const auto whole = all_of(folder / "whole.sqlite");
     std::mt19937 random(1);
@@ -124,7 +124,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
     const auto path = folder / "r.sqlite";
     int between = 0;
     for (int k = 0; k < 50; ++k) {
-        const auto id = child([&] { run(sweep, path, how); });
+        const auto id = child([&] { run_sweep_of(sweep, path, how); });
         std::this_thread::sleep_for(moment(random) * length);
         ::kill(id, SIGKILL);
         end_of(id);
@@ -147,7 +147,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
         }
         between += rows > 0 && rows < 300;
         if (k % 3 == 0) continue;  // the next one goes on
-        run(sweep, path, {.threads = 2});
+        run_sweep_of(sweep, path, {.threads = 2});
         EXPECT_EQ(all_of(path), whole) << "killed after " << rows << " rows";
         EXPECT_FALSE(fs::exists(path + "-wal"));
         fs::remove(path);
@@ -158,10 +158,10 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
 TEST(SweepResults, CopiesTakenAtAnyMomentAreWhole) {
     const Folder folder;
     const PlainSweep sweep(800, "x", pause);
-    run(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
+    run_sweep_of(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
     const auto whole = all_of(folder / "whole.sqlite");
     const auto path = folder / "r.sqlite";
-    const auto id = child([&] { run(sweep, path, {.threads = 1, .between_writes = soon}); });
+    const auto id = child([&] { run_sweep_of(sweep, path, {.threads = 1, .between_writes = soon}); });
     while (!fs::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::mt19937 random(2);
     std::vector<std::pair<std::string, bool>> copies;
@@ -223,15 +223,15 @@ TEST(SweepResults, OnAFullDiskKeepWhatWasWrittenAndSayWhatToDo) {
     ASSERT_EQ(end_of(id), 0);
     EXPECT_GT(sure(SweepResults::look(path)).finished(), 0);
     EXPECT_FALSE(fs::exists(path + "-fold"));
-    run(sweep, path, {});
-    run(sweep, folder / "whole.sqlite", {.threads = 1});
+    run_sweep_of(sweep, path, {});
+    run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
     EXPECT_EQ(all_of(path), all_of(folder / "whole.sqlite"));
 }
 
 TEST(SweepResults, InAFolderThatCannotBeWrittenAreReadAndNotBegun) {
     const Folder folder;
     const PlainSweep sweep(50);
-    run(sweep, folder / "r.sqlite", {});
+    run_sweep_of(sweep, folder / "r.sqlite", {});
     fs::permissions(folder.path(), fs::perms(0555));
     const auto id = child([&] {
         if (::geteuid() == 0 && ::seteuid(65534) != 0) throw std::runtime_error("root writes everywhere");
@@ -254,7 +254,7 @@ std::string refusal(const std::string& path, const Sweep& sweep) {
 TEST(SweepResults, RefuseTheFileOfAnotherSweepAndSayWhatHasChanged) {
     const Folder folder;
     const auto path = folder / "r.sqlite";
-    run(PlainSweep(20), path, {});
+    run_sweep_of(PlainSweep(20), path, {});
     EXPECT_EQ(refusal(path, PlainSweep(20)), "");
     EXPECT_EQ(refusal(path, PlainSweep(20, "a\nB\nc\n")),
               path +
@@ -271,7 +271,7 @@ TEST(SweepResults, RefuseWhatIsNoSuchFile) {
     EXPECT_NE(refusal(folder.write("text", std::string(5000, 'x')), PlainSweep(2)).find("is no SQLite file"), std::string::npos);
     EXPECT_NE(refusal(folder.write("empty", ""), PlainSweep(2)).find("holds no results of a sweep"), std::string::npos);
     EXPECT_NE(SweepResults::look(folder / "none").error().text().find("is not there"), std::string::npos);
-    run(PlainSweep(2), folder / "r.sqlite", {});
+    run_sweep_of(PlainSweep(2), folder / "r.sqlite", {});
     const int file = ::open((folder / "r.sqlite").c_str(), O_RDWR);
     ASSERT_EQ(::pwrite(file, "\0\0\0\7", 4, 60), 4) << "SQLite's user version";
     ::close(file);
@@ -307,17 +307,17 @@ struct Changed : PlainSweep {
 TEST(SweepResults, ShardsMergeIntoTheWholeAndNothingIsCountedTwice) {
     const Folder folder;
     const PlainSweep sweep(1001);
-    run(sweep, folder / "whole.sqlite", {.threads = 1});
-    for (std::int64_t k = 0; k < 3; ++k) run(sweep, folder / fmt::format("{}", k), {.threads = 2, .shard = {k, 3}});
+    run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
+    for (std::int64_t k = 0; k < 3; ++k) run_sweep_of(sweep, folder / fmt::format("{}", k), {.threads = 2, .shard = {k, 3}});
     auto all = sure(SweepResults::open(folder / "all.sqlite", sweep));
     for (const auto& [shard, rows] : {std::pair{"2", 333}, {"0", 334}, {"2", 0}, {"1", 334}})
         EXPECT_EQ(sure(all.take(sure(SweepResults::look(folder / shard)))), rows);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
-    run(Changed(1001), folder / "changed", {.shard = {1, 3}});
+    run_sweep_of(Changed(1001), folder / "changed", {.shard = {1, 3}});
     const auto taken = all.take(sure(SweepResults::look(folder / "changed")));
     ASSERT_FALSE(taken);
     EXPECT_NE(taken.error().text().find("changed: of unit 7 it has other results than"), std::string::npos) << taken.error().text();
-    run(PlainSweep(1001, "other"), folder / "other", {});
+    run_sweep_of(PlainSweep(1001, "other"), folder / "other", {});
     EXPECT_NE(all.take(sure(SweepResults::look(folder / "other"))).error().text().find("is of another sweep than"), std::string::npos);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
 }

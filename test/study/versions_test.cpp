@@ -41,12 +41,13 @@ TEST(Versions, TheReceptorItselfComesFirstThenModelsThenNetlists) {
     EXPECT_EQ(all[1].members, std::vector<std::size_t>{2});
 }
 
-struct Ran {
+struct VersionsRan {
     Summary summary;
     std::string document;
 };
 
-Ran run(const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block, std::uint32_t copies = 0) {
+VersionsRan run_versions(const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block,
+                         std::uint32_t copies = 0) {
     std::vector<std::unique_ptr<Source>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(sure(make_stimulus(s, {}, 2e3, 9)));
@@ -54,7 +55,7 @@ Ran run(const std::vector<std::string>& stimuli, const std::vector<std::string>&
     std::vector<AfferentPlan> standing;
     for (const auto& p : plans)
         for (auto& copy : copies ? sure(copies_of(p, copies, {}, 1)) : std::vector{p}) standing.push_back(std::move(copy));
-    Ran ran;
+    VersionsRan ran;
     Listener* listeners[] = {&ran.summary};
     RespondOptions options;
     options.block = block;
@@ -64,7 +65,7 @@ Ran run(const std::vector<std::string>& stimuli, const std::vector<std::string>&
 }
 
 TEST(Comparisons, CountByPhaseAndMeasureAsCompareDoes) {
-    const auto ran = run({"press"}, {"sa1-kim", "fa1", "sa1"}, 333);
+    const auto ran = run_versions({"press"}, {"sa1-kim", "fa1", "sa1"}, 333);
     ASSERT_EQ(ran.summary.comparisons().rows().size(), 1u) << "fa1 has one version";
     const auto& row = ran.summary.comparisons().rows()[0];
     EXPECT_EQ(row.reference + " " + row.afferent + " " + row.channel, "sa1 sa1-kim press");
@@ -93,11 +94,11 @@ TEST(Comparisons, CountByPhaseAndMeasureAsCompareDoes) {
 }
 
 TEST(Comparisons, AShiftIsPositiveWhereTheVersionIsLater) {
-    const auto row = run({"press"}, {"sa1", "SA1"}, 4096).summary.comparisons().rows().at(0);
+    const auto row = run_versions({"press"}, {"sa1", "SA1"}, 4096).summary.comparisons().rows().at(0);
     EXPECT_EQ(row.matched, row.all.spikes);
     EXPECT_EQ(row.median_shift, 0);
     EXPECT_EQ(row.victor_purpura + row.van_rossum, 0);
-    const auto kim = run({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons().rows().at(0);
+    const auto kim = run_versions({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons().rows().at(0);
     const auto model = test::train("sa1", "press", {.rate = 2e3}), late = test::train("sa1-kim", "press", {.rate = 2e3});
     ASSERT_LT(late[0], model[0]) << "else this proves nothing";
     EXPECT_LT(kim.median_shift, 0);
@@ -105,8 +106,8 @@ TEST(Comparisons, AShiftIsPositiveWhereTheVersionIsLater) {
 
 TEST(Comparisons, DoNotDependOnTheBlockAndGoInputByInput) {
     const std::vector<std::string> stimuli = {"press", "noise"}, names = {"sa1", "sa1-kim", "fa1-lee", "fa1"};
-    const auto whole = run(stimuli, names, 1 << 20);
-    EXPECT_EQ(whole.document, run(stimuli, names, 77).document);
+    const auto whole = run_versions(stimuli, names, 1 << 20);
+    EXPECT_EQ(whole.document, run_versions(stimuli, names, 77).document);
     const auto pairs = nlohmann::json::parse(whole.document)["comparisons"]["pairs"];
     ASSERT_EQ(pairs.size(), 4u);
     EXPECT_EQ(pairs[1]["afferent"], "fa1-lee");
@@ -118,15 +119,15 @@ TEST(Comparisons, DoNotDependOnTheBlockAndGoInputByInput) {
 }
 
 TEST(Comparisons, LeaveOutCopiesAndWhoIsAlone) {
-    EXPECT_TRUE(run({"press"}, {"sa1", "fa1"}, 4096).summary.comparisons().rows().empty());
-    const auto copies = run({"press"}, {"sa1", "sa1-kim"}, 4096, 3);
+    EXPECT_TRUE(run_versions({"press"}, {"sa1", "fa1"}, 4096).summary.comparisons().rows().empty());
+    const auto copies = run_versions({"press"}, {"sa1", "sa1-kim"}, 4096, 3);
     EXPECT_TRUE(copies.summary.comparisons().rows().empty());
     EXPECT_FALSE(nlohmann::json::parse(copies.document).contains("comparisons"));
 }
 
 /// The chips of the thesis under its press: counts within a quarter of the models'.
 TEST(Comparisons, ChipsFireAsTheirModelsDo) {
-    const auto ran = run({"press"}, {"sa1", "fa1", test::root() + "/circuits/sa1.cir", test::root() + "/circuits/fa1.cir"}, 4096);
+    const auto ran = run_versions({"press"}, {"sa1", "fa1", test::root() + "/circuits/sa1.cir", test::root() + "/circuits/fa1.cir"}, 4096);
     ASSERT_EQ(ran.summary.comparisons().rows().size(), 2u);
     for (const auto& row : ran.summary.comparisons().rows()) {
         EXPECT_LE(std::abs(row.all.excess()), 0.25) << row.afferent;

@@ -31,8 +31,8 @@ std::vector<Row> contact_rows();
 /// fingertip). A touch is a force, an indenter and a path.
 struct NamedTouch {
     std::string_view name, force, indenter, sentence;
-    std::vector<Setting> settings;       ///< of the contact, where they differ from the rows'
-    std::vector<Setting> of_force = {};  ///< of the force, likewise
+    std::vector<Setting> settings;             ///< of the contact, where they differ from the rows'
+    std::vector<Setting> force_settings = {};  ///< of the force
 };
 std::span<const NamedTouch> named_touches();
 

@@ -1,0 +1,56 @@
+#include "skin/contact/cells.hpp"
+
+#include <cmath>
+
+#include "signal/number.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double lone_side = 2e-3;  // m, of a site that has no neighbour; choice
+
+/// How far sites commonly are apart: the median of the distances to the nearest other.
+double common_distance(const Sites& sites, const NearSites& near) {
+    std::vector<double> distances;
+    for (std::uint32_t s = 0; s < sites.size(); ++s) {
+        double best = 0;
+        for (double reach = near.cell(); best == 0 && reach < 100; reach *= 2)
+            near.within(sites.at[s].x, sites.at[s].y, reach, [&](std::uint32_t, double d2) {
+                if (d2 > 0 && (best == 0 || d2 < best)) best = d2;
+            });
+        if (best > 0) distances.push_back(num::sqrt(best));
+    }
+    if (distances.empty()) return lone_side;
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    return *middle;
+}
+
+}  // namespace
+
+SkinCells::SkinCells(const Sites& sites) : sites_(sites), near_(std::make_unique<NearSites>(sites.at)) {
+    side_ = sites.area > 0 ? num::sqrt(sites.area) : common_distance(sites, *near_);
+    if (!lay_out()) lattice_.clear();
+}
+
+bool SkinCells::lay_out() {
+    constexpr double most_cells = 1 << 24, off = 1e-3;  // off: of a side, that a site may be from its cell's middle
+    double left = sites_.at[0].x, low = sites_.at[0].y, right = left, high = low;
+    for (const auto& p : sites_.at)
+        left = std::min(left, p.x), low = std::min(low, p.y), right = std::max(right, p.x), high = std::max(high, p.y);
+    const double columns = std::round((right - left) / side_) + 1, rows = std::round((high - low) / side_) + 1;
+    if (!(columns * rows <= most_cells)) return false;
+    columns_ = static_cast<std::size_t>(columns), rows_ = static_cast<std::size_t>(rows);
+    left_ = left - 0.5 * side_, low_ = low - 0.5 * side_;
+    lattice_.assign(columns_ * rows_, no_site);
+    for (std::uint32_t s = 0; s < sites_.size(); ++s) {
+        const double c = (sites_.at[s].x - left) / side_, r = (sites_.at[s].y - low) / side_;
+        if (std::abs(c - std::round(c)) > off || std::abs(r - std::round(r)) > off) return false;
+        auto& cell = lattice_[static_cast<std::size_t>(std::round(c)) * rows_ + static_cast<std::size_t>(std::round(r))];
+        if (cell != no_site) return false;
+        cell = s;
+    }
+    return true;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,71 @@
+#pragma once
+// Sites as the squares of skin that they stand for, looked up by where a contact is.
+
+#include <memory>
+
+#include "skin/near.hpp"
+
+namespace corpuscle {
+
+/// Where sites stand on a lattice their cells tile the skin, and cells without a site are known to be none of it. Where they do not, each
+/// is a square about itself, as wide as sites commonly are apart.
+class SkinCells {
+public:
+    explicit SkinCells(const Sites&);
+
+    double side() const { return side_; }  ///< m
+    bool tile() const { return !lattice_.empty(); }
+
+    /// Columns of cells about (x, y) within half a box: calls f(x0, y edges from below, sites of the cells between them; no_site: none).
+    template <class F>
+    void columns(double x, double y, double half_width, double half_height, F&& f);
+
+    static constexpr std::uint32_t no_site = UINT32_MAX;
+
+private:
+    double side_, left_ = 0, low_ = 0;  // of the lattice's lower left corner
+    std::size_t columns_ = 0, rows_ = 0;
+    std::vector<std::uint32_t> lattice_;  // [column][row]
+    const Sites& sites_;
+    std::unique_ptr<NearSites> near_;
+    std::vector<double> edges_;
+    std::vector<std::uint32_t> none_, found_;
+
+    bool lay_out();
+};
+
+template <class F>
+void SkinCells::columns(double x, double y, double half_width, double half_height, F&& f) {
+    if (!tile()) {
+        found_.clear();
+        const double reach = (half_width > half_height ? half_width : half_height) * 1.4142135623730951 + side_;
+        near_->within(x, y, reach, [&](std::uint32_t site, double) { found_.push_back(site); });
+        std::sort(found_.begin(), found_.end());
+        edges_.resize(2);
+        for (const auto site : found_) {
+            const auto& at = sites_.at[site];
+            edges_[0] = at.y - 0.5 * side_, edges_[1] = at.y + 0.5 * side_;
+            f(at.x - 0.5 * side_, std::span<const double>(edges_), std::span<const std::uint32_t>(&site, 1));
+        }
+        return;
+    }
+    constexpr double most = 1e6;  // cells that a contact may be away from the skin, or wide
+    const auto cell = [&](double at, double from) {
+        return static_cast<std::int64_t>(std::max(-most, std::min(most, std::floor((at - from) / side_))));
+    };
+    const auto low = cell(y - half_height, low_), high = cell(y + half_height, low_);
+    const auto count = static_cast<std::size_t>(high - low + 1);
+    edges_.resize(count + 1), none_.resize(count);
+    for (std::size_t k = 0; k <= count; ++k) edges_[k] = low_ + static_cast<double>(low + static_cast<std::int64_t>(k)) * side_;
+    for (auto c = cell(x - half_width, left_), last = cell(x + half_width, left_); c <= last; ++c) {
+        const bool on = c >= 0 && c < static_cast<std::int64_t>(columns_);
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto r = low + static_cast<std::int64_t>(k);
+            const bool there = on && r >= 0 && r < static_cast<std::int64_t>(rows_);
+            none_[k] = there ? lattice_[static_cast<std::size_t>(c) * rows_ + static_cast<std::size_t>(r)] : no_site;
+        }
+        f(left_ + static_cast<double>(c) * side_, std::span<const double>(edges_), std::span<const std::uint32_t>(none_));
+    }
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,195 @@
+#include "skin/contact/contact.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "signal/quantity.hpp"
+#include "skin/contact/cells.hpp"
+#include "skin/contact/path.hpp"
+#include "skin/contact/pressure.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// A part of the force at one site.
+struct SitePart {
+    std::uint32_t site;
+    double part;
+};
+
+std::string in_mm(double x, double y) { return fmt::format("({:.4g}, {:.4g}) mm", x * 1e3, y * 1e3); }
+
+class Pressing final : public Contact {
+    const Indenter& indenter_;
+    ContactParams p_;
+    Clock clock_;
+    const std::size_t sites_;
+    SkinCells cells_;
+    ContactPath path_;
+    std::unique_ptr<Pressure> pressure_;
+
+    // What the last sample's contact was; one that stands under a force that stays costs nothing.
+    Position last_;
+    double last_size_ = -1, last_shift_ = 0;
+    std::vector<SitePart> parts_;
+    double on_skin_ = 0;  // part of the force
+    std::vector<double> column_;
+
+    // The block.
+    std::size_t stride_ = 0;
+    std::vector<double> force_;
+    std::vector<char> in_block_;
+    std::vector<std::uint32_t> touched_;
+
+    // What there is to say of it all; N summed over samples.
+    double pressed_ = 0, off_skin_ = 0, largest_ = 0;
+    std::int64_t lifted_ = 0;
+
+    /// The parts of all sites under a contact of a size at a place.
+    void share_out(const Position& at, double size, double shift) {
+        if (size == last_size_ && shift == last_shift_ && at.x == last_.x && at.y == last_.y) return;
+        last_ = at, last_size_ = size, last_shift_ = shift;
+        parts_.clear();
+        double all = 0, on = 0;
+        const auto half = pressure_->box(size);
+        cells_.columns(at.x, at.y, half.width, half.height,
+                       [&](double x0, std::span<const double> edges, std::span<const std::uint32_t> sites) {
+                           if (column_.size() < edges.size() * 2) column_.resize(edges.size() * 2);
+                           double* y = column_.data() + edges.size();
+                           for (std::size_t k = 0; k < edges.size(); ++k) y[k] = edges[k] - at.y;
+                           pressure_->column(size, shift, x0 - at.x, cells_.side(), {y, edges.size()}, column_.data());
+                           for (std::size_t k = 0; k < sites.size(); ++k) {
+                               all += column_[k];
+                               if (!(column_[k] > 0) || sites[k] == SkinCells::no_site) continue;
+                               on += column_[k], parts_.push_back({sites[k], column_[k]});
+                           }
+                       });
+        on_skin_ = all > 0 ? on / all : 0;
+        for (auto& s : parts_) s.part /= all;
+    }
+
+    void touch(std::uint32_t site, std::size_t steps) {
+        if (in_block_[site]) return;
+        in_block_[site] = 1;
+        touched_.push_back(site);
+        std::fill_n(force_.begin() + static_cast<std::ptrdiff_t>(site * stride_), steps, 0.0);
+    }
+
+    /// Refuses a contact that is out of all proportion to the skin's cells.
+    Result<void> check(double size, double force) const {
+        constexpr double most = 1e6;  // cells
+        const auto half = pressure_->box(size);
+        if (half.width * half.height * 4 <= most * cells_.side() * cells_.side()) return {};
+        return bad_input(fmt::format("contact: under {} it is {} by {} wide, more than a million cells of {} of this skin",
+                                     format_quantity(force, "N"), format_quantity(2 * half.width, "m"),
+                                     format_quantity(2 * half.height, "m"), format_quantity(cells_.side(), "m")));
+    }
+
+    Result<void> press_once(double force, std::int64_t sample, std::size_t k, std::size_t steps) {
+        if (!(force > 0)) {
+            lifted_ += force < 0;
+            return {};
+        }
+        const double t = clock_.time(sample), size = pressure_->size(force);
+        if (auto ok = check(size, force); !ok) return ok;
+        share_out(path_.at(t), size, path_.passed(t));
+        pressed_ += force, off_skin_ += force * (1 - on_skin_), largest_ = std::max(largest_, size);
+        for (const auto& s : parts_) {
+            touch(s.site, steps);
+            force_[s.site * stride_ + k] = force * s.part;
+        }
+        return {};
+    }
+
+public:
+    Pressing(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock)
+        : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), path_(p),
+          pressure_(make_pressure(indenter, p, cells_.side())), in_block_(sites.size(), 0) {}
+
+    std::string sentence() const override {
+        const auto length = [](double m) { return format_quantity(m, "m"); };
+        std::string what = indenter_.name == "sphere" ? fmt::format("a sphere of {}", length(p_.radius))
+                           : indenter_.name == "flat" ? fmt::format("a flat punch of {}", length(p_.radius))
+                           : indenter_.name == "edge" ? fmt::format("an edge {} long", length(p_.length))
+                                                      : fmt::format("a grating with a ridge every {}", length(p_.period));
+        if (!moves(p_) && p_.speed > 0) what += fmt::format(" that passes at {}", format_quantity(p_.speed, "m/s"));
+        if (!moves(p_)) return what + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
+        return what +
+               fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(path_.seconds(), "s"));
+    }
+
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> out;
+        for (const auto& f : contact_fields)
+            if (std::find(indenter_.measures.begin(), indenter_.measures.end(), f.name) != indenter_.measures.end() || f.name == "x" ||
+                f.name == "y" || p_.*f.at != ContactParams{}.*f.at)
+                out.push_back({fmt::format("contact.{}", f.name), p_.*f.at, std::string(f.unit)});
+        return out;
+    }
+
+    std::vector<std::string> remarks() const override {
+        std::vector<std::string> out = {
+            "the contact is that of a rigid indenter on flat, elastic, frictionless skin without end: nothing of viscoelasticity, shear "
+            "and slip, "
+            "strain below the surface, the finger's curvature and its edges"};
+        if (!cells_.tile())
+            out.push_back(
+                fmt::format("the sites stand on no lattice: each was taken as a square of {}, and together they have all of the force",
+                            format_quantity(cells_.side(), "m")));
+        if (pressed_ > 0 && off_skin_ > 1e-9 * pressed_)
+            out.push_back(fmt::format("{:.3g} % of the force, over time, was off the skin and felt by nobody", 100 * off_skin_ / pressed_));
+        if (indenter_.name == "sphere" && largest_ > 0.5 * p_.radius)
+            out.push_back(fmt::format("the contact's radius came to {}, more than half of the sphere's: Hertz's theory is for small ones",
+                                      format_quantity(largest_, "m")));
+        if (lifted_ > 0) out.push_back(fmt::format("{} samples of force below 0 N pressed nothing", lifted_));
+        return out;
+    }
+
+    Result<SiteForce> press(std::span<const double> force, std::int64_t first) override {
+        for (const auto site : touched_) in_block_[site] = 0;
+        touched_.clear();
+        if (force.size() > stride_) {
+            stride_ = force.size();
+            force_.assign(sites_ * stride_, 0.0);
+        }
+        for (std::size_t k = 0; k < force.size(); ++k) {
+            if (!std::isfinite(force[k]))
+                return bad_input(
+                    fmt::format("the force of sample {} is {}, not a finite number", first + static_cast<std::int64_t>(k), force[k]));
+            if (auto ok = press_once(force[k], first + static_cast<std::int64_t>(k), k, force.size()); !ok) return ok.error();
+        }
+        std::sort(touched_.begin(), touched_.end());
+        return SiteForce{force_.data(), stride_, touched_, false};
+    }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Contact>> make_contact(std::string_view name, std::span<const Wish> wishes, const Sites& sites, const Clock& clock) {
+    const auto indenter = indenter_named(name);
+    if (!indenter) return indenter.error();
+    const auto params = contact_params(**indenter, wishes, sites);
+    if (!params) return params.error();
+    return std::unique_ptr<Contact>(std::make_unique<Pressing>(**indenter, *params, sites, clock));
+}
+
+std::span<const NamedTouch> named_touches() {
+    static const std::vector<NamedTouch> all = {
+        {"stroke",
+         "ramp-hold",
+         "sphere",
+         "1 N of a fingertip moved from the palm to the tip of the index finger of 'hand' in 10 s",
+         {{"radius", 10e-3}, {"x", 29.6e-3}, {"y", 52.6e-3}, {"x1", 47.2e-3}, {"y1", 177.4e-3}, {"t_move", 10}},
+         {{"F_max", 1}, {"t_rest", 0}, {"t_up", 0.1}, {"t_hold", 9.8}, {"t_down", 0.1}, {"t_post", 0}}},
+        {"scan",
+         "ramp-hold",
+         "grating",
+         "a grating, a ridge every 2 mm, that passes over a patch of skin ('fingertip') at 40 mm/s under 1 N for 2 s",
+         {{"radius", 5e-3}, {"period", 2e-3}, {"ridge", 1e-3}, {"speed", 40e-3}},
+         {{"F_max", 1}, {"t_rest", 0.1}, {"t_up", 0.1}, {"t_hold", 2}, {"t_down", 0.1}, {"t_post", 0.2}}},
+    };
+    return all;
+}
+
+}  // namespace corpuscle

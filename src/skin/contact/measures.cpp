@@ -1,0 +1,77 @@
+#include "skin/contact/measures.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "signal/number.hpp"
+#include "skin/contact/contact.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::string_view path_measures[] = {"x", "y", "x1", "y1", "t_start", "t_move", "speed"};
+
+bool has_measure(const Indenter& i, std::string_view name) {
+    return std::find(i.measures.begin(), i.measures.end(), name) != i.measures.end() ||
+           std::find(std::begin(path_measures), std::end(path_measures), name) != std::end(path_measures);
+}
+
+/// The middle of a region: of its sites, the mean.
+Position middle_of_first(const Sites& sites) {
+    Position sum;
+    double n = 0;
+    for (std::size_t s = 0; s < sites.size(); ++s)
+        if (sites.region[s] == 0) sum.x += sites.at[s].x, sum.y += sites.at[s].y, n += 1;
+    return n > 0 ? Position{sum.x / n, sum.y / n, 0} : sites.at[0];
+}
+
+/// What cannot be said together.
+std::optional<Error> contact_refusal(const Indenter& i, const ContactParams& p) {
+    if (i.name == "grating" && p.ridge > p.period)
+        return bad_input(fmt::format("contact: ridge = {:g} m must not be wider than period = {:g} m", p.ridge, p.period));
+    if (p.t_move > 0 && p.speed > 0) return bad_input("contact: t_move and speed say the same twice; give one of them");
+    if (moves(p) && p.t_move == 0 && p.speed == 0)
+        return bad_input("contact: how fast is it moved to x1, y1? Give contact.t_move or contact.speed");
+    if (!moves(p) && (p.t_move > 0 || (p.speed > 0 && i.name != "grating")))
+        return bad_input("contact: where to is it moved? Give contact.x1 or contact.y1");
+    return {};
+}
+
+}  // namespace
+
+std::vector<Row> contact_rows() { return rows_of<ContactParams>(contact_fields); }
+
+Result<const Indenter*> indenter_named(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const auto& i : indenters) {
+        if (i.name == name) return &i;
+        names.push_back(i.name);
+    }
+    return bad_usage(fmt::format("no indenter is called '{}'{} (there are {})", name, did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+Result<ContactParams> contact_params(const Indenter& indenter, std::span<const Wish> wishes, const Sites& sites) {
+    const auto rows = contact_rows();
+    const auto settings = settings_for("contact", rows, wishes);
+    if (!settings) return settings.error();
+    const auto said = [&](std::string_view name) {
+        return std::any_of(settings->begin(), settings->end(), [&](const Setting& s) { return s.name == name; });
+    };
+    for (const auto& s : *settings)
+        if (!has_measure(indenter, s.name))
+            return bad_input(
+                fmt::format("contact.{}: {} has none (it has {}, and its path {})", s.name, indenter.name,
+                            fmt::join(indenter.measures.begin(), std::find(indenter.measures.begin(), indenter.measures.end(), ""), ", "),
+                            fmt::join(path_measures, ", ")));
+    auto p = with<ContactParams>(contact_fields, *settings);
+    if (!said("x") && !said("y")) {
+        const auto middle = middle_of_first(sites);
+        p.x = middle.x, p.y = middle.y;
+    }
+    if (!said("x1")) p.x1 = p.x;
+    if (!said("y1")) p.y1 = p.y;
+    if (auto wrong = contact_refusal(indenter, p)) return *wrong;
+    return p;
+}
+
+}  // namespace corpuscle

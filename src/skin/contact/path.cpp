@@ -1,0 +1,19 @@
+#include "skin/contact/path.hpp"
+
+#include "signal/number.hpp"
+#include "signal/stimulus/touch.hpp"
+
+namespace corpuscle {
+
+ContactPath::ContactPath(const ContactParams& p)
+    : from_{p.x, p.y, 0}, to_{p.x1, p.y1, 0}, start_(p.t_start), length_(p.t_move), speed_(p.speed), passes_(!moves(p) && p.speed > 0) {
+    const double dx = p.x1 - p.x, dy = p.y1 - p.y;
+    if (moves(p) && p.speed > 0) length_ = num::sqrt(dx * dx + dy * dy) / p.speed;
+}
+
+Position ContactPath::at(double t) const {
+    const double way = length_ > 0 ? progress(t, start_, length_) : 0;
+    return {from_.x + (to_.x - from_.x) * way, from_.y + (to_.y - from_.y) * way, 0};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,154 @@
+#include "skin/contact/pressure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signal/elementary.hpp"
+#include "skin/contact/arcs.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+/// Round contacts: exact along y, by Gauss's three points along x. Along a whole chord both pressures are polynomials of x, so that all
+/// cells together have all of the force.
+template <class Chord>
+void round_column(double a, double x0, double side, std::span<const double> y, double* parts, Chord&& chord) {
+    constexpr double at[] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const std::size_t cells = y.size() - 1;
+    std::fill(parts, parts + cells, 0.0);
+    const double from = std::max(x0, -a), to = std::min(x0 + side, a);
+    if (!(to > from)) return;
+    for (int k = 0; k < 3; ++k) {
+        const double x = 0.5 * (from + to) + 0.5 * (to - from) * at[k], square = a * a - x * x;
+        if (!(square > 0)) continue;
+        const double half = num::sqrt(square), share = weight[k] * (to - from);
+        double below = chord(y[0] / half);
+        const double scale = share * chord.scale(square);
+        for (std::size_t c = 0; c < cells; ++c) {
+            const double above = chord(y[c + 1] / half);
+            parts[c] += scale * (above - below);
+            below = above;
+        }
+    }
+}
+
+/// p/F = 1/(2 pi a^2) (1 - r^2/a^2)^(-1/2): along a chord the integral is an arcsine.
+class FlatPressure final : public Pressure {
+    double a_;
+    struct Chord {
+        double a;
+        double operator()(double u) const { return arcsine(u); }
+        double scale(double) const { return 1 / (2 * pi * a); }
+    };
+
+public:
+    explicit FlatPressure(const ContactParams& p) : a_(p.radius) {}
+    double size(double) const override { return a_; }
+    HalfBox box(double a) const override { return {a, a}; }
+    void column(double a, double, double x0, double side, std::span<const double> y, double* parts) const override {
+        round_column(a, x0, side, y, parts, Chord{a});
+    }
+};
+
+/// x^(1/3) by Newton's steps: within a few units of the last place, the same everywhere.
+double cube_root(double x) {
+    double r = num::exp(num::log(x) * (1.0 / 3));
+    for (int k = 0; k < 2; ++k) r -= (r * r * r - x) / (3 * r * r);
+    return r;
+}
+
+/// p/F = 3/(2 pi a^3) (a^2 - r^2)^(1/2): along a chord of half c the integral is c^2/2 of the arc's area.
+class SpherePressure final : public Pressure {
+    double per_newton_;  // a^3 / F
+    struct Chord {
+        double a;
+        double operator()(double u) const { return arc_area(std::clamp(u, -1.0, 1.0)); }
+        double scale(double half_square) const { return 3 / (4 * pi * a * a * a) * half_square; }
+    };
+
+public:
+    explicit SpherePressure(const ContactParams& p) : per_newton_(3 * p.radius / (4 * p.E_star)) {}
+    double size(double force) const override { return cube_root(per_newton_ * force); }
+    HalfBox box(double a) const override { return {a, a}; }
+    void column(double a, double, double x0, double side, std::span<const double> y, double* parts) const override {
+        round_column(a, x0, side, y, parts, Chord{a});
+    }
+};
+
+/// What lies at an angle: a cell counts as if it were turned alike.
+struct Turned {
+    double c, s;
+    explicit Turned(double degrees) : c(num::cos_turns(degrees / 360)), s(num::sin_turns(degrees / 360)) {}
+    double along(double x, double y) const { return x * c + y * s; }
+    double across(double x, double y) const { return y * c - x * s; }
+};
+
+double overlap(double from, double to, double low, double high) { return std::max(0.0, std::min(to, high) - std::max(from, low)); }
+
+/// p/F = 2/(pi b L) (1 - d^2/b^2)^(1/2) along its length.
+class EdgePressure final : public Pressure {
+    double half_length_, per_newton_;  // per_newton_: b^2 / F
+    Turned turned_;
+
+public:
+    explicit EdgePressure(const ContactParams& p)
+        : half_length_(0.5 * p.length), per_newton_(4 * p.edge_radius / (pi * p.length * p.E_star)), turned_(p.angle) {}
+    double size(double force) const override { return num::sqrt(per_newton_ * force); }
+    HalfBox box(double b) const override {
+        const double c = num::abs(turned_.c), s = num::abs(turned_.s);
+        return {half_length_ * c + b * s, half_length_ * s + b * c};
+    }
+    void column(double b, double, double x0, double side, std::span<const double> y, double* parts) const override {
+        const double half = 0.5 * side, x = x0 + half;
+        for (std::size_t c = 0; c + 1 < y.size(); ++c) {
+            const double middle = y[c] + half, along = turned_.along(x, middle), across = turned_.across(x, middle);
+            parts[c] = 0;
+            const double beside = overlap(along - half, along + half, -half_length_, half_length_);
+            if (beside == 0 || num::abs(across) >= b + half) continue;
+            const auto arc = [b](double d) { return arc_area(std::clamp(d / b, -1.0, 1.0)); };
+            parts[c] = beside * (arc(across + half) - arc(across - half));
+        }
+    }
+};
+
+/// Even pressure on the ridges within a round patch.
+class GratingPressure final : public Pressure {
+    double radius_, period_, ridge_, side_;
+    Turned turned_;
+
+    /// Length of ridges between 0 and d.
+    double ridges(double d) const {
+        const double whole = std::floor(d / period_);
+        return whole * ridge_ + std::min(d - whole * period_, ridge_);
+    }
+
+public:
+    GratingPressure(const ContactParams& p, double side)
+        : radius_(p.radius), period_(p.period), ridge_(p.ridge), side_(side), turned_(p.angle) {}
+    double size(double) const override { return radius_; }
+    HalfBox box(double radius) const override { return {radius + 0.5 * side_, radius + 0.5 * side_}; }
+    void column(double radius, double shift, double x0, double side, std::span<const double> y, double* parts) const override {
+        const double half = 0.5 * side, x = x0 + half, reach = radius + half;
+        for (std::size_t c = 0; c + 1 < y.size(); ++c) {
+            const double middle = y[c] + half, square = x * x + middle * middle;
+            parts[c] = 0;
+            if (square >= reach * reach) continue;
+            const double inside = std::min(1.0, (reach - num::sqrt(square)) / side);  // of the cell, at the patch's rim
+            const double along = turned_.along(x, middle) - shift;
+            parts[c] = inside * (ridges(along + half) - ridges(along - half));
+        }
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Pressure> make_pressure(const Indenter& indenter, const ContactParams& p, double side) {
+    if (indenter.name == "flat") return std::make_unique<FlatPressure>(p);
+    if (indenter.name == "sphere") return std::make_unique<SpherePressure>(p);
+    if (indenter.name == "edge") return std::make_unique<EdgePressure>(p);
+    return std::make_unique<GratingPressure>(p, side);
+}
+
+}  // namespace corpuscle

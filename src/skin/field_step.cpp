@@ -1,0 +1,114 @@
+// Receptive fields at a single step: a unit's sum at a time, not a site's share in many. The same sums in the same order, to the bit.
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "skin/field.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t side_by_side = 8;  // sums in registers: side by side they are no chain
+constexpr std::size_t margin = force_tile;
+
+/// Each unit's sites, wherever they are.
+void add_up(std::size_t most, const std::uint32_t* site, const double* weight, const double* now, double* sums) {
+    for (std::size_t u = 0; u < force_tile; u += side_by_side) {
+        double sum[side_by_side] = {};
+        for (std::size_t k = u; k < most * force_tile; k += force_tile)
+            for (std::size_t i = 0; i < side_by_side; ++i) sum[i] += weight[k + i] * now[site[k + i]];
+        for (std::size_t i = 0; i < side_by_side; ++i) sums[u + i] = sum[i];
+    }
+}
+
+/// Sites in rows.
+void add_rows(std::span<const std::ptrdiff_t> rows, const double* weight, const double* now, double* sums) {
+    for (std::size_t u = 0; u < force_tile; u += side_by_side) {
+        double sum[side_by_side] = {};
+        const double* w = weight + u;
+        for (const auto row : rows) {
+            const double* f = now + row + u;
+            for (std::size_t i = 0; i < side_by_side; ++i) sum[i] += w[i] * f[i];
+            w += force_tile;
+        }
+        for (std::size_t i = 0; i < side_by_side; ++i) sums[u + i] = sum[i];
+    }
+}
+
+}  // namespace
+
+/// What one tile feels. Where its units stand as the sites do, as on a grid, those of a k are neighbours: they are in a row then.
+void FeltForce::make_tile(std::size_t tile, std::size_t sites) {
+    const auto& p = pieces_[tile / piece_tiles];
+    const std::size_t first = tile % piece_tiles * force_tile;
+    std::vector<std::vector<std::pair<std::uint32_t, double>>> felt(force_tile);
+    std::map<std::ptrdiff_t, std::size_t> rows;  // by the site of their first unit
+    std::size_t most = 0;
+    for (std::uint32_t s = 0; s < sites; ++s)
+        for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
+            const std::size_t unit = p.unit[k] - first;
+            if (p.unit[k] < first || unit >= force_tile) continue;
+            felt[unit].emplace_back(s, p.weight[k]);
+            rows[static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(unit)] = 0;
+            most = std::max(most, felt[unit].size());
+        }
+    auto& out = one_step_[tile];
+    const bool in_rows = rows.size() <= most + most / 2;
+    if (in_rows)
+        for (auto& [row, k] : rows) k = out.row.size(), out.row.push_back(row);
+    out.most = in_rows ? rows.size() : most;
+    out.weight = lanes::Buffer<double>(out.most * force_tile);
+    if (!in_rows) out.site = lanes::Buffer<std::uint32_t>(out.most * force_tile);
+    for (std::size_t u = 0; u < force_tile; ++u)
+        for (std::size_t n = 0; n < felt[u].size(); ++n) {
+            const auto [s, weight] = felt[u][n];
+            const auto k = in_rows ? rows[static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(u)] : n;
+            out.weight.data()[k * force_tile + u] = weight;
+            if (!in_rows) out.site.data()[k * force_tile + u] = s;
+        }
+}
+
+void FeltForce::make_one_step() {
+    const std::size_t sites = pieces_[0].begin.size() - 1;
+    now_.assign(sites + 2 * margin, 0);
+    one_step_.resize(tiles_);
+    for (std::size_t t = 0; t < tiles_; ++t) make_tile(t, sites);
+    std::vector<std::uint32_t> last(tiles_, std::uint32_t(-1));
+    reach_begin_.assign(1, 0);
+    for (std::uint32_t s = 0; s < sites; ++s) {
+        for (std::size_t p = 0; p < pieces_.size(); ++p)
+            for (std::size_t k = pieces_[p].begin[s]; k < pieces_[p].begin[s + 1]; ++k) {
+                const std::size_t t = p * piece_tiles + pieces_[p].unit[k] / force_tile;
+                if (std::exchange(last[t], s) != s) reach_.push_back(static_cast<std::uint32_t>(t));
+            }
+        reach_begin_.push_back(reach_.size());
+    }
+}
+
+void FeltForce::feel_one_step(const Call& call) {
+    if (one_step_.empty()) make_one_step();
+    const bool all = call.touched.size() == now_.size() - 2 * margin;
+    double* const now = now_.data() + margin;
+    const double* const force = call.force.of + call.at;
+    if (all && call.force.stride == 1)
+        std::copy_n(force, call.touched.size(), now);
+    else
+        for (const auto s : call.touched) now[s] = force[s * call.force.stride];
+    std::fill(without_.begin(), without_.end(), static_cast<std::uint8_t>(!all));  // every unit feels some site
+    if (!all)
+        for (const auto s : call.touched)
+            for (std::size_t k = reach_begin_[s]; k < reach_begin_[s + 1]; ++k) without_[reach_[k]] = 0;
+    for (std::size_t t = 0; t < tiles_; ++t) {
+        if (without_[t]) continue;
+        const auto& tile = one_step_[t];
+        double* const sums = rows_.data() + t * force_tile;
+        if (tile.row.empty())
+            add_up(tile.most, tile.site.data(), tile.weight.data(), now, sums);
+        else
+            add_rows(tile.row, tile.weight.data(), now, sums);
+    }
+    for (const auto s : call.touched) now[s] = 0;
+}
+
+}  // namespace corpuscle
