@@ -92,6 +92,30 @@ def si(text):
     return float(number.replace("−", "-")) * PREFIX[prefix]
 
 
+def frames(record):
+    """Of maps: by frame, what each place has that is not 0."""
+    source, found = iter(base64.b64decode(record["data"])), []
+
+    def number():
+        n, shift = 0, 0
+        for byte in source:
+            n, shift = n | (byte & 127) << shift, shift + 7
+            if byte < 128:
+                return n
+
+    for _ in range(record["count"]):
+        place, frame = 0, {}
+        while place < record["places"]:
+            byte = next(source)
+            if byte == 0:
+                place += number()
+                continue
+            frame[place] = byte if byte < 255 else number()
+            place += 1
+        found.append(frame)
+    return found
+
+
 class Page(unittest.TestCase):
     """A browser with one report open; whatever a test does, the console stays silent."""
 
@@ -658,62 +682,6 @@ class Costs(Page):
         self.assertEqual(last[1].text, f'{cost["area"]["total_m2"] * 1e12:.0f}')
 
 
-del Page  # not a test by itself
-
-
-class Studies(unittest.TestCase):
-    def test_every_claim_has_a_row_and_every_plot_is_drawn(self):
-        path = OUT / "studies.html"
-        subprocess.run([CORPUSCLE, "study", "fig16", "kim", "--report", str(path), "--quiet"], check=True)
-        data = data_of(path)
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-            options = webdriver.ChromeOptions()
-            options.binary_location = shutil.which("chromium")
-            for flag in [*FLAGS, "--user-data-dir=" + profile]:
-                options.add_argument(flag)
-            browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-            self.addCleanup(browser.quit)
-            browser.get(path.as_uri())
-            self.assertEqual(browser.get_log("browser"), [])
-            claims = [claim for study in data["studies"] for claim in study["claims"]]
-            on_top = browser.find_elements(By.CSS_SELECTOR, ".deviations tbody tr")
-            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "tbody tr")) - len(on_top), len(claims))
-            self.assertEqual(len(on_top), sum(claim["on_top"] for claim in claims))
-            browser.find_element(By.CSS_SELECTOR, ".deviations input").click()
-            shown = [row for row in on_top if row.is_displayed()]
-            self.assertEqual(len(shown), sum(claim["verdict"] in ("differs", "does not hold") for claim in claims))
-            self.assertLess(len(shown), len(on_top))
-            link = on_top[0].find_element(By.TAG_NAME, "a").get_attribute("href")
-            self.assertEqual(len(browser.find_elements(By.ID, link.split("#")[1])), 1)
-            points = browser.execute_script("return charts.map((chart) => chart.numRows())")
-            self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
-            self.assertGreater(min(points), 2)
-
-
-def frames(record):
-    """Of maps: by frame, what each place has that is not 0."""
-    source, found = iter(base64.b64decode(record["data"])), []
-
-    def number():
-        n, shift = 0, 0
-        for byte in source:
-            n, shift = n | (byte & 127) << shift, shift + 7
-            if byte < 128:
-                return n
-
-    for _ in range(record["count"]):
-        place, frame = 0, {}
-        while place < record["places"]:
-            byte = next(source)
-            if byte == 0:
-                place += number()
-                continue
-            frame[place] = byte if byte < 255 else number()
-            place += 1
-        found.append(frame)
-    return found
-
-
 class OnASkin(Page):
     """A press on a fingertip: maps that play, and the plots beneath them."""
 
@@ -802,6 +770,38 @@ class OnASkin(Page):
         self.browser.set_window_size(700, 900)
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.documentElement.scrollWidth <= innerWidth"))
         self.browser.set_window_size(1200, 900)
+
+
+del Page  # not a test by itself
+
+
+class Studies(unittest.TestCase):
+    def test_every_claim_has_a_row_and_every_plot_is_drawn(self):
+        path = OUT / "studies.html"
+        subprocess.run([CORPUSCLE, "study", "fig16", "kim", "--report", str(path), "--quiet"], check=True)
+        data = data_of(path)
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+            options = webdriver.ChromeOptions()
+            options.binary_location = shutil.which("chromium")
+            for flag in [*FLAGS, "--user-data-dir=" + profile]:
+                options.add_argument(flag)
+            browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+            self.addCleanup(browser.quit)
+            browser.get(path.as_uri())
+            self.assertEqual(browser.get_log("browser"), [])
+            claims = [claim for study in data["studies"] for claim in study["claims"]]
+            on_top = browser.find_elements(By.CSS_SELECTOR, ".deviations tbody tr")
+            self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "tbody tr")) - len(on_top), len(claims))
+            self.assertEqual(len(on_top), sum(claim["on_top"] for claim in claims))
+            browser.find_element(By.CSS_SELECTOR, ".deviations input").click()
+            shown = [row for row in on_top if row.is_displayed()]
+            self.assertEqual(len(shown), sum(claim["verdict"] in ("differs", "does not hold") for claim in claims))
+            self.assertLess(len(shown), len(on_top))
+            link = on_top[0].find_element(By.TAG_NAME, "a").get_attribute("href")
+            self.assertEqual(len(browser.find_elements(By.ID, link.split("#")[1])), 1)
+            points = browser.execute_script("return charts.map((chart) => chart.numRows())")
+            self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
+            self.assertGreater(min(points), 2)
 
 
 class Sweeps(unittest.TestCase):
