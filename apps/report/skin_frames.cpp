@@ -5,7 +5,7 @@
 namespace corpuscle {
 
 nlohmann::ordered_json frames_document(const Framed<std::uint32_t>& framed, double T) {
-    Bytes bytes;
+    PackedNumbers bytes;
     const auto frames = framed.frames();
     for (const auto& f : frames) bytes.frame(f, framed.places(), [](std::uint32_t n) { return std::uint64_t{n}; });
     return {{"count", frames.size()},
@@ -22,7 +22,7 @@ nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std
     double greatest = 0;
     for (std::size_t k = 0; k < frames.size(); ++k)
         for (const auto& e : frames[k]) greatest = std::max(greatest, e.value / length(k));
-    Bytes bytes;
+    PackedNumbers bytes;
     for (std::size_t k = 0; k < frames.size(); ++k)
         bytes.frame(frames[k], sites.places(), [&](double sum) {
             const double share = greatest > 0 ? sum / length(k) / greatest : 0;

@@ -14,7 +14,7 @@ std::string array64(const std::vector<T>& values) {
 }
 
 /// Whole numbers in as few bytes as they need: seven bits each, the lowest first, the highest bit says that more follow.
-class Bytes {
+class PackedNumbers {
 public:
     std::vector<unsigned char> all;
     void number(std::uint64_t n) {

@@ -96,7 +96,7 @@ Json SkinReport::spikes_document() const {
     std::vector<std::int64_t> ticks(spike_ticks_.size());
     auto at = begin;
     for (std::size_t k = 0; k < ticks.size(); ++k) ticks[at[spike_units_[k]]++] = spike_ticks_[k];
-    Bytes bytes;
+    PackedNumbers bytes;
     std::size_t next = 0, trains = 0;
     for (std::size_t u = 0; u < class_of_.size(); ++u) {
         if (begin[u] == begin[u + 1]) continue;
