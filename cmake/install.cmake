@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS corpuscle-cli)
 install(TARGETS corpuscle EXPORT corpuscle-targets)
-install(DIRECTORY src/ DESTINATION include/corpuscle FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def")
+install(DIRECTORY src/ DESTINATION include/corpuscle FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" PATTERN "*.def")
 install(FILES ${PROJECT_BINARY_DIR}/generated/signal/version.hpp DESTINATION include/corpuscle/signal)
 install(EXPORT corpuscle-targets NAMESPACE corpuscle:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)
 configure_package_config_file(cmake/corpuscle-config.cmake.in corpuscle-config.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)

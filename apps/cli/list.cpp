@@ -10,6 +10,7 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
 #include "io/formats.hpp"
+#include "list_entry.hpp"
 #include "measure/measures.hpp"
 #include "model/catalog.hpp"
 #include "signal/quantity.hpp"
@@ -22,18 +23,6 @@ namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct Entry {
-    std::string name, made_of, sentence, source;
-    std::vector<Parameter> parameters;
-    std::vector<std::string> other_names;
-    std::string_view made_of_is = "made_of";  ///< what made_of is of this kind of entry, in JSON
-};
-
-struct Section {
-    std::string_view name;
-    std::vector<Entry> entries;
-};
 
 Entry entry_of(const Card& card) {
     Entry e{std::string(card.name), "", std::string(card.sentence), std::string(card.source), {}, {}};
@@ -111,6 +100,7 @@ std::vector<Section> catalogue() {
                                 {"stimuli", entries_of(stimulus_cards())},
                                 {"measures", measured},
                                 {"formats", readable}};
+    for (auto& s : skin_sections()) all.push_back(std::move(s));
     for (auto& s : circuit_sections()) all.push_back(std::move(s));
     return all;
 }
@@ -158,6 +148,7 @@ std::string text_of(const Entry& e) {
     for (const auto& p : e.parameters)
         rows.push_back({"    " + std::string(p.row.name), format_quantity(p.row.initial, p.row.unit), range(p.row),
                         std::string(p.row.sentence) + (p.row.source.empty() ? "" : fmt::format(" ({})", p.row.source))});
+    for (const auto& t : e.told) rows.push_back({"    " + t.of, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
     return text + (rows.size() > 1 ? table({rows.begin() + 1, rows.end()}) : "");
 }
 
@@ -175,6 +166,7 @@ Json document_of(const Entry& e) {
                                      {"sentence", p.row.sentence},
                                      {"source", p.row.source},
                                      {"of", p.of}});
+    for (const auto& t : e.told) out["told"].push_back({{"of", t.of}, {"text", t.text}, {"source", t.source}});
     return out;
 }
 

@@ -39,7 +39,7 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
         return bad_usage(fmt::format("--events {}: there are {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
     }
     auto ok =
-        w.events.empty() ? add<SkinSpikesFile>("spikes.csv") : add<SkinEventsFile>(fmt::format("spikes.{}", format->extension), w.events);
+        w.events.empty() ? add<SkinSpikesFile>("spikes.csv") : add<SkinEventsFile>(fmt::format("spikes{}", format->extension), w.events);
     if (!ok) return ok;
     if (ok = add<SkinUnitsFile>("units.csv", std::cref(summary)); !ok) return ok;
     if (*bin)

@@ -134,8 +134,7 @@ class SkinMap {
         this.canvas.setAttribute("role", "img");
         this.caption = element(this.root, "figcaption");
         [this.from, this.to] = this.skin.marksOf(one);
-        this.at = new Float32Array(2 * (this.to - this.from));
-        for (let m = this.from; m < this.to; ++m) this.at.set(this.skin.markPlace(m), 2 * (m - this.from));
+        this.at = this.skin.places.subarray(2 * this.from, 2 * this.to);
         this.radius = Math.min(1.2, 0.36 * spacing(this.at));  // mm
         scene.maps.push(this);
         followPointer(this);
@@ -175,15 +174,14 @@ class SkinMap {
         this.ring(context);
     }
 
-    /// The unit that is pointed at.
+    /// Around the mark that is pointed at.
     ring(context) {
         const {chosen} = this.scene;
-        if (chosen === null || this.skin.classOf(chosen) !== this.one) return;
-        const [x, y] = [this.scene.x(this.skin.places[2 * chosen]), this.scene.y(this.skin.places[2 * chosen + 1])];
+        if (chosen === null || chosen < this.from || chosen >= this.to) return;
         context.strokeStyle = colour("ink");
         context.lineWidth = 1.5;
         context.beginPath();
-        context.arc(x, y, this.pixels + 4, 0, 2 * Math.PI);
+        context.arc(...this.place(chosen), this.pixels + 4, 0, 2 * Math.PI);
         context.stroke();
     }
 

@@ -80,15 +80,15 @@ function makeMaps() {
 /// Maps of when each unit fired first; times run from the earliest to the latest of 98 in 100 units.
 function makeFirsts(host) {
     const times = Array.from(skin.first).filter((t) => !Number.isNaN(t)).sort((a, b) => a - b);
-    at("about-firsts").textContent = `${times.length} of ${skin.first.length} units fired`;
+    const active = Object.fromEntries(skin.data.summary.rates.filter(({region, phase}) => region === "all" && phase === "all").map((row) => [row.afferent, row.active]));
+    at("about-firsts").textContent = `${Object.values(active).reduce((sum, n) => sum + n, 0)} of ${skin.data.summary.skin.units} units fired`;
     if (!times.length) return;
     const from = times[0], to = times[Math.floor(0.98 * (times.length - 1))], span = to - from || 1;
-    const earliest = (mark) => skin.first.subarray(skin.firstUnits[mark], skin.firstUnits[mark + 1]).reduce((m, t) => (t < m ? t : m), Infinity);
-    const values = (map, call) => { for (let m = map.from; m < map.to; ++m) { const t = earliest(m); if (t < Infinity) call(m, (t - from) / span); } };
+    const values = (map, call) => { for (let m = map.from; m < map.to; ++m) if (!Number.isNaN(skin.first[m])) call(m, (skin.first[m] - from) / span); };
     for (const one of skin.classes) {
-        const map = new SkinMap(host, scene, one, {values, ramp: timeRamp, force: () => false}), own = skin.first.subarray(one.first, one.first + one.units);
+        const map = new SkinMap(host, scene, one, {values, ramp: timeRamp, force: () => false});
         captionOf(map, escaped(timeText(skin.t0 + from, span / 100)), escaped(timeText(skin.t0 + to, span / 100)), timeRamp());
-        map.count.textContent = `${own.reduce((n, t) => n + !Number.isNaN(t), 0)} fired`;
+        map.count.textContent = `${active[one.name]} fired`;
         map.root.dataset.map = `first ${one.name}`;
         map.canvas.setAttribute("aria-label", `first spike of each unit of ${one.name}`);
     }
@@ -134,12 +134,12 @@ function rasterBar() {
 }
 
 function rasterPanel(one, k) {
-    const wanted = (unit) => shown.region === "all" || skin.region[unit] === Number(shown.region);
-    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, region: skin.regions[shown.region], bottom: k === skin.classes.length - 1, pointed: pointAt};
+    const wanted = (mark) => shown.region === "all" || skin.region[mark] === Number(shown.region);
+    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, region: skin.regions[shown.region], bottom: k === skin.classes.length - 1, pointed: (unit) => pointAt(unit === null ? null : skin.markOf(unit))};
     if (!skin.trains) return [shadePanel(one, common, wanted)];
     const own = [];
     for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.units); t < end; ++t) own.push(t);
-    const trains = own.filter((t) => wanted(skin.trains.unit[t])).map((t) => skin.trains.train(t));
+    const trains = own.filter((t) => wanted(skin.markOf(skin.trains.unit[t]))).map((t) => skin.trains.train(t));
     return [panel(SkinRasterPanel, {...common, trains, fired: own.length, height: rasterHeight(trains.length)})];
 }
 
@@ -148,37 +148,36 @@ function shadePanel(one, common, wanted) {
     let rowCount = 0, fired = 0;
     for (let m = from; m < to; ++m) {
         if (totals[m]) ++fired;
-        if (totals[m] && wanted(skin.firstUnits[m])) rowOf[m] = rowCount++;
+        if (totals[m] && wanted(m)) rowOf[m] = rowCount++;
     }
     return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, fired, height: rasterHeight(rowCount)});
 }
 
 const rasterHeight = (rows) => Math.max(30, Math.min(180, 40 + rows * 0.6));
 
-/// A unit that somebody points at, on a map or in a raster.
-function pointAt(unit) {
-    if (unit === scene.chosen) return;
-    scene.chosen = unit;
-    tellUnit();
+/// A mark that somebody points at, on a map or in a raster.
+function pointAt(mark) {
+    if (mark === scene.chosen) return;
+    scene.chosen = mark;
+    tellMark();
     scene.request();
 }
 
-function tellUnit() {
-    const unit = scene.chosen;
-    if (unit === null) return void (at("unit").textContent = "");
-    const mark = firstAt(skin.firstUnits, unit + 1) - 1, first = skin.first[unit], many = skin.unitsOf(mark);
-    const now = skin.recent(scene.frame, shown.frames).counts[mark], seconds = skin.lengthOver(scene.frame, shown.frames);
-    at("unit").textContent = `${skin.unitName(unit)}${many > 1 ? ` and ${many - 1} neighbours` : ""}, ${skin.regionName(unit)}: ${quantity(rateOf(mark, now, seconds), "Hz", true)} now, ` +
+function tellMark() {
+    const mark = scene.chosen;
+    if (mark === null) return void (at("unit").textContent = "");
+    const rate = rateOf(mark, skin.recent(scene.frame, shown.frames).counts[mark], skin.lengthOver(scene.frame, shown.frames)), first = skin.first[mark];
+    at("unit").textContent = `${skin.markName(mark)}, ${skin.regionName(mark)}: ${quantity(rate, "Hz", true)} now, ` +
         `${totals[mark]} spikes${Number.isNaN(first) ? "" : `, the first at ${timeText(skin.t0 + first, 1e-4)}`}`;
 }
 
 function connect() {
-    scene.pointed = (mark) => pointAt(mark === null ? null : skin.firstUnits[mark]);
+    scene.pointed = pointAt;
     view.moved = (t) => {
         player.follow(t);
         if (scene.frame === skin.frameAt(t)) return;
         scene.frame = skin.frameAt(t);
-        tellUnit();
+        tellMark();
         scene.request();
     };
     at("earlier").onclick = () => view.pan(-0.25);

@@ -180,7 +180,6 @@ Json SkinReport::document() const {
             {"classes", frames_document(classes_, clock_.T())},
             {"marks", frames_document(marks_, clock_.T())},
             {"units_a_mark", units_a_mark_},
-            {"first_units", array64(mark_first_)},
             {"sites", force_document(sites_, clock_.T(), samples_)},
             {"sites_a_mark", sites_a_mark_},
             {"most_spikes", most_.spikes},

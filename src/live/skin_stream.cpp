@@ -1,6 +1,8 @@
 #include "live/skin_stream.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <numeric>
 
 namespace corpuscle {
 
@@ -14,25 +16,37 @@ Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Inner
     return stream;
 }
 
-/// A blow on all sites, then as it was: what a skin asks for when all of it fires, it has then.
+/// Blows of 10 N as every unit feels it, now and again, then as it was: what a skin asks for when all of it fires, it has then.
 Result<void> SkinStream::warm_up() {
     const auto start = skin_->save();
-    touched_.resize(sites());
+    touched_.resize(sites()), every_.resize(sites());
+    std::iota(every_.begin(), every_.end(), 0U);
     spikes_.reserve(8 * innervation_->units.size() + 64);
+    const auto& plan = innervation_->plan;
+    const double blow = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
     std::vector<double> frame(sites());
-    for (int k = 0; k < 32; ++k) {
-        std::fill(frame.begin(), frame.end(), k % 8 < 4 ? 0.0 : 10.0);
+    std::uint32_t chance = 1;
+    const auto frames = std::clamp<std::size_t>(2'000'000 / innervation_->units.size(), 32, 512);
+    for (std::size_t k = 0; k < frames; ++k) {
+        chance = 1664525 * chance + 1013904223;
+        std::fill(frame.begin(), frame.end(), chance >> 31 == 0 ? 0.0 : blow);
         if (auto pushed = push(frame); !pushed) return pushed.error();
     }
     return skin_->resume(start);
 }
 
+/// The sites at which there is force. Without a branch for each: noise makes zeros come and go.
+std::span<const std::uint32_t> SkinStream::touched_by(std::span<const double> frame) {
+    if (std::count(frame.begin(), frame.end(), 0.0) == 0) return every_;
+    std::size_t touched = 0;
+    for (std::size_t s = 0; s < frame.size(); ++s) touched_[touched] = static_cast<std::uint32_t>(s), touched += frame[s] != 0;
+    return std::span(touched_).first(touched);
+}
+
 Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
     if (frame.size() != sites()) return bad_input(fmt::format("a frame of {} forces for {} sites", frame.size(), sites()));
-    std::size_t touched = 0;  // without a branch: noise makes zeros come and go
-    for (std::size_t s = 0; s < frame.size(); ++s) touched_[touched] = static_cast<std::uint32_t>(s), touched += frame[s] != 0;
     spikes_.clear();
-    if (auto ok = skin_->respond({frame.data(), 1, std::span(touched_).first(touched), false}, 1, spikes_, here_); !ok) return ok.error();
+    if (auto ok = skin_->respond({frame.data(), 1, touched_by(frame), false}, 1, spikes_, here_); !ok) return ok.error();
     return std::span<const Spike>(spikes_);
 }
 

@@ -14,12 +14,13 @@ class SkinStream {
     Clock clock_;
     std::unique_ptr<Skin> skin_;
     Pool here_{1};
-    std::vector<std::uint32_t> touched_;
+    std::vector<std::uint32_t> touched_, every_;
     std::vector<Spike> spikes_;
 
     SkinStream(std::shared_ptr<const Innervation> innervation, const Clock& clock, std::unique_ptr<Skin> skin)
         : innervation_(std::move(innervation)), clock_(clock), skin_(std::move(skin)) {}
     Result<void> warm_up();
+    std::span<const std::uint32_t> touched_by(std::span<const double> frame);
 
 public:
     /// `sampled`: spikes on the samples, not between them.

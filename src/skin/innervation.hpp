@@ -33,6 +33,9 @@ struct Innervation {
     std::string unit_name(std::size_t unit) const;  ///< "sa1#17"
 };
 
+/// How many units of a class each region has.
+std::vector<std::uint64_t> units_by_region(const SkinPlan&, std::uint32_t of);
+
 /// Places a plan's units: where each stands, what it feels. The same for the same plan, on every machine. Refuses a skin without
 /// units and one of more than 2^24.
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan);

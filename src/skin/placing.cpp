@@ -51,7 +51,6 @@ Error too_many(const SkinClass& c, double units) {
 }
 
 void place_on_sites(const Sites& sites, const SkinClass& c, std::uint32_t of, std::vector<SkinUnit>& out) {
-    out.reserve(sites.size() * c.per_site);
     for (std::size_t s = 0; s < sites.size(); ++s)
         for (std::uint32_t k = 0; k < c.per_site; ++k)
             out.push_back({of, static_cast<std::uint32_t>(out.size()) + 1, sites.region[s], sites.at[s], 0});
@@ -95,21 +94,30 @@ std::uint32_t class_stream(const SkinClass& c, std::string_view what) {
     return static_cast<std::uint32_t>(stream_of(fmt::format("skin.{}.{}", c.name, what)));
 }
 
+std::vector<std::uint64_t> units_by_region(const SkinPlan& plan, std::uint32_t of) {
+    const auto& c = plan.classes[of];
+    std::vector<std::uint64_t> sites(plan.sites.regions.size());
+    for (const auto r : plan.sites.region) ++sites[r];
+    for (std::size_t r = 0; r < sites.size(); ++r) {
+        const double n = static_cast<double>(sites[r]), units = c.density.empty() ? n * c.per_site : c.density[r] * plan.sites.area * n;
+        sites[r] = static_cast<std::uint64_t>(std::round(std::clamp(units, 0.0, 1e15)));
+    }
+    return sites;
+}
+
 Result<std::vector<SkinUnit>> placed_units(const SkinPlan& plan, std::uint32_t of) {
     const auto& c = plan.classes[of];
+    const auto counts = units_by_region(plan, of);
+    double all = 0;
+    for (const auto n : counts) all += static_cast<double>(n);
+    if (!(all <= static_cast<double>(most_units))) return too_many(c, all);
     std::vector<SkinUnit> out;
+    out.reserve(static_cast<std::size_t>(all));
     if (c.density.empty()) {
-        const double units = static_cast<double>(plan.sites.size()) * c.per_site;
-        if (units > static_cast<double>(most_units)) return too_many(c, units);
         place_on_sites(plan.sites, c, of, out);
     } else {
         const auto along = sites_along(plan.sites);
-        double all = 0;
-        for (std::size_t r = 0; r < along.size(); ++r) {
-            const double units = std::round(c.density[r] * plan.sites.area * static_cast<double>(along[r].size()));
-            if (!((all += units) <= static_cast<double>(most_units))) return too_many(c, all);
-            place_in_region(plan, along[r], static_cast<std::size_t>(units), {of, 0, static_cast<std::uint32_t>(r)}, out);
-        }
+        for (std::uint32_t r = 0; r < along.size(); ++r) place_in_region(plan, along[r], counts[r], {of, 0, r}, out);
     }
     delay_units(plan, c, out);
     return out;

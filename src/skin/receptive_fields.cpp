@@ -25,17 +25,21 @@ class FieldsOfClass {
     const std::vector<char>& touching_;
     const double per_square_, scale_;
     const std::uint32_t stream_;
-    std::vector<double> felt_;            // of each site by the unit in hand
-    std::vector<std::uint32_t> reached_;  // the sites where it is not 0
+    std::vector<double> felt_;                                 // of each site by the unit in hand
+    std::vector<std::uint32_t> reached_;                       // the sites where it is not 0
+    std::vector<std::pair<std::uint32_t, double>> near_spot_;  // sites within reach of a hot spot, and their weights
 
     void add_spot(const SkinUnit& unit, double x, double y) {
         const char* reaches = touching_.data() + unit.region * plan_.sites.regions.size();
+        near_spot_.clear();
         near_.within(x, y, cut * class_.sigma, [&](std::uint32_t site, double d2) {
-            if (!reaches[plan_.sites.region[site]]) return;
-            const double w = num::exp(-d2 * per_square_);
+            if (reaches[plan_.sites.region[site]]) near_spot_.emplace_back(site, d2);
+        });
+        for (auto& s : near_spot_) s.second = num::exp(-s.second * per_square_);  // by themselves: their chains overlap
+        for (const auto& [site, w] : near_spot_) {
             if (felt_[site] == 0) reached_.push_back(site);
             felt_[site] += w;
-        });
+        }
     }
 
     void add_spots(const SkinUnit& unit) {

@@ -1,8 +1,8 @@
 // A skin answers as its afferents would one by one, whatever the blocks, threads and instruction sets, and whether it was saved on the way.
 
+#include "skin/skin.hpp"
 #include "model/catalog.hpp"
 #include "signal/random.hpp"
-#include "skin/skin.hpp"
 #include "support/property.hpp"
 
 namespace corpuscle {

@@ -121,10 +121,13 @@ public:
 
     std::vector<Fact> facts() const override {
         std::vector<Fact> out;
-        for (const auto& f : contact_fields)
-            if (std::find(indenter_.measures.begin(), indenter_.measures.end(), f.name) != indenter_.measures.end() || f.name == "x" ||
-                f.name == "y" || p_.*f.at != ContactParams{}.*f.at)
+        const auto& own = indenter_.measures;
+        for (const auto& f : contact_fields) {
+            const bool target = f.name == "x1" || f.name == "y1", place = f.name == "x" || f.name == "y";
+            const bool path = target ? moves(p_) : place || p_.*f.at != 0;
+            if (std::find(own.begin(), own.end(), f.name) != own.end() || (is_path_measure(f.name) && path))
                 out.push_back({fmt::format("contact.{}", f.name), p_.*f.at, std::string(f.unit)});
+        }
         return out;
     }
 
@@ -180,7 +183,7 @@ std::span<const NamedTouch> named_touches() {
          "ramp-hold",
          "sphere",
          "1 N of a fingertip moved from the palm to the tip of the index finger of 'hand' in 10 s",
-         {{"radius", 10e-3}, {"x", 29.6e-3}, {"y", 52.6e-3}, {"x1", 47.2e-3}, {"y1", 177.4e-3}, {"t_move", 10}},
+         {{"radius", 8e-3}, {"x", 29.6e-3}, {"y", 52.6e-3}, {"x1", 47.2e-3}, {"y1", 177.4e-3}, {"t_move", 10}},
          {{"F_max", 1}, {"t_rest", 0}, {"t_up", 0.1}, {"t_hold", 9.8}, {"t_down", 0.1}, {"t_post", 0}}},
         {"scan",
          "ramp-hold",

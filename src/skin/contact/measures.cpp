@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "signal/number.hpp"
 #include "skin/contact/contact.hpp"
@@ -12,17 +13,17 @@ namespace {
 constexpr std::string_view path_measures[] = {"x", "y", "x1", "y1", "t_start", "t_move", "speed"};
 
 bool has_measure(const Indenter& i, std::string_view name) {
-    return std::find(i.measures.begin(), i.measures.end(), name) != i.measures.end() ||
-           std::find(std::begin(path_measures), std::end(path_measures), name) != std::end(path_measures);
+    return std::find(i.measures.begin(), i.measures.end(), name) != i.measures.end() || is_path_measure(name);
 }
 
-/// The middle of a region: of its sites, the mean.
+/// The middle of a region: of its sites, the mean, to the micrometre.
 Position middle_of_first(const Sites& sites) {
     Position sum;
     double n = 0;
     for (std::size_t s = 0; s < sites.size(); ++s)
         if (sites.region[s] == 0) sum.x += sites.at[s].x, sum.y += sites.at[s].y, n += 1;
-    return n > 0 ? Position{sum.x / n, sum.y / n, 0} : sites.at[0];
+    const auto rounded = [](double m) { return std::round(m * 1e6) / 1e6 + 0.0; };  // + 0.0: no zero is negative
+    return n > 0 ? Position{rounded(sum.x / n), rounded(sum.y / n), 0} : sites.at[0];
 }
 
 /// What cannot be said together.
@@ -38,6 +39,10 @@ std::optional<Error> contact_refusal(const Indenter& i, const ContactParams& p) 
 }
 
 }  // namespace
+
+bool is_path_measure(std::string_view name) {
+    return std::find(std::begin(path_measures), std::end(path_measures), name) != std::end(path_measures);
+}
 
 std::vector<Row> contact_rows() { return rows_of<ContactParams>(contact_fields); }
 

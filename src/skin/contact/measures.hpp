@@ -10,7 +10,7 @@ namespace corpuscle {
 
 /// What a contact is given, SI; lengths of the skin's plane.
 struct ContactParams {
-    double radius = 5e-3, edge_radius = 0.5e-3, length = 10e-3, period = 2e-3, ridge = 1e-3, angle = 0, E_star = 80e3;
+    double radius = 5e-3, edge_radius = 0.5e-3, length = 10e-3, period = 2e-3, ridge = 1e-3, angle = 0, E_star = 100e3;
     double x = 0, y = 0, x1 = 0, y1 = 0, t_start = 0, t_move = 0, speed = 0;
 };
 
@@ -60,6 +60,9 @@ Result<const Indenter*> indenter_named(std::string_view name);
 
 /// A contact's measures as asked for; those that neither wish nor row gives come from the sites.
 Result<ContactParams> contact_params(const Indenter&, std::span<const Wish>, const Sites&);
+
+/// Of where a contact is and goes; every indenter has these.
+bool is_path_measure(std::string_view name);
 
 /// Whether it is moved over the skin.
 inline bool moves(const ContactParams& p) { return p.x1 != p.x || p.y1 != p.y; }

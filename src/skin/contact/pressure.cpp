@@ -11,23 +11,22 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-/// Round contacts: exact along y, by Gauss's three points along x. Along a whole chord both pressures are polynomials of x, so that all
+/// Round contacts: exact along y, by Gauss's two points along x. Along a whole chord both pressures are polynomials of x, so that all
 /// cells together have all of the force.
 template <class Chord>
 void round_column(double a, double x0, double side, std::span<const double> y, double* parts, Chord&& chord) {
-    constexpr double at[] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    constexpr double at[] = {-0.5773502691896257, 0.5773502691896257};
     const std::size_t cells = y.size() - 1;
     std::fill(parts, parts + cells, 0.0);
     const double from = std::max(x0, -a), to = std::min(x0 + side, a);
     if (!(to > from)) return;
-    for (int k = 0; k < 3; ++k) {
-        const double x = 0.5 * (from + to) + 0.5 * (to - from) * at[k], square = a * a - x * x;
+    for (const double point : at) {
+        const double x = 0.5 * (from + to) + 0.5 * (to - from) * point, square = a * a - x * x;
         if (!(square > 0)) continue;
-        const double half = num::sqrt(square), share = weight[k] * (to - from);
-        double below = chord(y[0] / half);
-        const double scale = share * chord.scale(square);
+        const double per_half = 1 / num::sqrt(square), scale = 0.5 * (to - from) * chord.scale(square);
+        double below = chord(y[0] * per_half);
         for (std::size_t c = 0; c < cells; ++c) {
-            const double above = chord(y[c + 1] / half);
+            const double above = chord(y[c + 1] * per_half);
             parts[c] += scale * (above - below);
             below = above;
         }

@@ -1,0 +1,113 @@
+// corpuscle list skins, contact: populations with their classes, indenters with their measures.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <numeric>
+
+#include "list_entry.hpp"
+#include "signal/quantity.hpp"
+#include "skin/contact/contact.hpp"
+#include "skin/contact/measures.hpp"
+#include "skin/innervation.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::string source_named(const std::vector<Sourced>& sources, std::string_view of) {
+    const auto found = std::find_if(sources.begin(), sources.end(), [&](const Sourced& s) { return s.of == of; });
+    return found == sources.end() ? "" : found->source;
+}
+
+/// "tip 70, middle 33, palm 10 /cm2": by what stands behind the last dot of a region's name, where that is enough to tell them apart.
+std::string densities(const SkinPlan& plan, const SkinClass& c) {
+    std::vector<std::pair<std::string, double>> found;
+    bool enough = true;
+    for (std::size_t r = 0; r < c.density.size(); ++r) {
+        const auto& region = plan.sites.regions[r];
+        const auto name = region.substr(region.rfind('.') + 1);
+        const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == name; });
+        if (same == found.end())
+            found.emplace_back(name, c.density[r]);
+        else
+            enough = enough && same->second == c.density[r];
+    }
+    if (!enough) {
+        found.clear();
+        for (std::size_t r = 0; r < c.density.size(); ++r) found.emplace_back(plan.sites.regions[r], c.density[r]);
+    }
+    std::string out;
+    for (const auto& [name, density] : found) out += fmt::format("{}{} {:.4g}", out.empty() ? "" : ", ", name, density * 1e-4);
+    return out + " /cm2";
+}
+
+void tell_class(const SkinPlan& plan, std::uint32_t k, std::vector<Told>& out) {
+    const auto& c = plan.classes[k];
+    const auto by_region = units_by_region(plan, k);
+    const auto units = std::accumulate(by_region.begin(), by_region.end(), std::uint64_t{0});
+    out.push_back(
+        {c.name, fmt::format("{} units of {}: {}", units, c.afferent.made_of(), densities(plan, c)), source_named(c.sources, "density")});
+    const auto length = [](double m) { return format_quantity(m, "m"); };
+    out.push_back({"", fmt::format("field: a Gaussian, sigma {}", length(c.sigma)), source_named(c.sources, "sigma")});
+    if (c.hot_spots > 1)
+        out.push_back({"", fmt::format("{} hot spots, each so wide, {} about its place", c.hot_spots, length(c.hot_spot_spread)),
+                       source_named(c.sources, "hot_spots")});
+    if (c.velocity > 0)
+        out.push_back({"", fmt::format("{} +- {}", format_quantity(c.velocity, "m/s"), format_quantity(c.velocity_spread, "m/s")),
+                       source_named(c.sources, "velocity")});
+    std::string spread;
+    for (const auto& s : c.spreads)
+        spread += fmt::format("{}{} {}", spread.empty() ? "" : ", ", s.parameter,
+                              s.share ? fmt::format("{:.3g}%", *s.share * 100) : format_quantity(s.deviation, s.unit));
+    if (!spread.empty()) out.push_back({"", "spread: " + spread, source_named(c.sources, "spread")});
+}
+
+Entry entry_of_skin(const NamedSkin& named) {
+    Entry e{std::string(named.name), "", std::string(named.sentence), fmt::format("skins/{}.toml", named.name), {}, {}};
+    const auto plan = plan_skin(named.name);
+    if (!plan) return e;  // the tests see to it that there is one
+    const auto& sites = plan->sites;
+    e.told.push_back({"sites", fmt::format("{}, {:.3g} mm2 each, in {} regions", sites.size(), sites.area * 1e6, sites.regions.size()),
+                      source_named(plan->sources, "sites")});
+    e.told.push_back({"felt_area", fmt::format("{:.3g} cm2", plan->felt_area * 1e4), source_named(plan->sources, "felt_area")});
+    for (std::uint32_t k = 0; k < plan->classes.size(); ++k) tell_class(*plan, k, e.told);
+    return e;
+}
+
+std::vector<Entry> contact_entries() {
+    std::vector<Entry> out;
+    const auto rows = contact_rows();
+    for (const auto& i : indenters) {
+        Entry e{std::string(i.name), "", std::string(i.sentence), std::string(i.source), {}, {}};
+        for (const auto& row : rows)
+            if (std::find(i.measures.begin(), i.measures.end(), row.name) != i.measures.end()) e.parameters.push_back({row, "contact"});
+        out.push_back(std::move(e));
+    }
+    Entry path{"path", "", "where any of them is, and how it moves", "", {}, {}};
+    for (const auto& row : rows)
+        if (is_path_measure(row.name)) path.parameters.push_back({row, "contact"});
+    out.push_back(std::move(path));
+    for (const auto& t : named_touches()) {
+        Entry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.sentence), "choice", {}, {}};
+        const auto tell = [&](std::string_view of, const std::vector<Setting>& settings) {
+            std::string text;
+            for (const auto& s : settings) text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", s.name, s.value);
+            e.told.push_back({std::string(of), text + " (SI)", ""});
+        };
+        tell("contact", t.settings), tell(t.force, t.force_settings);
+        out.push_back(std::move(e));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<Section> skin_sections() {
+    std::vector<Entry> skins;
+    for (const auto& s : named_skins()) skins.push_back(entry_of_skin(s));
+    skins.push_back(
+        {"grid 8x8", "", "a sensor array of so many rows and columns, 2 mm apart, an SA-I and an FA-I at each", "choice", {}, {}});
+    skins.push_back({"path/own.toml", "", "any population file", "doc/skin.md", {}, {}});
+    return {{"skins", skins}, {"contact", contact_entries()}};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,328 @@
+// How long after a frame of forces are its spikes there, how much of a core does that take, and does it last?
+//   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples a second
+//   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: what part of a core
+//   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
+// 60 s if nothing is said (the soak is meant for 3600), of ./corpuscle. `corpuscle stream` is started as anybody would start it, bound to
+// the last core; what sends and what reads are threads of this program on the others, so that it has one core and no more.
+//
+// delay, share: frames are binary float32 through a pipe, each written when it is due by the clock (clock_nanosleep to absolute times);
+// events are binary through another pipe. The delay of a frame is from just before its write to the read that brought its first spike; a
+// frame without a spike has none, but is counted by the program, which tells at the end how many it answered and what it measured itself,
+// of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same ticks and notes how late it wakes: what
+// the machine does to anybody. Every site feels something at every frame (noise of some mN, so that no afferent can be passed over), and a
+// round contact moves over the skin. share also tells getrusage's time of the program, user and system. soak holds every byte that comes
+// against what the same frames give in this process.
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include "io/address_events.hpp"
+#include "live/delays.hpp"
+#include "live/frame_source.hpp"
+#include "live/live_population.hpp"
+#include "live/network.hpp"
+#include "live/skin_stream.hpp"
+#include "signal/random.hpp"
+
+namespace {
+
+using namespace corpuscle;
+
+void bind_to(int first, int last) {
+    cpu_set_t cores;
+    CPU_ZERO(&cores);
+    for (int c = first; c <= last; ++c) CPU_SET(static_cast<std::size_t>(c), &cores);
+    ::sched_setaffinity(0, sizeof cores, &cores);
+}
+
+void sleep_until(std::int64_t ns) {
+    const timespec at = {ns / 1'000'000'000, ns % 1'000'000'000};
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
+    }
+}
+
+/// Frames of one second, over and over: a contact that goes round, and noise.
+std::vector<float> frames_of_a_second(const Sites& sites, int rate, double radius) {
+    std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
+    Position low = sites.at[0], high = low;
+    for (const auto& p : sites.at)
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    for (int k = 0; k < rate; ++k) {
+        const double turn = 6.283185307179586 * k / rate;
+        const double x = (low.x + high.x) / 2 + (high.x - low.x) / 4 * std::cos(turn),
+                     y = (low.y + high.y) / 2 + (high.y - low.y) / 4 * std::sin(turn);
+        for (std::size_t s = 0; s < sites.size(); ++s) {
+            const double d2 = (sites.at[s].x - x) * (sites.at[s].x - x) + (sites.at[s].y - y) * (sites.at[s].y - y);
+            const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
+            out[static_cast<std::size_t>(k) * sites.size() + s] =
+                static_cast<float>(2 * std::exp(-d2 / (radius * radius)) + 1e-3 + 4e-3 * unit_interval(w[0], w[1]));
+        }
+    }
+    return out;
+}
+
+/// The program at work.
+struct Program {
+    pid_t pid = 0;
+    Descriptor in, out, err;
+    rusage used = {};
+
+    Program(const std::string& path, std::vector<std::string> words, int core) {
+        int pipes[3][2];
+        for (auto& p : pipes)
+            if (::pipe2(p, O_CLOEXEC) != 0) std::exit(1);
+        ::fcntl(pipes[0][0], F_SETPIPE_SZ, 1 << 20);
+        words.insert(words.begin(), {path, "stream"});
+        std::vector<char*> arguments;
+        for (auto& w : words) arguments.push_back(w.data());
+        arguments.push_back(nullptr);
+        if ((pid = ::fork()) == 0) {
+            bind_to(core, core);
+            ::dup2(pipes[0][0], 0), ::dup2(pipes[1][1], 1), ::dup2(pipes[2][1], 2);
+            ::execv(arguments[0], arguments.data());
+            ::_exit(127);
+        }
+        in = Descriptor(pipes[0][1]), out = Descriptor(pipes[1][0]), err = Descriptor(pipes[2][0]);
+        ::close(pipes[0][0]), ::close(pipes[1][1]), ::close(pipes[2][1]);
+    }
+    int wait() {
+        int status = 0;
+        ::wait4(pid, &status, 0, &used);
+        return WEXITSTATUS(status);
+    }
+    std::string told(int fd) const {
+        std::string all;
+        char piece[4096];
+        for (ssize_t n = 0; (n = ::read(fd, piece, sizeof piece)) > 0;) all.append(piece, static_cast<std::size_t>(n));
+        return all;
+    }
+    double seconds() const {
+        const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+        return s(used.ru_utime) + s(used.ru_stime);
+    }
+};
+
+std::string row(const char* name, const Delays& d) {
+    std::uint64_t within = 0;
+    for (int b = 0; b < Delays::size() && Delays::end_of(b) <= 1'000'000; ++b) within += d.in(b);
+    const auto us = [&](double q) { return static_cast<double>(d.quantile(q)) * 1e-3; };
+    return fmt::format("{:28} {:9} {:8.1f} {:8.1f} {:8.1f} {:9.1f}   {:.4f} %\n", name, d.count(), us(0.5), us(0.99), us(0.999),
+                       static_cast<double>(d.most()) * 1e-3,
+                       100 * static_cast<double>(within) / static_cast<double>(std::max<std::uint64_t>(1, d.count())));
+}
+
+/// Both as shares of an octave each.
+void print_histograms(const Delays& idle, const Delays& delay) {
+    fmt::print("\n  up to us     idle %    delay %\n");
+    std::uint64_t a = 0, b = 0;
+    std::int64_t edge = 1024;
+    for (int k = 0; k < Delays::size(); ++k) {
+        a += idle.in(k), b += delay.in(k);
+        if (Delays::end_of(k) < edge) continue;
+        if (a + b > 0)
+            fmt::print("{:10.1f} {:10.4f} {:10.4f}\n", static_cast<double>(edge) * 1e-3,
+                       100 * static_cast<double>(a) / static_cast<double>(idle.count()),
+                       100 * static_cast<double>(b) / static_cast<double>(std::max<std::uint64_t>(1, delay.count())));
+        a = b = 0, edge *= 2;
+    }
+}
+
+Delays idle_loop(int rate, int seconds) {
+    Delays late;
+    const auto begin = steady_now() + 10'000'000;
+    for (std::int64_t k = 0; k < std::int64_t{rate} * seconds; ++k) {
+        const auto due = begin + k * 1'000'000'000 / rate;
+        sleep_until(due);
+        late.add(steady_now() - due);
+    }
+    return late;
+}
+
+/// Frames into a descriptor, each when it is due; when each began to be written.
+void send_frames(int fd, const std::vector<float>& second, std::size_t sites, int rate, std::int64_t count, bool numbered,
+                 std::vector<std::int64_t>& at) {
+    std::vector<char> bytes(4 + sites * sizeof(float));
+    const auto begin = steady_now() + 10'000'000;
+    for (std::int64_t k = 0; k < count; ++k) {
+        const auto number = static_cast<std::uint32_t>(k);
+        std::memcpy(bytes.data(), &number, 4);
+        std::memcpy(bytes.data() + 4, second.data() + static_cast<std::size_t>(k % rate) * sites, sites * sizeof(float));
+        sleep_until(begin + k * 1'000'000'000 / rate);
+        std::string_view left(bytes.data(), bytes.size());
+        if (!numbered) left.remove_prefix(4);
+        if (!at.empty()) __atomic_store_n(&at[static_cast<std::size_t>(k)], steady_now(), __ATOMIC_RELEASE);
+        while (!left.empty()) {
+            const auto n = ::write(fd, left.data(), left.size());
+            if (n < 0) return;
+            left.remove_prefix(static_cast<std::size_t>(n));
+        }
+    }
+}
+
+/// Events as they come; each() is called with every one and when it was read.
+template <class Each>
+void read_events(int fd, std::size_t header, const Each& each) {
+    std::vector<char> buffer(1 << 20);
+    std::size_t filled = 0;
+    for (ssize_t n = 0; (n = ::read(fd, buffer.data() + filled, buffer.size() - filled)) > 0;) {
+        const auto now = steady_now();
+        filled += static_cast<std::size_t>(n);
+        std::size_t at = std::min(header, filled);
+        header -= at;
+        for (; filled - at >= address_events::spike_bytes; at += address_events::spike_bytes) {
+            address_events::Packed spike;
+            std::memcpy(&spike, buffer.data() + at, sizeof spike);
+            each(spike, now);
+        }
+        std::memmove(buffer.data(), buffer.data() + at, filled -= at);
+    }
+}
+
+std::shared_ptr<const Innervation> skin_of(const std::string& population) {
+    auto plan = plan_live(population, 1);
+    auto skin = plan ? innervate(std::move(*plan)) : Result<std::shared_ptr<const Innervation>>(plan.error());
+    if (!skin) fmt::print("{}\n", skin.error().text()), std::exit(1);
+    return *skin;
+}
+
+int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius) {
+    const auto skin = skin_of(population);
+    const auto sites = skin->plan.sites.size();
+    const auto header = (*event_format("aer", event_units(*skin, {rate, 1})))->header().size();
+    const auto second = frames_of_a_second(skin->plan.sites, rate, radius);
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    if (cores > 1) bind_to(0, cores - 2);
+    const auto idle = idle_loop(rate, seconds);
+    const std::int64_t count = std::int64_t{rate} * seconds;
+    std::vector<std::int64_t> sent(static_cast<std::size_t>(count));
+    Program child(program, {"--population", population, "--rate", fmt::format("{}Hz", rate), "--frames", "f32", "--format", "aer"},
+                  cores - 1);
+    std::thread sender([&] {
+        send_frames(child.in.get(), second, sites, rate, count, false, sent);
+        child.in.close();
+    });
+    Delays delay;
+    std::int64_t last = 0, spikes = 0;
+    read_events(child.out.get(), header, [&](const address_events::Packed& spike, std::int64_t now) {
+        ++spikes;
+        if (spike.step == last || spike.step >= count) return;
+        last = spike.step;
+        delay.add(now - __atomic_load_n(&sent[static_cast<std::size_t>(spike.step)], __ATOMIC_ACQUIRE));
+    });
+    sender.join();
+    const auto told = child.told(child.err.get());
+    const int status = child.wait();
+    fmt::print("{}: {} sites, {} afferents, {} frames of {} Hz sent, {} spikes read\n\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n",
+               population, sites, skin->units.size(), count, rate, spikes, "us", "number", "50 %", "99 %", "99.9 %", "longest");
+    fmt::print("{}{}", row("idle loop, late", idle), row("frame written to spike read", delay));
+    print_histograms(idle, delay);
+    fmt::print("\nIts own summary (status {}):\n{}\nOf one core it took {:.2f} % ({:.2f} s of {} s); {} MB at the most.\n", status, told,
+               100 * child.seconds() / seconds, child.seconds(), seconds, child.used.ru_maxrss / 1024);
+    return status;
+}
+
+std::int64_t resident_kB(pid_t pid) {
+    std::ifstream in(fmt::format("/proc/{}/statm", pid));
+    std::int64_t size = 0, resident = 0;
+    in >> size >> resident;
+    return resident * ::sysconf(_SC_PAGESIZE) / 1024;
+}
+
+int soak(const std::string& program, int seconds) {
+    constexpr int rate = 1000;
+    const auto skin = skin_of("grid 16x16");
+    const auto sites = skin->plan.sites.size();
+    const auto format = event_format("aer", event_units(*skin, {rate, 1}));
+    const auto second = frames_of_a_second(skin->plan.sites, rate, 8e-3);
+    Endpoint here;
+    auto door = listening_socket(here);
+    Program child(program,
+                  {"--population", "grid 16x16", "--rate", "1kHz", "--frames", "f32", "--stamp", "count", "--format", "aer", "--in",
+                   "tcp:0", "--clients", "1", "--to", std::to_string(here.port)},
+                  static_cast<int>(std::thread::hardware_concurrency()) - 1);
+    pollfd wait = {door->get(), POLLIN, 0};
+    ::poll(&wait, 1, 10000);
+    Descriptor events(::accept(door->get(), nullptr, nullptr));
+    std::string said(200, '\0');
+    said.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), said.data(), said.size()))));
+    auto to = connected_socket(*parse_endpoint(said.substr(said.find("127."), said.find('\n') - said.find("127."))), 5000);
+    if (!to) return fmt::print("{}\n", to.error().text()), 1;
+    ::fcntl(to->get(), F_SETFL, 0);
+    const std::int64_t count = std::int64_t{rate} * seconds;
+    std::vector<std::int64_t> sent(static_cast<std::size_t>(count));
+    std::thread sender([&] {
+        send_frames(to->get(), second, sites, rate, count, true, sent);
+        to->close();
+    });
+    // The same frames here, as far as events have come.
+    auto ours = SkinStream::make(skin, {rate, 1});
+    std::vector<double> frame(sites);
+    std::vector<address_events::Packed> wanted;
+    std::size_t at = 0;
+    const auto next = [&](std::int64_t step) {
+        while (at == wanted.size() && (*ours)->frames() < std::min(count, step + 1)) {
+            const auto* from = second.data() + static_cast<std::size_t>((*ours)->frames() % rate) * sites;
+            std::copy_n(from, sites, frame.begin());
+            wanted.clear(), at = 0;
+            const auto spikes_here = (*ours)->push(frame);
+            for (const auto& s : *spikes_here) {
+                address_events::Packed packed;
+                (*format)->put(s, reinterpret_cast<char*>(&packed));
+                wanted.push_back(packed);
+            }
+        }
+    };
+    std::vector<Delays> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
+    std::int64_t spikes = 0, wrong = 0, told_at = 0, last = -1;
+    read_events(events.get(), (*format)->header().size(), [&](const address_events::Packed& spike, std::int64_t now) {
+        next(spike.step);
+        wrong += at == wanted.size() || std::memcmp(&wanted[at], &spike, sizeof spike) != 0;
+        ++spikes, at += at < wanted.size();
+        if (spike.step != last && spike.step < count)
+            minutes[static_cast<std::size_t>(spike.step / rate / 60)].add(
+                now - __atomic_load_n(&sent[static_cast<std::size_t>(spike.step)], __ATOMIC_ACQUIRE));
+        last = spike.step;
+        if (spike.step < told_at) return;
+        fmt::print("{:6} s  {:9} events  {:6} kB resident\n", spike.step / rate, spikes, resident_kB(child.pid));
+        std::fflush(stdout);
+        told_at += std::max(10, seconds / 12) * rate;
+    });
+    sender.join();
+    next(count);
+    const auto told = child.told(child.err.get());
+    const int status = child.wait();
+    fmt::print("\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n", "us", "number", "50 %", "99 %", "99.9 %", "longest");
+    fmt::print("{}{}", row("first minute", minutes.front()),
+               row("last whole minute", minutes[minutes.size() > 1 ? minutes.size() - 2 : 0]));
+    fmt::print("\n{} events, {} not as they should be, {} missing at the end; status {}\n{}", spikes, wrong, wanted.size() - at, status,
+               told);
+    return wrong != 0 || at != wanted.size() ? 1 : status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);
+    ::prctl(PR_SET_TIMERSLACK, 1);  // ns; threads begin with their maker's
+    const std::string what = argc > 1 ? argv[1] : "";
+    const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
+    const std::string program = argc > 3 ? argv[3] : "./corpuscle";
+    if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3);
+    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 12e-3);
+    if (what == "soak") return soak(program, seconds);
+    return fmt::print("bench-live delay|share|soak [SECONDS [PROGRAM]]\n"), 2;
+}

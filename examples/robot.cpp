@@ -1,0 +1,22 @@
+// A robot's loop at 1 kHz: forces of 64 taxels in, spikes out within the same millisecond.
+
+#include <chrono>
+#include <corpuscle.hpp>
+#include <cstdio>
+#include <thread>
+
+int main() {
+    corpuscle::LiveSkin skin("grid 8x8", 1e3);
+    std::vector<double> frame(skin.sites());  // N
+    long spikes = 0;
+    auto next = std::chrono::steady_clock::now();
+    for (int k = 0; k < 500; ++k) {
+        for (std::size_t s = 0; s < frame.size(); ++s) frame[s] = k < 100 ? 0 : s % 8 < 4 ? 1.5 : 0;  // here a robot reads its sensors
+        skin.push(frame, [&](const corpuscle::LiveSkin::Event& e) {
+            if (spikes++ < 10) std::printf("%.4f s  %s\n", e.time, skin.name(e.unit).c_str());
+        });
+        std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
+    }
+    std::printf("%ld spikes of %zu afferents\n", spikes, skin.units());
+    return spikes == 0;
+}

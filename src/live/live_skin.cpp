@@ -1,0 +1,58 @@
+// The library's face for robots.
+
+#include "corpuscle.hpp"
+#include "live/live_population.hpp"
+#include "live/skin_stream.hpp"
+
+namespace corpuscle {
+
+struct LiveSkin::Held {
+    std::unique_ptr<SkinStream> stream;
+    EventUnits units;
+    std::vector<Event> events = {};
+
+    std::span<const Event> told(std::span<const Spike> spikes) {
+        events.clear();
+        for (const auto& s : spikes) events.push_back({units.clock.time(s.step, s.offset), s.unit, units.addresses[s.unit]});
+        return events;
+    }
+};
+
+namespace {
+
+template <class T>
+T or_throw(Result<T> result) {
+    if (!result) throw Refused(result.error().text());
+    if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+}  // namespace
+
+LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t channels) {
+    const auto clock = or_throw(clock_of(rate));
+    auto placed = or_throw(innervate(or_throw(plan_live(population, channels))));
+    auto units = event_units(*placed, clock);
+    held_ = std::unique_ptr<Held>(new Held{or_throw(SkinStream::make(std::move(placed), clock)), std::move(units)});
+    held_->events.reserve(8 * held_->units.names.size() + 64);
+}
+LiveSkin::LiveSkin(LiveSkin&&) noexcept = default;
+LiveSkin& LiveSkin::operator=(LiveSkin&&) noexcept = default;
+LiveSkin::~LiveSkin() = default;
+
+std::size_t LiveSkin::sites() const { return held_->stream->sites(); }
+std::size_t LiveSkin::units() const { return held_->units.names.size(); }
+std::int64_t LiveSkin::frames() const { return held_->stream->frames(); }
+std::string LiveSkin::name(std::uint32_t unit) const {
+    if (unit >= units()) throw Refused("there is no unit " + std::to_string(unit) + "; the last is " + std::to_string(units() - 1));
+    return held_->units.names[unit];
+}
+
+std::span<const LiveSkin::Event> LiveSkin::answer(std::span<const double> frame) {
+    return held_->told(or_throw(held_->stream->push(frame)));
+}
+std::span<const LiveSkin::Event> LiveSkin::last() { return held_->told(held_->stream->last()); }
+
+std::vector<std::byte> LiveSkin::save() const { return held_->stream->save(); }
+void LiveSkin::resume(std::span<const std::byte> state) { or_throw(held_->stream->resume(state)); }
+
+}  // namespace corpuscle

@@ -1,0 +1,108 @@
+// The same face in C: no exception leaves it.
+
+#include <algorithm>
+#include <cstring>
+
+#include "corpuscle.h"
+#include "corpuscle.hpp"
+
+struct corpuscle_skin {
+    corpuscle::LiveSkin skin;
+    std::vector<std::string> names = {};
+    std::string error = {};
+};
+
+namespace corpuscle {
+namespace {
+
+void copy_text(const char* text, char* to, std::size_t size) {
+    if (!to || size == 0) return;
+    const auto length = std::min(std::strlen(text), size - 1);
+    std::memcpy(to, text, length);
+    to[length] = '\0';
+}
+
+void hand_out(std::span<const LiveSkin::Event> events, corpuscle_sink sink, void* user) {
+    if (!sink) return;
+    for (const auto& e : events) {
+        const corpuscle_spike spike{e.time, e.unit, e.address};
+        sink(user, &spike);
+    }
+}
+
+/// What `work` gives, or `failed` with the reason kept.
+template <class T, class Work>
+T kept_inside(corpuscle_skin* skin, T failed, const Work& work) noexcept {
+    if (!skin) return failed;
+    try {
+        return work();
+    } catch (const std::exception& e) {
+        try {
+            skin->error = e.what();
+        } catch (...) {
+            skin->error.clear();  // not even memory for a sentence
+        }
+    } catch (...) {
+        skin->error.clear();
+    }
+    return failed;
+}
+
+}  // namespace
+}  // namespace corpuscle
+
+using corpuscle::kept_inside;
+
+corpuscle_skin* corpuscle_create(const char* population, double rate_hz, size_t channels, char* error, size_t error_size) {
+    corpuscle::copy_text("", error, error_size);
+    try {
+        if (!population) throw corpuscle::Refused("no population is named");
+        auto made = std::unique_ptr<corpuscle_skin>(new corpuscle_skin{corpuscle::LiveSkin(population, rate_hz, channels)});
+        for (std::uint32_t u = 0; u < made->skin.units(); ++u) made->names.push_back(made->skin.name(u));
+        return made.release();
+    } catch (const std::exception& e) {
+        corpuscle::copy_text(e.what(), error, error_size);
+    } catch (...) {
+        corpuscle::copy_text("an error without a name", error, error_size);
+    }
+    return nullptr;
+}
+
+void corpuscle_destroy(corpuscle_skin* skin) { delete skin; }
+
+size_t corpuscle_sites(const corpuscle_skin* skin) { return skin ? skin->skin.sites() : 0; }
+size_t corpuscle_units(const corpuscle_skin* skin) { return skin ? skin->names.size() : 0; }
+const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t unit) {
+    return skin && unit < skin->names.size() ? skin->names[unit].c_str() : nullptr;
+}
+const char* corpuscle_error(const corpuscle_skin* skin) { return skin ? skin->error.c_str() : "there is no skin"; }
+
+int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corpuscle_sink sink, void* user) {
+    return kept_inside(skin, -1, [&] {
+        if (!frame) throw corpuscle::Refused("there is no frame");
+        corpuscle::hand_out(skin->skin.answer({frame, sites}), sink, user);
+        return 0;
+    });
+}
+
+int corpuscle_last(corpuscle_skin* skin, corpuscle_sink sink, void* user) {
+    return kept_inside(skin, -1, [&] { return corpuscle::hand_out(skin->skin.last(), sink, user), 0; });
+}
+
+size_t corpuscle_save(corpuscle_skin* skin, void* bytes, size_t size) {
+    return kept_inside(skin, std::size_t{0}, [&] {
+        const auto state = skin->skin.save();
+        if (bytes && size < state.size())
+            throw corpuscle::Refused("a state of " + std::to_string(state.size()) + " bytes does not go into " + std::to_string(size));
+        if (bytes) std::memcpy(bytes, state.data(), state.size());
+        return state.size();
+    });
+}
+
+int corpuscle_resume(corpuscle_skin* skin, const void* bytes, size_t size) {
+    return kept_inside(skin, -1, [&] {
+        if (!bytes) throw corpuscle::Refused("there is no state");
+        skin->skin.resume({static_cast<const std::byte*>(bytes), size});
+        return 0;
+    });
+}

@@ -1,0 +1,48 @@
+// Any bytes behind the first words of a file of address events, and any bytes as a stream's saved state: trains in order at finite times,
+// or an error with a sentence.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+#include "io/spikes.hpp"
+#include "live/stream_state.hpp"
+
+using namespace corpuscle;
+
+namespace {
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::string path = "/tmp/corpuscle-fuzz-events-" + std::to_string(::getpid());
+    static const bool once = [] { return std::atexit([] { std::remove(path.c_str()); }), true; }();
+    (void)once;
+    for (const std::string first : {"corpaer1", "#!AER-DAT2.0\r\n", ""}) {
+        if (std::FILE* f = std::fopen(path.c_str(), "wb")) {
+            std::fwrite(first.data(), 1, first.size(), f);
+            std::fwrite(data, 1, size, f);
+            std::fclose(f);
+        }
+        const auto trains = read_spikes(path);
+        if (!trains) require(!trains.error().sentence.empty());
+        if (trains)
+            for (const auto& t : *trains) {
+                require(!t.times.empty() && std::is_sorted(t.times.begin(), t.times.end()));
+                for (const double x : t.times) require(std::isfinite(x));
+            }
+    }
+    const auto state = unpacked({reinterpret_cast<const std::byte*>(data), size}, "state");
+    if (!state) return require(!state.error().sentence.empty()), 0;
+    const auto again = unpacked(packed(*state), "state");
+    require(again && again->force == state->force && again->number == state->number && again->skin == state->skin);
+    return 0;
+}

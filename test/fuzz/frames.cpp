@@ -1,0 +1,47 @@
+// Any bytes off a wire, in any pieces: frames of finite forces within the limit, the same as in one piece.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "live/frame_decoder.hpp"
+
+using namespace corpuscle;
+
+namespace {
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t piece) {
+    FrameDecoder decoder(layout);
+    std::vector<double> all, force(layout.sites);
+    while (!bytes.empty()) {
+        const auto room = decoder.room();
+        require(!room.empty());
+        const auto count = std::min({room.size(), bytes.size(), piece});
+        std::copy_n(bytes.begin(), count, room.begin());
+        decoder.came(count), bytes = bytes.subspan(count);
+        for (auto found = decoder.next(); found != FrameDecoder::Found::nothing; found = decoder.next()) {
+            if (found == FrameDecoder::Found::frame) require(decoder.take(force) <= force.size());
+            all.insert(all.end(), force.begin(), force.end());
+            all.push_back(found == FrameDecoder::Found::frame && layout.stamp != FrameStamp::none ? decoder.number() : -1.0);
+        }
+    }
+    for (const double f : force) require(std::abs(f) <= layout.limit);
+    return all;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size < 3) return 0;
+    FrameLayout layout;
+    layout.kind = static_cast<FrameKind>(data[0] % 4), layout.stamp = static_cast<FrameStamp>(data[0] / 4 % 3);
+    layout.sites = 1 + data[1] % 5, layout.scale = data[0] / 16 % 2 == 0 ? 1 : 1e-3;
+    const std::span bytes(data + 3, size - 3);
+    require(all_of(layout, bytes, 1 + data[2]) == all_of(layout, bytes, size));
+    return 0;
+}

@@ -1,0 +1,318 @@
+// Frames out of bytes, their order, a skin frame by frame, spikes as bytes: whatever the pieces they come in.
+
+#include <bit>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "corpuscle.h"
+#include "io/events.hpp"
+#include "io/spikes.hpp"
+#include "live/byte_ring.hpp"
+#include "live/delays.hpp"
+#include "live/frame_decoder.hpp"
+#include "live/frame_order.hpp"
+#include "live/live_population.hpp"
+#include "live/stream_state.hpp"
+#include "model/catalog.hpp"
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using test::sure;
+
+std::string bytes_of(const EventFormat& format, std::span<const Spike> spikes) {
+    std::string out;
+    std::vector<char> event(format.most_bytes());
+    for (const auto& s : spikes) out.append(event.data(), format.put(s, event.data()));
+    return out;
+}
+
+// --- spikes as bytes
+
+TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
+    const Folder folder;
+    EXPECT_TRUE(rc::check([&] {
+        const auto clock = *rc::gen::element(Clock{1000, 1}, Clock{5200, 1}, Clock{1213, 5}, Clock{3, 7});
+        const auto units = *rc::gen::inRange<std::uint32_t>(1, 40);
+        const auto classes = *rc::gen::inRange<std::uint32_t>(1, 4);
+        EventUnits named{clock, {}, {}};
+        for (std::uint32_t u = 0; u < units; ++u)
+            named.names.push_back("k" + std::to_string(u % classes) + "#" + std::to_string(u / classes + 1)),
+                named.addresses.push_back(3 * u);
+        std::vector<Spike> spikes;
+        const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 100000));
+        for (const int step : steps)
+            spikes.push_back({step, (*rc::gen::inRange(1, 4097)) / 4096.0, static_cast<std::uint32_t>(step) % units});
+        std::sort(spikes.begin(), spikes.end());
+        for (const auto& [name, error] : {std::pair{"lines", 0.51e-9}, {"aer", 1e-12}, {"jsonl", 0.51e-9}, {"aedat2", 0.51e-6}}) {
+            if (name == std::string_view("aedat2") && clock.per < 10) continue;  // silent for more than 71 minutes: nobody can tell
+            const auto format = sure(event_format(name, named));
+            const auto path = folder.write("events", format->header() + bytes_of(*format, spikes));
+            std::map<std::string, std::vector<double>> wanted;
+            for (const auto& s : spikes)
+                wanted[format->name() == "aedat2" ? std::to_string(3 * s.unit) : named.names[s.unit]].push_back(
+                    clock.time(s.step, s.offset));
+            if (format->name() == "jsonl") {  // each line is a document
+                std::ifstream in(path);
+                std::size_t k = 0;
+                for (std::string line; std::getline(in, line); ++k) {
+                    const auto event = nlohmann::json::parse(line);
+                    RC_ASSERT(event["afferent"] == named.names[spikes[k].unit]);
+                    RC_ASSERT(event["address"] == 3 * spikes[k].unit);
+                    RC_ASSERT(std::abs(event["time_s"].get<double>() - clock.time(spikes[k].step, spikes[k].offset)) < error);
+                }
+                RC_ASSERT(k == spikes.size());
+                continue;
+            }
+            const auto trains = sure(read_spikes(path));
+            RC_ASSERT(trains.size() == wanted.size());
+            for (const auto& t : trains) {
+                auto& times = wanted[t.afferent];
+                std::sort(times.begin(), times.end());
+                RC_ASSERT(t.times.size() == times.size());
+                for (std::size_t k = 0; k < times.size(); ++k) RC_ASSERT(std::abs(t.times[k] - times[k]) < error * (1 + times[k]));
+            }
+        }
+    }));
+}
+
+TEST(Events, MicrosecondsOfAedatGoRoundAfterSeventyOneMinutesAndAreReadOn) {
+    const Folder folder;
+    const auto format = sure(event_format("aedat2", {Clock{1000, 1}, {"a"}, {}}));
+    std::vector<Spike> spikes;
+    for (std::int64_t s = 0; s < 10; ++s) spikes.push_back({1 + s * 1000 * 1000, 1, 0});  // 1000 s apart
+    const auto trains = sure(read_spikes(folder.write("x.aedat", format->header() + bytes_of(*format, spikes))));
+    ASSERT_EQ(trains.at(0).times.size(), spikes.size());
+    EXPECT_NEAR(trains[0].times.back(), 9000.001, 1e-6);
+}
+
+TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
+    const auto skin = sure(innervate(sure(plan_channels("sa1,fa1", 3))));
+    const auto units = event_units(*skin, {1000, 1});
+    EXPECT_EQ(units.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
+    EXPECT_EQ(units.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
+}
+
+TEST(Events, FilesThatAreDamagedAreRefused) {
+    const Folder folder;
+    const auto format = sure(event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
+    const Spike spike{5, 0.5, 1};
+    const auto whole = format->header() + bytes_of(*format, {&spike, 1});
+    EXPECT_EQ(sure(read_spikes(folder.write("x.aer", whole))).at(0).name(), "sa1#2");
+    for (std::size_t cut = 8; cut < whole.size(); ++cut)
+        if (cut != format->header().size()) {
+            EXPECT_FALSE(read_spikes(folder.write("x.aer", whole.substr(0, cut)))) << cut;
+        }
+    EXPECT_FALSE(event_format("aedat", {}));
+}
+
+// --- frames out of bytes
+
+struct Decoded {
+    std::vector<std::vector<double>> frames;
+    std::int64_t unreadable = 0;
+    std::size_t bad = 0;
+    bool operator==(const Decoded&) const = default;
+};
+
+Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::vector<int>& pieces) {
+    FrameDecoder decoder(layout);
+    Decoded out;
+    std::vector<double> force(layout.sites);
+    for (std::size_t k = 0; !bytes.empty(); ++k) {
+        const auto room = decoder.room();
+        const auto piece = pieces.empty() ? bytes.size() : static_cast<std::size_t>(pieces[k % pieces.size()]);
+        const auto count = std::min({room.size(), piece, bytes.size()});
+        std::memcpy(room.data(), bytes.data(), count);
+        decoder.came(count), bytes.remove_prefix(count);
+        for (auto found = decoder.next(); found != FrameDecoder::Found::nothing; found = decoder.next()) {
+            if (found == FrameDecoder::Found::unreadable) {
+                ++out.unreadable;
+                continue;
+            }
+            out.bad += decoder.take(force);
+            out.frames.push_back(force);
+        }
+    }
+    return out;
+}
+
+TEST(Frames, AreTheSameHoweverTheirBytesArePutInPieces) {
+    EXPECT_TRUE(rc::check([] {
+        FrameLayout layout;
+        layout.kind = *rc::gen::element(FrameKind::csv, FrameKind::f32, FrameKind::f64, FrameKind::i16);
+        layout.stamp = *rc::gen::element(FrameStamp::none, FrameStamp::count, FrameStamp::time);
+        layout.sites = *rc::gen::inRange<std::size_t>(1, 5);
+        const auto bytes = layout.kind == FrameKind::csv
+                               ? *rc::gen::container<std::string>(rc::gen::element('1', '2', '.', ',', '\n', '-', 'x', ' '))
+                               : *rc::gen::container<std::string>(rc::gen::arbitrary<char>());
+        const auto pieces = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 9)));
+        RC_ASSERT(decoded(layout, bytes, pieces) == decoded(layout, bytes, {}));
+    }));
+}
+
+TEST(Frames, ALineWithTooFewOrTooManyForcesIsNoneAndWhatIsNoNumberIsHeld) {
+    FrameLayout layout;
+    layout.sites = 2;
+    const auto d = decoded(layout, "a,b\n1,2\r\n3\n1,2,3\nx,4\n# said\n\n5 ; 1e9\n nan, -.5 \n", {});
+    EXPECT_EQ(d.frames, (std::vector<std::vector<double>>{{1, 2}, {1, 4}, {5, 4}, {5, -0.5}}));
+    EXPECT_EQ(d.unreadable, 2);
+    EXPECT_EQ(d.bad, 3U) << "x, 1e9 (beyond the limit), nan";
+    const std::string endless(10'000'000, '7');
+    EXPECT_EQ(decoded(layout, "1,2\n" + endless + "\n3,4\n", {}).frames.size(), 2U) << "a line without an end takes no memory";
+}
+
+TEST(Frames, NumbersSayWhatIsMissingTwiceOrLate) {
+    FrameOrder order(2, 10);
+    const auto turn = [&](std::uint32_t n) { return order.turn(n); };
+    EXPECT_TRUE(turn(4294967295U).take) << "the first begins the count";
+    EXPECT_EQ(turn(0).hold, 0) << "it goes round at 2^32";
+    EXPECT_FALSE(turn(0).take);
+    const auto gap = turn(5);
+    EXPECT_EQ(gap.hold, 2);
+    EXPECT_EQ(gap.release, 2);
+    EXPECT_FALSE(turn(3).take);
+    EXPECT_TRUE(turn(1000).take) << "too far for a gap";
+    EXPECT_TRUE(turn(7).take) << "and back";
+    const auto& c = order.counts();
+    EXPECT_EQ((std::vector{c.gaps, c.held, c.released, c.duplicates, c.late, c.restarts}), (std::vector<std::int64_t>{1, 2, 2, 1, 1, 2}));
+}
+
+// --- a skin, frame by frame
+
+SkinPlan conducting_grid(std::size_t rows, std::size_t columns) {
+    auto plan = sure(plan_skin("grid " + std::to_string(rows) + "x" + std::to_string(columns)));
+    for (auto& c : plan.classes) c.velocity = 2, c.velocity_spread = 0.2;
+    plan.nerve = Position{0, -0.02, 0};
+    return plan;
+}
+
+/// [frame][site]; presses here and there, and long rests.
+std::vector<std::vector<double>> some_frames(std::size_t count, std::size_t sites, std::uint64_t seed) {
+    std::vector<std::vector<double>> frames(count, std::vector<double>(sites));
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t s = 0; s < sites; ++s) {
+            const auto w = philox({static_cast<std::uint32_t>(k / 37), static_cast<std::uint32_t>(s), 0, 0}, seed);
+            if (w[0] % 4 == 0) frames[k][s] = static_cast<double>(w[1] % 1000) * 2e-3 + static_cast<double>(k % 37) * 0.02;
+        }
+    return frames;
+}
+
+std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const std::vector<std::vector<double>>& frames) {
+    auto made = sure(Skin::make(skin, {.dt = 1e-3}, *instruction_set()));
+    std::vector<double> force(skin->plan.sites.size() * frames.size());
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        for (std::size_t s = 0; s < frames[k].size(); ++s) force[s * frames.size() + k] = frames[k][s];
+    Pool pool(2);
+    std::vector<Spike> spikes;
+    EXPECT_TRUE(made->respond({force.data(), frames.size(), {}, true}, frames.size(), spikes, pool));
+    made->last(spikes);
+    return spikes;
+}
+
+TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
+    EXPECT_TRUE(rc::check([] {
+        const auto skin = sure(innervate(conducting_grid(*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12))));
+        const Clock clock{1000, 1};
+        const auto frames =
+            some_frames(*rc::gen::inRange<std::size_t>(1, 700), skin->plan.sites.size(), *rc::gen::arbitrary<std::uint64_t>());
+        const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
+        const auto format =
+            sure(event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), event_units(*skin, clock)));
+        auto stream = sure(SkinStream::make(skin, clock));
+        std::string live;
+        for (std::size_t k = 0; k < frames.size(); ++k) {
+            if (k == cut) {
+                const auto kept = sure(unpacked(packed({frames[k], 7, stream->save()}), "x"));
+                RC_ASSERT(kept.force == frames[k]);
+                stream = sure(SkinStream::make(skin, clock));
+                RC_ASSERT(bool(stream->resume(kept.skin)));
+            }
+            live += bytes_of(*format, sure(stream->push(frames[k])));
+        }
+        live += bytes_of(*format, stream->last());
+        RC_ASSERT(live == bytes_of(*format, offline(skin, frames)));
+    }));
+}
+
+TEST(SkinStream, AStateThatIsDamagedIsRefused) {
+    auto stream = sure(SkinStream::make(sure(innervate(sure(plan_channels("sa1", 2)))), {1000, 1}));
+    const auto bytes = packed({{0.5, 0.25}, {}, stream->save()});
+    EXPECT_TRUE(unpacked(bytes, "x"));
+    for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpacked(std::span(bytes).first(size), "x")) << size;
+}
+
+// --- what stands between
+
+TEST(ByteRing, GivesWholeEventsInOrderFromOneThreadToAnother) {
+    ByteRing ring(64);
+    std::uint32_t next = 0, dropped = 0;
+    std::thread reader([&] {
+        std::string got;
+        std::uint32_t last = 0;
+        while (last != 1'000'000) {
+            const auto piece = ring.next();
+            got.append(piece), ring.took(piece.size());
+            for (; got.size() >= sizeof last; got.erase(0, sizeof last)) {
+                std::uint32_t number = 0;
+                std::memcpy(&number, got.data(), sizeof number);
+                if (number <= last) return;  // out of order: the test waits in vain for `done`
+                last = number;
+            }
+        }
+        next = last;
+    });
+    for (std::uint32_t k = 1; k <= 1'000'000; ++k)
+        while (!ring.put({reinterpret_cast<const char*>(&k), sizeof k}))
+            if (k < 1'000'000 && ++dropped) break;
+    reader.join();
+    EXPECT_EQ(next, 1'000'000U);
+}
+
+TEST(Delays, QuantilesAreWithinThreePercent) {
+    Delays d;
+    for (std::int64_t ns = 1; ns <= 1'000'000; ++ns) d.add(ns);
+    for (const double share : {0.01, 0.5, 0.99, 0.999})
+        EXPECT_NEAR(static_cast<double>(d.quantile(share)), share * 1e6, 0.032 * share * 1e6);
+    EXPECT_EQ(d.most(), 1'000'000);
+}
+
+TEST(CHeader, TellsWhatIsWrongAndGoesOnFromWhatWasSaved) {
+    char error[200];
+    EXPECT_EQ(corpuscle_create("nobody", 1000, 1, error, sizeof error), nullptr);
+    EXPECT_NE(std::string(error).find("nobody"), std::string::npos) << error;
+    EXPECT_EQ(corpuscle_create(nullptr, 1000, 1, nullptr, 0), nullptr);
+    auto* one = corpuscle_create("sa1", 1000, 1, error, sizeof error);
+    auto* other = corpuscle_create("sa1", 1000, 1, error, sizeof error);
+    ASSERT_TRUE(one && other) << error;
+    const auto list = [](void* to, const corpuscle_spike* s) { static_cast<std::vector<double>*>(to)->push_back(s->time); };
+    std::vector<double> all, second;
+    const double force = 2;
+    EXPECT_EQ(corpuscle_push(one, &force, 2, list, &all), -1);
+    EXPECT_STREQ(corpuscle_error(one), "a frame of 2 forces for 1 sites");
+    for (int k = 0; k < 1000; ++k) {
+        if (k == 150) {
+            std::vector<char> state(corpuscle_save(one, nullptr, 0));
+            EXPECT_EQ(corpuscle_save(one, state.data(), state.size()), state.size());
+            EXPECT_EQ(corpuscle_save(one, state.data(), 3), 0U);
+            EXPECT_EQ(corpuscle_resume(other, state.data(), state.size()), 0);
+            EXPECT_EQ(corpuscle_resume(other, state.data(), 3), -1);
+            second = all;
+        }
+        EXPECT_EQ(corpuscle_push(one, &force, 1, list, &all), 0);
+        if (k >= 150) {
+            EXPECT_EQ(corpuscle_push(other, &force, 1, list, &second), 0);
+        }
+    }
+    EXPECT_GT(all.size(), 1U);
+    EXPECT_EQ(all, second);
+    corpuscle_destroy(one), corpuscle_destroy(other), corpuscle_destroy(nullptr);
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,239 @@
+// Touch without a sensor: what an indenter presses adds up, has the pressures of the textbooks, and is where its path says.
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "skin/contact/contact.hpp"
+#include "support/property.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// Skin from (-half, -half) to (half, half), m, without gaps; one site has its middle at (0, 0).
+Sites sheet(double half, double pitch) {
+    const auto n = 2 * static_cast<std::size_t>(std::lround(half / pitch)) + 1;
+    auto sites = *grid_sites(n, n, pitch);
+    for (auto& p : sites.at) p.x -= static_cast<double>(n / 2) * pitch, p.y -= static_cast<double>(n / 2) * pitch;
+    sites.area = pitch * pitch;
+    return sites;
+}
+
+std::unique_ptr<Contact> pressing(std::string_view indenter, std::initializer_list<const char*> measures, const Sites& sites,
+                                  double rate = 1000) {
+    std::vector<Wish> wishes;
+    for (const std::string text : measures) wishes.push_back(*parse_wish("contact." + text));
+    auto made = make_contact(indenter, wishes, sites, *clock_of(rate));
+    EXPECT_TRUE(made) << made.error().text();
+    return std::move(*made);
+}
+
+/// Force at all sites at sample `at`.
+std::vector<double> map_at(Contact& contact, const Sites& sites, double force, std::int64_t at = 0) {
+    const auto pressed = contact.press({&force, 1}, at);
+    EXPECT_TRUE(pressed) << pressed.error().text();
+    std::vector<double> out(sites.size(), 0.0);
+    for (const auto s : pressed->touched) out[s] = pressed->of[s * pressed->stride];
+    return out;
+}
+
+double sum(const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); }
+
+/// Force within a distance of the middle.
+double within(const std::vector<double>& map, const Sites& sites, double reach) {
+    double out = 0;
+    for (std::size_t s = 0; s < map.size(); ++s) out += std::hypot(sites.at[s].x, sites.at[s].y) < reach ? map[s] : 0;
+    return out;
+}
+
+Position centroid(const std::vector<double>& map, const Sites& sites) {
+    Position out;
+    for (std::size_t s = 0; s < map.size(); ++s) out.x += map[s] * sites.at[s].x / sum(map), out.y += map[s] * sites.at[s].y / sum(map);
+    return out;
+}
+
+RC_GTEST_PROP(Contacts, HaveAllOfTheForce, ()) {
+    const auto sites = sheet(20e-3, 1e-3);
+    const auto indenter = *rc::gen::element<std::string>("flat", "sphere", "edge", "grating");
+    std::vector<Wish> wishes;
+    const auto wish = [&](const char* name, int low, int high, double unit) {
+        wishes.push_back({"contact", name, std::to_string(*rc::gen::inRange(low, high) * unit)});
+    };
+    wish("x", -500, 500, 1e-5), wish("y", -500, 500, 1e-5);
+    if (indenter == "edge" || indenter == "grating") wish("angle", -180, 180, 1);
+    if (indenter != "edge") wish("radius", 1, 80, 1e-4);
+    if (indenter == "edge") wish("length", 1, 150, 1e-4);
+    const double force = *rc::gen::inRange(1, 4000) * 1e-3;
+    auto contact = make_contact(indenter, wishes, sites, *clock_of(1000));
+    RC_ASSERT(bool(contact));
+    const double felt = sum(map_at(**contact, sites, force));
+    RC_ASSERT(std::abs(felt - force) < 1e-12 || (indenter == "grating" && felt == 0));  // a patch in a groove touches nothing
+}
+
+TEST(Contacts, LoseWhatLiesOffTheSkinAndSaySo) {
+    const auto sites = sheet(10e-3, 1e-3);
+    for (const auto* indenter : {"flat", "sphere", "edge", "grating"}) {
+        const auto contact = pressing(indenter, {"x=10.5mm", "y=0mm"}, sites);  // the skin's very edge
+        EXPECT_NEAR(sum(map_at(*contact, sites, 2)), 1, std::string(indenter) == "grating" ? 0.2 : 1e-9) << indenter;
+        const auto remarks = contact->remarks();
+        EXPECT_TRUE(std::any_of(remarks.begin(), remarks.end(), [](const auto& r) {
+            return r.find("% of the force, over time, was off the skin") != r.npos;
+        })) << indenter;
+    }
+    EXPECT_EQ(sum(map_at(*pressing("sphere", {"x=1m", "y=0"}, sites), sites, 1)), 0);
+    EXPECT_EQ(sum(map_at(*pressing("sphere", {}, sites), sites, -1)), 0);
+}
+
+TEST(Contacts, OfSitesOnNoLatticeHaveAllOfTheForce) {
+    auto sites = *grid_sites(4, 5, 3e-3);
+    for (std::size_t s = 0; s < sites.size(); ++s) sites.at[s].x += 0.3e-3 * static_cast<double>(s % 3);
+    const auto contact = pressing("flat", {"radius=4mm", "x=6mm", "y=4mm"}, sites);
+    EXPECT_NEAR(sum(map_at(*contact, sites, 3)), 3, 1e-12);
+    EXPECT_NE(contact->remarks()[1].find("no lattice"), std::string::npos);
+}
+
+TEST(Contacts, AreAsEvenAsTheirIndenters) {
+    const auto sites = sheet(8e-3, 0.5e-3);
+    const std::size_t n = 33;
+    for (const auto* indenter : {"flat", "sphere", "edge"}) {
+        const auto map = map_at(*pressing(indenter, {"x=0", "y=0"}, sites), sites, 1);
+        for (std::size_t r = 0; r < n; ++r)
+            for (std::size_t c = 0; c < n; ++c) {
+                const double here = map[r * n + c];
+                ASSERT_NEAR(here, map[r * n + (n - 1 - c)], 1e-12) << indenter;
+                ASSERT_NEAR(here, map[(n - 1 - r) * n + c], 1e-12) << indenter;
+            }
+    }
+}
+
+// Johnson, Contact Mechanics: radius, pressure in the middle, and the force within r.
+TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
+    const double F = 1, R = 8e-3, E = 60e3, a = std::cbrt(3 * F * R / (4 * E)), p0 = 3 * F / (2 * M_PI * a * a);
+    double before = 1;
+    for (const double pitch : {1e-3, 0.5e-3, 0.25e-3}) {
+        const auto sites = sheet(8e-3, pitch);
+        const auto map = map_at(*pressing("sphere", {"radius=8mm", "E_star=60kPa", "x=0", "y=0"}, sites), sites, F);
+        const double middle = *std::max_element(map.begin(), map.end()) / (pitch * pitch);
+        const double off = std::abs(middle / p0 - 1);
+        EXPECT_LT(off, 0.4 * before);  // by the square of the pitch, less Gauss's own
+        before = off;
+        double far = 0;
+        for (std::size_t s = 0; s < map.size(); ++s) far = map[s] > 0 ? std::max(far, sites.at[s].x) : far;
+        EXPECT_NEAR(far, a, pitch);
+        EXPECT_NEAR(within(map, sites, 0.6 * a), F * (1 - std::pow(1 - 0.36, 1.5)), 0.15 * pitch / 1e-3 + 0.005);
+    }
+    EXPECT_LT(before, 0.005);
+}
+
+TEST(Flat, HasItsEdgeAndNoInfinity) {
+    const double F = 2, a = 4e-3;
+    for (const double pitch : {0.5e-3, 0.1e-3}) {
+        const auto sites = sheet(5e-3, pitch);
+        const auto map = map_at(*pressing("flat", {"radius=4mm", "x=0", "y=0"}, sites), sites, F);
+        EXPECT_NEAR(map[map.size() / 2] / (pitch * pitch), F / (2 * M_PI * a * a), 0.01 * F / (2 * M_PI * a * a));
+        for (const double part : {0.5, 0.8})
+            EXPECT_NEAR(within(map, sites, part * a), F * (1 - std::sqrt(1 - part * part)), 100 * F * pitch);
+        EXPECT_EQ(within(map, sites, 1), within(map, sites, a + pitch));
+        EXPECT_GT(*std::max_element(map.begin(), map.end()), 3 * map[map.size() / 2]);  // the rim
+    }
+}
+
+TEST(Edge, IsAsWideAsHertzsCylinderAndTurns) {
+    const double F = 1, R = 2e-3, L = 10e-3, E = 100e3, b = std::sqrt(4 * F * R / (M_PI * L * E)), p0 = 2 * F / (M_PI * b * L);
+    const auto sites = sheet(8e-3, 0.1e-3);
+    const auto flat = map_at(*pressing("edge", {"edge_radius=2mm", "x=0", "y=0"}, sites), sites, F);
+    EXPECT_NEAR(flat[flat.size() / 2] / 1e-8, p0, 0.02 * p0);
+    for (const double angle : {0.0, 30.0, 90.0}) {
+        const auto text = "angle=" + std::to_string(angle);
+        const auto map = map_at(*pressing("edge", {"edge_radius=2mm", text.c_str(), "x=0", "y=0"}, sites), sites, F);
+        double along = 0, across = 0;
+        for (std::size_t s = 0; s < map.size(); ++s) {
+            const double c = std::cos(angle * M_PI / 180), n = std::sin(angle * M_PI / 180);
+            const double u = sites.at[s].x * c + sites.at[s].y * n, v = sites.at[s].y * c - sites.at[s].x * n;
+            along += map[s] * u * u, across += map[s] * v * v;
+        }
+        EXPECT_NEAR(along, L * L / 12, 0.01 * L * L / 12) << angle;  // second moments of an even line, and of half an ellipse
+        EXPECT_NEAR(across, b * b / 4, 0.02 * b * b / 4) << angle;
+    }
+}
+
+TEST(Grating, RepeatsAfterAPeriodAndPasses) {
+    const auto sites = sheet(8e-3, 0.25e-3);
+    const auto contact = pressing("grating", {"radius=6mm", "period=3mm", "ridge=1.5mm", "speed=30mm/s", "x=0", "y=0"}, sites);
+    const auto first = map_at(*contact, sites, 1, 0), half = map_at(*contact, sites, 1, 50), whole = map_at(*contact, sites, 1, 100);
+    const auto near = map_at(*contact, sites, 1, 10);  // 0.3 mm on
+    double same = 0, opposite = 0;
+    for (std::size_t s = 0; s < first.size(); ++s) {
+        EXPECT_NEAR(first[s], whole[s], 1e-12);
+        if (std::hypot(sites.at[s].x, sites.at[s].y) > 5e-3) continue;
+        same += first[s] * near[s], opposite += first[s] * half[s];
+    }
+    EXPECT_LT(opposite, 0.3 * same);
+    const std::size_t n = 65, row = 32 * n;  // along the middle: a period is 12 sites
+    for (std::size_t c = 20; c < 32; ++c) EXPECT_NEAR(first[row + c], first[row + c + 12], 1e-12);
+}
+
+TEST(Path, IsWhereItShouldBeAtAnyTime) {
+    const auto sites = sheet(20e-3, 1e-3);
+    const auto contact = pressing("sphere", {"x=-10mm", "y=5mm", "x1=10mm", "y1=-3mm", "t_start=0.1s", "t_move=0.4s"}, sites);
+    for (const auto& [sample, x, y] :
+         {std::tuple(0, -10.0, 5.0), {100, -10.0, 5.0}, {200, -5.0, 3.0}, {300, 0.0, 1.0}, {500, 10.0, -3.0}, {900, 10.0, -3.0}}) {
+        const auto at = centroid(map_at(*contact, sites, 1, sample), sites);
+        EXPECT_NEAR(at.x, x * 1e-3, 5e-5) << sample;
+        EXPECT_NEAR(at.y, y * 1e-3, 5e-5) << sample;
+    }
+    EXPECT_NE(contact->sentence().find("moved from (-10, 5) mm to (10, -3) mm in 400 ms"), std::string::npos) << contact->sentence();
+    const auto speeding = pressing("flat", {"x=-10mm", "y=0", "x1=10mm", "speed=40mm/s"}, sites);
+    EXPECT_NEAR(centroid(map_at(*speeding, sites, 1, 250), sites).x, 0, 5e-5);
+}
+
+RC_GTEST_PROP(Contacts, AreTheSameInAnyBlocks, ()) {
+    const auto sites = sheet(10e-3, 1e-3);
+    const std::size_t samples = 60;
+    std::vector<double> force(samples);
+    for (std::size_t k = 0; k < samples; ++k) force[k] = k % 17 == 0 ? 0 : 0.1 * static_cast<double>(k % 7);
+    const auto run = [&](auto&& block) {
+        const auto contact = pressing("sphere", {"x=-8mm", "y=0", "x1=8mm", "t_move=50ms"}, sites);
+        std::vector<double> out(sites.size() * samples, 0.0);
+        for (std::size_t k = 0; k < samples;) {
+            const auto n = std::min(samples - k, static_cast<std::size_t>(block()));
+            const auto pressed = *contact->press({force.data() + k, n}, static_cast<std::int64_t>(k));
+            RC_ASSERT(std::is_sorted(pressed.touched.begin(), pressed.touched.end()));
+            for (const auto s : pressed.touched)
+                for (std::size_t i = 0; i < n; ++i) out[s * samples + k + i] = pressed.of[s * pressed.stride + i];
+            k += n;
+        }
+        return out;
+    };
+    const auto whole = run([] { return 60; }), cut = run([] { return *rc::gen::inRange(1, 30); });
+    RC_ASSERT(std::memcmp(whole.data(), cut.data(), whole.size() * sizeof(double)) == 0);
+}
+
+TEST(ContactWords, AreRefusedWithWhatWouldBeRight) {
+    const auto sites = sheet(10e-3, 1e-3);
+    const auto wrong = [&](std::string_view indenter, std::initializer_list<const char*> measures) {
+        std::vector<Wish> wishes;
+        for (const std::string text : measures) wishes.push_back(*parse_wish("contact." + text));
+        const auto made = make_contact(indenter, wishes, sites, *clock_of(1000));
+        return made ? "nothing is wrong" : made.error().text();
+    };
+    EXPECT_EQ(wrong("spere", {}), "no indenter is called 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
+    EXPECT_EQ(wrong("sphere", {"period=2mm"}),
+              "contact.period: sphere has none (it has radius, E_star, and its path x, y, x1, y1, t_start, t_move, speed)");
+    EXPECT_EQ(wrong("sphere", {"x1=2mm"}), "contact: how fast is it moved to x1, y1? Give contact.t_move or contact.speed");
+    EXPECT_EQ(wrong("flat", {"t_move=2s"}), "contact: where to is it moved? Give contact.x1 or contact.y1");
+    EXPECT_EQ(wrong("flat", {"x1=3mm", "t_move=2s", "speed=1m/s"}), "contact: t_move and speed say the same twice; give one of them");
+    EXPECT_EQ(wrong("grating", {"ridge=3mm"}), "contact: ridge = 0.003 m must not be wider than period = 0.002 m");
+    EXPECT_EQ(wrong("flat", {"radius=5s"}), "contact.radius: '5s' is a time; m is wanted, such as '2 m'");
+    EXPECT_EQ(make_contact("flat", std::vector<Wish>{*parse_wish("contact.radius=1m")}, sheet(1e-3, 1e-5), *clock_of(1000)).operator bool(),
+              true);
+    double force = 1;
+    const auto wide = pressing("flat", {"radius=1m"}, sites);
+    EXPECT_EQ(wide->press({&force, 1}, 0).error().text(),
+              "contact: under 1 N it is 2 m by 2 m wide, more than a million cells of 1 mm of this skin");
+    force = std::nan("");
+    EXPECT_EQ(wide->press({&force, 1}, 7).error().text(), "the force of sample 7 is nan, not a finite number");
+}
+
+}  // namespace
+}  // namespace corpuscle
