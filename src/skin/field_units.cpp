@@ -1,6 +1,8 @@
-// Receptive fields at a single step: a unit's sum at a time, not a site's share in many. The same sums in the same order, to the bit.
+// Receptive fields unit by unit: a unit's whole sum at a time, in registers, and not each site's share in many. The same sums in the same
+// order, to the bit.
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -19,6 +21,26 @@ void add_up(std::size_t most, const std::uint32_t* site, const double* weight, c
         for (std::size_t k = u; k < most * force_tile; k += force_tile)
             for (std::size_t i = 0; i < side_by_side; ++i) sum[i] += weight[k + i] * now[site[k + i]];
         for (std::size_t i = 0; i < side_by_side; ++i) sums[u + i] = sum[i];
+    }
+}
+
+/// One unit's sites over some steps; into every force_tile-th of `sums`.
+void add_steps(std::span<const double* const> sites, const double* weight, std::size_t steps, double* sums) {
+    constexpr std::size_t at_once = 16;
+    std::size_t from = 0;
+    for (; from + at_once <= steps; from += at_once) {
+        double sum[at_once] = {};
+        for (std::size_t k = 0; k < sites.size(); ++k) {
+            const double w = weight[k * force_tile];
+            const double* const f = sites[k] + from;
+            for (std::size_t i = 0; i < at_once; ++i) sum[i] += w * f[i];
+        }
+        for (std::size_t i = 0; i < at_once; ++i) sums[(from + i) * force_tile] = sum[i];
+    }
+    for (; from < steps; ++from) {
+        double sum = 0;
+        for (std::size_t k = 0; k < sites.size(); ++k) sum += weight[k * force_tile] * sites[k][from];
+        sums[from * force_tile] = sum;
     }
 }
 
@@ -53,7 +75,7 @@ void FeltForce::make_tile(std::size_t tile, std::size_t sites) {
             rows[static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(unit)] = 0;
             most = std::max(most, felt[unit].size());
         }
-    auto& out = one_step_[tile];
+    auto& out = unit_by_unit_[tile];
     const bool in_rows = rows.size() <= most + most / 2;
     if (in_rows)
         for (auto& [row, k] : rows) k = out.row.size(), out.row.push_back(row);
@@ -69,10 +91,10 @@ void FeltForce::make_tile(std::size_t tile, std::size_t sites) {
         }
 }
 
-void FeltForce::make_one_step() {
+void FeltForce::make_unit_by_unit() {
     const std::size_t sites = pieces_[0].begin.size() - 1;
     now_.assign(sites + 2 * margin, 0);
-    one_step_.resize(tiles_);
+    unit_by_unit_.resize(tiles_);
     for (std::size_t t = 0; t < tiles_; ++t) make_tile(t, sites);
     std::vector<std::uint32_t> last(tiles_, std::uint32_t(-1));
     reach_begin_.assign(1, 0);
@@ -86,22 +108,26 @@ void FeltForce::make_one_step() {
     }
 }
 
-void FeltForce::feel_one_step(const Call& call) {
-    if (one_step_.empty()) make_one_step();
+void FeltForce::find_touched_tiles(const Call& call) {
+    if (unit_by_unit_.empty()) make_unit_by_unit();
     const bool all = call.touched.size() == now_.size() - 2 * margin;
+    std::fill(without_.begin(), without_.end(), static_cast<std::uint8_t>(!all));  // every unit feels some site
+    if (all) return;
+    for (const auto s : call.touched)
+        for (std::size_t k = reach_begin_[s]; k < reach_begin_[s + 1]; ++k) without_[reach_[k]] = 0;
+}
+
+void FeltForce::feel_one_step(const Call& call) {
+    find_touched_tiles(call);
     double* const now = now_.data() + margin;
     const double* const force = call.force.of + call.at;
-    if (all && call.force.stride == 1)
+    if (call.force.stride == 1 && call.touched.size() == now_.size() - 2 * margin)
         std::copy_n(force, call.touched.size(), now);
     else
         for (const auto s : call.touched) now[s] = force[s * call.force.stride];
-    std::fill(without_.begin(), without_.end(), static_cast<std::uint8_t>(!all));  // every unit feels some site
-    if (!all)
-        for (const auto s : call.touched)
-            for (std::size_t k = reach_begin_[s]; k < reach_begin_[s + 1]; ++k) without_[reach_[k]] = 0;
     for (std::size_t t = 0; t < tiles_; ++t) {
         if (without_[t]) continue;
-        const auto& tile = one_step_[t];
+        const auto& tile = unit_by_unit_[t];
         double* const sums = rows_.data() + t * force_tile;
         if (tile.row.empty())
             add_up(tile.most, tile.site.data(), tile.weight.data(), now, sums);
@@ -109,6 +135,28 @@ void FeltForce::feel_one_step(const Call& call) {
             add_rows(tile.row, tile.weight.data(), now, sums);
     }
     for (const auto s : call.touched) now[s] = 0;
+}
+
+/// Some steps, where much of the skin is touched.
+void FeltForce::feel_unit_by_unit(const Call& call, Pool& pool) {
+    static constexpr std::array<double, skin_steps> nothing = {};
+    find_touched_tiles(call);
+    site_rows_.assign(now_.size(), nothing.data());
+    for (const auto s : call.touched) site_rows_[margin + s] = call.force.of + s * call.force.stride + call.at;
+    pool.each(tiles_, [&call, this](std::size_t t, unsigned) {
+        if (without_[t]) return;
+        const auto& tile = unit_by_unit_[t];
+        double* const rows = rows_.data() + t * call.steps * force_tile;
+        std::vector<const double*> felt(tile.most);
+        for (std::size_t u = 0; u < force_tile; ++u) {
+            for (std::size_t k = 0; k < tile.most; ++k) {
+                const auto s = tile.row.empty() ? static_cast<std::ptrdiff_t>(tile.site.data()[k * force_tile + u])
+                                                : tile.row[k] + static_cast<std::ptrdiff_t>(u);
+                felt[k] = site_rows_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(margin) + s)];
+            }
+            add_steps({felt.data(), tile.most}, tile.weight.data() + u, call.steps, rows + u);
+        }
+    });
 }
 
 }  // namespace corpuscle
