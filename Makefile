@@ -47,6 +47,8 @@ lint: setup-test
 reproduction: build
 	@mkdir -p out
 	$(corpuscle) study all --quiet --report out/reproduction.html --markdown doc/reproduction.md
+	if [ -d $(CORPUSCLE_DATA)/fbg_eskin_press ]; then CORPUSCLE_DATA=$(CORPUSCLE_DATA) $(corpuscle) study eskin-press --quiet --markdown doc/recorded.md; \
+	else echo "doc/recorded.md is left as it is: no recordings in $(CORPUSCLE_DATA)"; fi
 
 install: build
 	cmake --install build/release --prefix $(PREFIX)

@@ -258,7 +258,9 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
     auto& verb = *app.add_subcommand("study", "what others printed, made again and held against it");
     std::string known;
     for (const auto* s : all_studies) known += fmt::format("\n  {:14} {}", s->name, s->title);
-    verb.footer("Studies:" + known +
+    std::string recorded;
+    for (const auto* s : recorded_studies) recorded += fmt::format("\n  {:14} {}", s->name, s->title);
+    verb.footer("Studies:" + known + "\n\nOf recordings, which CORPUSCLE_DATA says where to find; no part of all:" + recorded +
                 "\n\nExamples:\n  corpuscle study all --report reproduction.html\n  corpuscle study fig24 table17 --report chips.html\n"
                 "  corpuscle study fig3 --json");
     verb.add_option("NAME", w.names, "which studies (default: all)");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "io/output.hpp"
@@ -34,6 +35,7 @@ bool covers(std::string_view study, std::string_view asked) {
 Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) {
     std::vector<std::string_view> known = {"all"};
     for (const auto* s : all_studies) known.push_back(s->name);
+    for (const auto* s : recorded_studies) known.push_back(s->name);
     std::vector<const Study*> out;
     for (const auto& name : names) {
         bool found = false;
@@ -42,6 +44,8 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
             found = true;
             if (std::find(out.begin(), out.end(), s) == out.end()) out.push_back(s);
         }
+        for (const auto* s : recorded_studies)
+            if (name == s->name && std::find(out.begin(), out.end(), s) == out.end()) found = true, out.push_back(s);
         if (!found)
             return bad_usage(
                 fmt::format("study: none is called '{}'{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
@@ -60,6 +64,12 @@ std::string text_of(const Study& study, const Outcome& outcome) {
     return text;
 }
 
+/// Where recordings made by others lie.
+std::string recordings() {
+    const char* set = std::getenv("CORPUSCLE_DATA");
+    return set && *set ? set : "../shared/data";
+}
+
 Result<void> write(const std::string& path, const std::string& text) {
     auto file = OutputFile::create(path);
     if (!file) return file.error();
@@ -72,7 +82,7 @@ Result<void> run(const StudyWords& words, const Common& common) {
     if (!all) return all.error();
     const auto outcomes = [&] {
         Progress progress(common.quiet);
-        return run_studies(*all, {[&](double share) { return progress.at(share), !interrupted(); }});
+        return run_studies(*all, {[&](double share) { return progress.at(share), !interrupted(); }, recordings()});
     }();
     if (!outcomes) return outcomes.error();
     if (!words.report_file.empty())

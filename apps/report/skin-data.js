@@ -76,19 +76,19 @@ function firstAt(times, t) {
 
 class Skin {
     constructor(data) {
-        const {over, units, sites} = data;
+        const {over, marks, sites} = data;
         Object.assign(this, {data, regions: data.regions, t0: over.t0});
         this.classes = data.classes.map((one, index) => ({...one, index, get color() { return afferentColour(index); }}));
         this.input = {t0: over.t0, T: over.T, samples: over.shown_samples, phases: data.summary.input.phases.map(({name, from_s, to_s}) => ({name, from: over.t0 + from_s, to: over.t0 + to_s}))};
-        this.places = floats(units.places);
-        this.region = new Uint16Array(bytesOf(units.region).buffer);
-        this.copy = new Uint32Array(bytesOf(units.copy).buffer);
-        this.first = floats(units.first);
+        this.places = floats(marks.places);
+        this.region = new Uint16Array(bytesOf(marks.region).buffer);
+        this.copy = new Uint32Array(bytesOf(marks.copy).buffer);
+        this.first = floats(marks.first);
+        this.firstUnits = new Uint32Array(bytesOf(marks.begin).buffer);
         this.sitePlaces = floats(sites.places);
         this.siteRegion = new Uint16Array(bytesOf(sites.region).buffer);
         this.siteForce = new Frames(over.sites);
         this.marks = new Frames(over.marks);
-        this.firstUnits = new Uint32Array(bytesOf(over.first_units).buffer);
         this.together = over.units_a_mark;
         this.sitesTogether = over.sites_a_mark;
         this.side = sites.side || spacing(this.sitePlaces) * 0.9;
@@ -101,9 +101,11 @@ class Skin {
         return this.decoded || null;
     }
 
-    classOf(unit) { return this.classes.find(({first, units}) => unit >= first && unit < first + units); }
-    unitName(unit) { return `${this.classOf(unit).name}#${this.copy[unit]}`; }
-    regionName(unit) { return this.regions[this.region[unit]]; }
+    /// A mark is a unit, or neighbours together; its name, region and place are those of the first of them.
+    markOf(unit) { return firstAt(this.firstUnits, unit + 1) - 1; }
+    classOf(mark) { return this.classes.find(({first, units}) => this.firstUnits[mark] >= first && this.firstUnits[mark] < first + units); }
+    markName(mark) { return `${this.classOf(mark).name}#${this.copy[mark]}${this.unitsOf(mark) > 1 ? ` and ${this.unitsOf(mark) - 1} neighbours` : ""}`; }
+    regionName(mark) { return this.regions[this.region[mark]]; }
     get duration() { return this.input.samples * this.input.T; }
 
     /// The marks of a class: from, to.
@@ -139,14 +141,6 @@ class Skin {
         return most.map((rate) => rate || 1);
     }
     frameAt(t) { return Math.max(0, Math.min(this.marks.count - 1, Math.floor((t - this.t0) / this.marks.width + 1e-9))); }
-
-    /// [x, y] of the middle of a mark's units, mm.
-    markPlace(mark) {
-        let x = 0, y = 0;
-        const [from, to] = [this.firstUnits[mark], this.firstUnits[mark + 1]];
-        for (let u = from; u < to; ++u) [x, y] = [x + this.places[2 * u], y + this.places[2 * u + 1]];
-        return [x / (to - from), y / (to - from)];
-    }
 }
 
 const floats = (base64) => new Float32Array(bytesOf(base64).buffer);

@@ -13,7 +13,7 @@ function tableHtml(head, rows, numeric = () => false) {
 function showFirstSpikes(skin, host) {
     const {first_spikes, input} = skin.data.summary, touched = input.touched_from_s;
     if (!first_spikes.length) return void (host.innerHTML = "<p class=\"note\">No unit fired.</p>");
-    const rows = first_spikes.map(({unit, afferent, region, time_s}, k) => [String(k + 1), chipOf(skin.classOf(unit).color) + escaped(afferent), escaped(region), time_s.toFixed(6),
+    const rows = first_spikes.map(({unit, afferent, region, time_s}, k) => [String(k + 1), chipOf(skin.classOf(skin.markOf(unit)).color) + escaped(afferent), escaped(region), time_s.toFixed(6),
         touched === null ? "–" : ((time_s - skin.t0 - touched) * 1e3).toFixed(3).replace("-", "−")]);
     host.innerHTML = tableHtml(["", "unit", "region", "first spike (s)", "after the first force (ms)"], rows, (c) => c === 0 || c >= 3);
 }

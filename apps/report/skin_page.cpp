@@ -34,16 +34,25 @@ Json sites_document(const Sites& sites) {
             {"names", sites.size() <= most_named ? Json(sites.names) : Json(nullptr)}};
 }
 
-/// Units one by one; what is seen of them in time may be of neighbours together.
-Json units_document(const SkinSummary& summary) {
-    const auto& skin = summary.skin();
+/// What stands still of each mark: a unit, or neighbours together, then the middle of them and the earliest of their first spikes.
+Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> begin) {
+    const auto& units = summary.skin().units;
     std::vector<std::uint16_t> region;
     std::vector<std::uint32_t> copy;
     std::vector<float> first;
-    for (const auto& u : skin.units) region.push_back(static_cast<std::uint16_t>(u.region)), copy.push_back(u.copy);
-    for (const double t : summary.first_times()) first.push_back(static_cast<float>(t));
-    return {{"count", skin.units.size()},
-            {"places", places64(skin.units.size(), [&](std::size_t u) { return skin.units[u].at; })},
+    std::vector<Position> at;
+    for (std::size_t m = 0; m + 1 < begin.size(); ++m) {
+        Position middle;
+        double earliest = no_value;
+        for (auto u = begin[m]; u < begin[m + 1]; ++u) {
+            middle.x += units[u].at.x / (begin[m + 1] - begin[m]), middle.y += units[u].at.y / (begin[m + 1] - begin[m]);
+            earliest = std::fmin(earliest, summary.first_times()[u]);  // NaN gives way
+        }
+        at.push_back(middle), first.push_back(static_cast<float>(earliest));
+        region.push_back(static_cast<std::uint16_t>(units[begin[m]].region)), copy.push_back(units[begin[m]].copy);
+    }
+    return {{"begin", base64(begin.data(), begin.size_bytes())},
+            {"places", places64(at.size(), [&](std::size_t m) { return at[m]; })},
             {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
             {"copy", base64(copy.data(), copy.size() * sizeof(std::uint32_t))},
             {"first", base64(first.data(), first.size() * sizeof(float))}};
@@ -77,7 +86,7 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
                        {"summary", summary.document(told)},
                        {"regions", summary.skin().plan.sites.regions},
                        {"sites", sites_document(summary.skin().plan.sites)},
-                       {"units", units_document(summary)},
+                       {"marks", marks_document(summary, report.marks())},
                        {"classes", classes_document(summary.skin())},
                        {"over", report.document()},
                        {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};

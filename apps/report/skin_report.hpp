@@ -24,6 +24,8 @@ public:
     Result<void> block(const SkinInput&, const SkinAnswered&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
 
+    /// The first unit of each mark on the maps; behind the last the end.
+    std::span<const std::uint32_t> marks() const { return mark_first_; }
     /// All that the page draws over time.
     nlohmann::ordered_json document() const;
 

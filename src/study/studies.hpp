@@ -18,4 +18,10 @@ inline constexpr const Study* all_studies[] = {
 };
 #undef STUDY
 
+/// Of recordings that others made, which lie beside the project and may be absent: no part of "all", asked for by name.
+namespace studies::eskin_press {
+extern const Study study;
+}
+inline constexpr const Study* recorded_studies[] = {&studies::eskin_press::study};
+
 }  // namespace corpuscle

@@ -41,7 +41,7 @@ Result<std::vector<Outcome>> run_studies(std::span<const Study* const> studies, 
     Together together(options, studies.size());
     Pool pool;
     pool.each(studies.size(), [&](std::size_t k, unsigned) {
-        auto outcome = studies[k]->run({[&, k](double share) { return together.keep_on(k, share); }});
+        auto outcome = studies[k]->run({[&, k](double share) { return together.keep_on(k, share); }, options.recordings});
         outcome ? void(outcomes[k] = std::move(*outcome)) : together.fail(studies[k]->name, outcome.error());
     });
     if (together.error()) return *together.error();

@@ -36,6 +36,7 @@ struct Outcome {
 struct StudyOptions {
     /// Called with the share done, 0 to 1; false stops the study.
     std::function<bool(double)> keep_on = [](double) { return true; };
+    std::string recordings = {};  ///< the folder in which others' recordings lie, for studies of them
 
     /// The same, as an error that a study hands on.
     Result<void> at(double share) const { return keep_on(share) ? Result<void>() : Error{Code::interrupted, "interrupted"}; }
@@ -45,6 +46,7 @@ struct Study {
     std::string_view name, title;
     std::string_view question;  ///< what was printed, in words, or what is asked; and where it comes from
     Result<Outcome> (*work)(const StudyOptions&);
+    std::string_view recording = {};  ///< the folder that it needs within StudyOptions::recordings; "": none
 
     /// Works, unless it is stopped before or after.
     Result<Outcome> run(const StudyOptions& options) const {

@@ -99,11 +99,12 @@ Json document_of(const Study& study, const Outcome& outcome) {
 }
 
 std::string markdown_of(std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
+    const bool recorded = !studies.empty() && !studies.front()->recording.empty();
     std::string text = fmt::format(
-        "# Every figure and table, made again\n\nMade by `corpuscle study all` (`make reproduction` writes this page, and with its "
-        "pictures "
-        "`out/reproduction.html`); no number on it is typed in but the printed ones. {} Whatever is off says why, if that is known.\n\n## "
-        "Printed numbers, and whatever is off\n\n",
+        "# {}, made again\n\nMade by `corpuscle study {}` (`make reproduction` writes this page{}); no number on it is typed in but the "
+        "printed ones. {} Whatever is off says why, if that is known.\n\n## Printed numbers, and whatever is off\n\n",
+        recorded ? "What others recorded" : "Every figure and table", recorded ? studies.front()->name : "all",
+        recorded ? " where the recording is at hand: CORPUSCLE_DATA" : ", and with its pictures `out/reproduction.html`",
         tally_of(outcomes));
     put_deviations(text, studies, outcomes);
     for (std::size_t k = 0; k < studies.size(); ++k) {

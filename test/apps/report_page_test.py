@@ -92,6 +92,30 @@ def si(text):
     return float(number.replace("−", "-")) * PREFIX[prefix]
 
 
+def frames(record):
+    """Of maps: by frame, what each place has that is not 0."""
+    source, found = iter(base64.b64decode(record["data"])), []
+
+    def number():
+        n, shift = 0, 0
+        for byte in source:
+            n, shift = n | (byte & 127) << shift, shift + 7
+            if byte < 128:
+                return n
+
+    for _ in range(record["count"]):
+        place, frame = 0, {}
+        while place < record["places"]:
+            byte = next(source)
+            if byte == 0:
+                place += number()
+                continue
+            frame[place] = byte if byte < 255 else number()
+            place += 1
+        found.append(frame)
+    return found
+
+
 class Page(unittest.TestCase):
     """A browser with one report open; whatever a test does, the console stays silent."""
 
@@ -656,6 +680,96 @@ class Costs(Page):
         self.assertAlmostEqual(sum(power["blocks_W"].values()) / power["delivered_W"], 1, places=5)
         last = table.find_elements(By.TAG_NAME, "tr")[-1].find_elements(By.TAG_NAME, "td")
         self.assertEqual(last[1].text, f'{cost["area"]["total_m2"] * 1e12:.0f}')
+
+
+class OnASkin(Page):
+    """A press on a fingertip: maps that play, and the plots beneath them."""
+
+    @classmethod
+    def report(cls):
+        return respond("skin.html", "--population", "fingertip")
+
+    def setUp(self):
+        self.browser.get(self.path.as_uri())
+        self.over, self.classes = self.data["over"], self.data["classes"]
+        self.frames = frames(self.over["marks"])
+
+    def active(self, frame):
+        """By class, how many units fired in a frame."""
+        return {one["name"]: sum(one["first"] <= unit < one["first"] + one["units"] for unit in self.frames[frame]) for one in self.classes}
+
+    def inked_map(self, name):
+        """How many pixels of a map are far from grey."""
+        return self.js("""
+            const canvas = document.querySelector(`[data-map="${arguments[0]}"] canvas`);
+            const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+            let count = 0;
+            for (let i = 0; i < pixels.length; i += 4)
+                if (Math.max(...pixels.slice(i, i + 3)) - Math.min(...pixels.slice(i, i + 3)) > 90) ++count;
+            return count""", name)
+
+    def to_frame(self, frame):
+        self.js("corpuscle.view.point(arguments[0])", self.over["t0"] + (frame + 0.5) * self.over["marks"]["width"])
+        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == frame)
+        self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def test_maps_show_the_units_that_fired(self):
+        Select(self.browser.find_element(By.ID, "mode")).select_by_index(0)  # one frame
+        busiest = max(range(len(self.frames)), key=lambda k: len(self.frames[k]))
+        inked = {}
+        for frame in (0, busiest):
+            self.to_frame(frame)
+            self.assertEqual(self.js("return corpuscle.active()"), self.active(frame))
+            inked[frame] = self.inked_map("sa1")
+        self.assertGreater(self.active(busiest)["sa1"], 3)
+        self.assertGreater(inked[busiest], inked[0] + 50)
+        Select(self.browser.find_element(By.ID, "mode")).select_by_value("all")
+        ever = {unit for frame in self.frames for unit in frame}
+        sa1 = self.classes[0]
+        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.active().sa1") == sum(unit < sa1["units"] for unit in ever))
+
+    def test_the_maps_play_and_the_plots_follow(self):
+        self.to_frame(2)
+        self.browser.find_element(By.ID, "play").click()
+        for frame in (6, 12):
+            WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") > frame)
+        line = self.js("return parseFloat(document.querySelector('[data-panel=force] .hairline').style.left)")
+        self.assertGreater(line, self.js("return corpuscle.charts.force.toDomXCoord(arguments[0])", 6 * self.over["marks"]["width"]))
+        self.browser.find_element(By.TAG_NAME, "body").send_keys(" ")
+        self.assertFalse(self.js("return corpuscle.playing"))
+        stopped = self.js("return corpuscle.frame")
+        self.assertEqual(self.browser.find_element(By.ID, "time").get_attribute("value"), str(stopped))
+        self.browser.find_element(By.ID, "time").send_keys(Keys.ARROW_RIGHT)
+        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped + 1)
+
+    def test_rasters_hold_every_spike(self):
+        spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["units"]) for one in self.classes}
+        self.assertEqual(sum(spikes.values()), self.over["spikes"]["count"])
+        inked = self.inked()
+        for name, count in spikes.items():
+            self.assertEqual(self.readout(f"raster {name}", name), str(count))
+            self.assertEqual(inked[f"raster {name}"] > 0, count > 0)
+        end = self.js("return corpuscle.view.end")
+        self.js("corpuscle.view.set(0, arguments[0] / 4); corpuscle.view.draw()", end)
+        self.assertRegex(self.readout("raster sa1", "sa1"), rf"^\d+ of {spikes['sa1']}$")
+
+    def test_who_is_pointed_at_is_named(self):
+        first = self.data["summary"]["first_spikes"][0]
+        x, y = self.js("const map = corpuscle.scene.maps[0]; return map.place(arguments[0])", first["unit"])
+        canvas = self.browser.find_element(By.CSS_SELECTOR, '[data-map="sa1"] canvas')
+        self.js("arguments[0].scrollIntoView({block: 'center'})", canvas)
+        ActionChains(self.browser, duration=50).move_to_element_with_offset(canvas, round(x - canvas.size["width"] / 2), round(y - canvas.size["height"] / 2)).perform()
+        WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith(first["afferent"] + ","))
+        self.assertIn(f"{first['time_s']:.4f}", self.browser.find_element(By.ID, "unit").text)
+
+    def test_it_fits_a_narrow_window_and_says_what_it_knows(self):
+        rows = self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")
+        self.assertEqual(len(rows), len(self.classes) * (1 + len(self.data["summary"]["input"]["phases"])))
+        self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#firsts tbody tr")), len(self.data["summary"]["first_spikes"]))
+        self.screenshot("skin.png")
+        self.browser.set_window_size(700, 900)
+        WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.documentElement.scrollWidth <= innerWidth"))
+        self.browser.set_window_size(1200, 900)
 
 
 del Page  # not a test by itself

@@ -55,6 +55,23 @@ TEST(Studies, AreAllToldAsTheirPageSays) {
     EXPECT_EQ(text, page) << "doc/reproduction.md is stale: make reproduction";
 }
 
+TEST(Studies, OfARecordingTellWhatTheirPageSays) {
+    CORPUSCLE_NEEDS(test::shared("fbg_eskin_press"));
+    const auto outcomes = run_studies(recorded_studies, {.recordings = test::shared("")});
+    ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
+    for (std::size_t k = 0; k < std::size(recorded_studies); ++k) check(*recorded_studies[k], (*outcomes)[k]);
+    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::root() + "/doc/recorded.md")) << "stale: make reproduction";
+}
+
+TEST(Studies, OfARecordingThatIsAbsentSayWhereItWasSought) {
+    for (const auto* s : recorded_studies) {
+        const auto outcome = s->run({.recordings = "/nowhere"});
+        ASSERT_FALSE(outcome);
+        EXPECT_NE(outcome.error().sentence.find("'/nowhere/" + std::string(s->recording) + "'"), std::string::npos)
+            << outcome.error().text();
+    }
+}
+
 TEST(Studies, StopWhenTheyAreTold) {
     for (const auto* s : all_studies) {
         const auto outcome = s->run({[](double) { return false; }});
@@ -140,7 +157,8 @@ TEST(Studies, TheirTextKeepsItsTableWhateverIsInIt) {
     out.claim("|a| over b", 1, "V").printed_as(2, "table 1").because("x | y");
     const auto text = markdown_of(all, std::span(&out, 1));
     EXPECT_NE(text.find("| \\|a\\| over b | 1 V | 2 V | -50.0 % | - | differs | table 1; x \\| y |\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("0 printed numbers agree within a tenth, 1 differ by more. 0 numbers agree with what follows"), std::string::npos) << text;
+    EXPECT_NE(text.find("0 printed numbers agree within a tenth, 1 differ by more. 0 numbers agree with what follows"), std::string::npos)
+        << text;
 }
 
 }  // namespace

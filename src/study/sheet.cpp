@@ -1,0 +1,107 @@
+#include "study/sheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signal/elementary.hpp"
+#include "skin/skin.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::shared_ptr<const Innervation> sheet_innervation(const Sheet& sheet, const std::string& afferent, AfferentPlan plan,
+                                                     const SheetForce& force, double sigma) {
+    auto out = std::make_shared<Innervation>();
+    const std::size_t sensors = force.at.size(), units = sheet.rows * sheet.columns;
+    auto& p = out->plan;
+    p.name = "sheet";
+    p.sites.at = force.at;
+    for (std::size_t s = 0; s < sensors; ++s) p.sites.names.push_back(std::to_string(s + 1));
+    p.sites.region.assign(sensors, 0);
+    p.sites.regions = {"sheet"};
+    p.classes.push_back({.name = afferent, .afferent = std::move(plan), .sigma = sigma});
+    for (std::size_t k = 0; k < units; ++k) out->units.push_back({0, static_cast<std::uint32_t>(k) + 1, 0, sheet.at(k), 0});
+    out->first = {0, units};
+    auto& fields = out->fields.emplace_back();
+    fields.begin.push_back(0);
+    for (std::size_t s = 0; s < sensors; ++s) {
+        for (std::size_t k = 0; k < units; ++k) {
+            const double dx = out->units[k].at.x - force.at[s].x, dy = out->units[k].at.y - force.at[s].y;
+            const double far = (dx * dx + dy * dy) / (sigma * sigma);
+            if (far > 16) continue;
+            fields.unit.push_back(static_cast<std::uint32_t>(k)), fields.weight.push_back(num::exp(-0.5 * far));
+        }
+        fields.begin.push_back(fields.unit.size());
+    }
+    return out;
+}
+
+/// Sums of weight, and of weight times place, of each stretch.
+struct TrackSums {
+    Track track;
+    double from, bin;
+
+    TrackSums(double first, double to, double width) : from(first), bin(width) {
+        const auto bins = static_cast<std::size_t>(std::round((to - first) / width));
+        for (auto* v : {&track.x, &track.y, &track.weight}) v->assign(bins, 0);
+        for (std::size_t b = 0; b < bins; ++b) track.t.push_back(first + (static_cast<double>(b) + 0.5) * width);
+    }
+    void add(double t, const Position& at, double weight) {
+        const double b = std::floor((t - from) / bin);
+        if (!(b >= 0 && b < static_cast<double>(track.t.size()))) return;
+        const auto k = static_cast<std::size_t>(b);
+        track.weight[k] += weight, track.x[k] += weight * at.x, track.y[k] += weight * at.y;
+    }
+    Track mean() {
+        for (std::size_t b = 0; b < track.t.size(); ++b) track.x[b] /= track.weight[b], track.y[b] /= track.weight[b];
+        return std::move(track);
+    }
+};
+
+}  // namespace
+
+Result<std::vector<SheetSpike>> sheet_answer(const Sheet& sheet, const std::string& afferent, const SheetForce& force, double sigma) {
+    const auto plan = plan_afferent(afferent, {});
+    if (!plan) return plan.error();
+    const auto set = instruction_set();
+    if (!set) return set.error();
+    auto skin = Skin::make(sheet_innervation(sheet, afferent, *plan, force, sigma), {.dt = force.T}, *set);
+    if (!skin) return skin.error();
+    const std::size_t steps = force.force.front().size();
+    std::vector<double> all;
+    for (const auto& f : force.force) all.insert(all.end(), f.begin(), f.end());
+    std::vector<Spike> spikes;
+    Pool pool(1);
+    if (auto ok = (*skin)->respond({all.data(), steps}, steps, spikes, pool); !ok) return ok.error();
+    (*skin)->last(spikes);
+    std::vector<SheetSpike> out;
+    for (const auto& s : spikes) out.push_back({(static_cast<double>(s.step) - 1 + s.offset) * force.T, s.unit});
+    return out;
+}
+
+Track track_of(const Sheet& sheet, const std::vector<SheetSpike>& spikes, double from, double to, double bin) {
+    TrackSums sums(from, to, bin);
+    for (const auto& s : spikes) sums.add(s.time, sheet.at(s.unit), 1);
+    return sums.mean();
+}
+
+Track track_of(const SheetForce& force, double from, double to, double bin) {
+    TrackSums sums(from, to, bin);
+    for (std::size_t s = 0; s < force.at.size(); ++s)
+        for (std::size_t k = 0; k < force.force[s].size(); ++k) sums.add(force.time(k), force.at[s], force.force[s][k]);
+    return sums.mean();
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+    double n = 0, sa = 0, sb = 0, aa = 0, bb = 0, ab = 0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        if (std::isfinite(a[k]) && std::isfinite(b[k])) n += 1, sa += a[k], sb += b[k];
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        if (!std::isfinite(a[k]) || !std::isfinite(b[k])) continue;
+        const double x = a[k] - sa / n, y = b[k] - sb / n;
+        aa += x * x, bb += y * y, ab += x * y;
+    }
+    return ab / num::sqrt(aa * bb);
+}
+
+}  // namespace corpuscle
