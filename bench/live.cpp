@@ -2,6 +2,7 @@
 //   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples a second
 //   bench-live sleep [SECONDS [PROGRAM]]   the same without --spin: the program sleeps until a frame comes, and so do sender and reader
 //   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: what part of a core
+//   bench-live noise [SECONDS [PROGRAM]]   the same, where no afferent is ever at rest
 //   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 // 60 s if nothing is said (the soak is meant for 3600), of ./corpuscle. `corpuscle stream` is started as anybody would start it, bound to
 // the last core; what sends and what reads are threads of this program on the others, so that it has one core and no more.
@@ -58,7 +59,9 @@ void sleep_until(std::int64_t ns) {
 }
 
 /// Frames of one second, over and over: a contact that goes round, and noise.
-std::vector<float> frames_of_a_second(const Sites& sites, int rate, double radius) {
+std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise) {
+    const auto& sites = plan.sites;
+    const double felt = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;  // N at a site that a unit feels as 1 N
     std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
     Position low = sites.at[0], high = low;
     for (const auto& p : sites.at)
@@ -71,7 +74,8 @@ std::vector<float> frames_of_a_second(const Sites& sites, int rate, double radiu
             const double d2 = (sites.at[s].x - x) * (sites.at[s].x - x) + (sites.at[s].y - y) * (sites.at[s].y - y);
             const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
             out[static_cast<std::size_t>(k) * sites.size() + s] =
-                static_cast<float>(2 * std::exp(-d2 / (radius * radius)) + 1e-3 + 4e-3 * unit_interval(w[0], w[1]));
+                static_cast<float>(felt * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +
+                                           (noise ? 1e-3 + 4e-3 * unit_interval(w[0], w[1]) : 0)));
         }
     }
     return out;
@@ -224,11 +228,11 @@ std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     return *skin;
 }
 
-int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius, bool spin) {
+int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius, bool spin, bool noise) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
     const auto header = (*event_format("aer", event_units(*skin, {rate, 1})))->header().size();
-    const auto second = frames_of_a_second(skin->plan.sites, rate, radius);
+    const auto second = frames_of_a_second(skin->plan, rate, radius, noise);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (cores > 1) bind_to(0, cores - 2);
     const auto idle = idle_loop(rate, seconds);
@@ -285,7 +289,7 @@ int soak(const std::string& program, int seconds) {
     const auto skin = skin_of("grid 16x16");
     const auto sites = skin->plan.sites.size();
     const auto format = event_format("aer", event_units(*skin, {rate, 1}));
-    const auto second = frames_of_a_second(skin->plan.sites, rate, 8e-3);
+    const auto second = frames_of_a_second(skin->plan, rate, 8e-3, true);
     Endpoint here;
     auto door = listening_socket(here);
     Program child(program,
@@ -357,9 +361,10 @@ int main(int argc, char** argv) {
     const std::string what = argc > 1 ? argv[1] : "";
     const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";
-    if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, true);
-    if (what == "sleep") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, false);
-    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 12e-3, false);
+    if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
+    if (what == "sleep") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
+    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, false);
+    if (what == "noise") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, true);
     if (what == "soak") return soak(program, seconds);
-    return fmt::print("bench-live delay|sleep|share|soak [SECONDS [PROGRAM]]\n"), 2;
+    return fmt::print("bench-live delay|sleep|share|noise|soak [SECONDS [PROGRAM]]\n"), 2;
 }
