@@ -35,7 +35,7 @@ private:
         std::size_t most = 0;             ///< k
         std::vector<std::ptrdiff_t> row;  ///< if the sites at each k stand in a row: its first, which may be before all sites
         lanes::Buffer<std::uint32_t> site;
-        lanes::Buffer<double> weight;
+        std::vector<std::uint32_t> weights;  ///< of eight units each, by their place among all there are: [k][unit / 8]
     };
     struct Call {
         const SiteForce& force;
@@ -45,6 +45,7 @@ private:
 
     std::size_t units_, tiles_;
     std::vector<Piece> pieces_;
+    lanes::Buffer<double> weights_;         // by eights, each that there is once
     std::vector<Tile> unit_by_unit_;        // made when it is first wanted
     std::vector<std::size_t> reach_begin_;  // with it: which tiles feel a site
     std::vector<std::uint32_t> reach_;
@@ -56,7 +57,8 @@ private:
 
     void feel_piece(std::size_t piece, const Call&, double* sums);
     void make_unit_by_unit();
-    void make_tile(std::size_t tile, std::size_t sites);
+    class Eights;
+    void make_tile(std::size_t tile, std::size_t sites, Eights&);
     void find_touched_tiles(const Call&);
     void feel_one_step(const Call&);
     void feel_unit_by_unit(const Call&, Pool&);

@@ -15,44 +15,49 @@ constexpr std::size_t side_by_side = 8;  // sums in registers: side by side they
 constexpr std::size_t margin = force_tile;
 
 /// Each unit's sites, wherever they are.
-void add_up(std::size_t most, const std::uint32_t* site, const double* weight, const double* now, double* sums) {
+void add_up(std::size_t most, const std::uint32_t* site, const std::uint32_t* weights, const double* all, const double* now, double* sums) {
     for (std::size_t u = 0; u < force_tile; u += side_by_side) {
         double sum[side_by_side] = {};
-        for (std::size_t k = u; k < most * force_tile; k += force_tile)
-            for (std::size_t i = 0; i < side_by_side; ++i) sum[i] += weight[k + i] * now[site[k + i]];
+        for (std::size_t k = 0; k < most; ++k) {
+            const auto* const s = site + k * force_tile + u;
+            const double* const w = all + weights[(k * force_tile + u) / side_by_side];
+            for (std::size_t i = 0; i < side_by_side; ++i) sum[i] += w[i] * now[s[i]];
+        }
         for (std::size_t i = 0; i < side_by_side; ++i) sums[u + i] = sum[i];
     }
 }
 
+/// A site that a unit feels, over some steps.
+struct FeltSite {
+    const double* force;
+    double weight;
+};
+
 /// One unit's sites over some steps; into every force_tile-th of `sums`.
-void add_steps(std::span<const double* const> sites, const double* weight, std::size_t steps, double* sums) {
+void add_steps(std::span<const FeltSite> sites, std::size_t steps, double* sums) {
     constexpr std::size_t at_once = 16;
     std::size_t from = 0;
     for (; from + at_once <= steps; from += at_once) {
         double sum[at_once] = {};
-        for (std::size_t k = 0; k < sites.size(); ++k) {
-            const double w = weight[k * force_tile];
-            const double* const f = sites[k] + from;
-            for (std::size_t i = 0; i < at_once; ++i) sum[i] += w * f[i];
-        }
+        for (const auto& s : sites)
+            for (std::size_t i = 0; i < at_once; ++i) sum[i] += s.weight * s.force[from + i];
         for (std::size_t i = 0; i < at_once; ++i) sums[(from + i) * force_tile] = sum[i];
     }
     for (; from < steps; ++from) {
         double sum = 0;
-        for (std::size_t k = 0; k < sites.size(); ++k) sum += weight[k * force_tile] * sites[k][from];
+        for (const auto& s : sites) sum += s.weight * s.force[from];
         sums[from * force_tile] = sum;
     }
 }
 
 /// Sites in rows.
-void add_rows(std::span<const std::ptrdiff_t> rows, const double* weight, const double* now, double* sums) {
+void add_rows(std::span<const std::ptrdiff_t> rows, const std::uint32_t* weights, const double* all, const double* now, double* sums) {
     for (std::size_t u = 0; u < force_tile; u += side_by_side) {
         double sum[side_by_side] = {};
-        const double* w = weight + u;
-        for (const auto row : rows) {
-            const double* f = now + row + u;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const double* const f = now + rows[k] + u;
+            const double* const w = all + weights[(k * force_tile + u) / side_by_side];
             for (std::size_t i = 0; i < side_by_side; ++i) sum[i] += w[i] * f[i];
-            w += force_tile;
         }
         for (std::size_t i = 0; i < side_by_side; ++i) sums[u + i] = sum[i];
     }
@@ -60,8 +65,23 @@ void add_rows(std::span<const std::ptrdiff_t> rows, const double* weight, const 
 
 }  // namespace
 
+/// Eight weights side by side, each eight kept once: where units are alike, most are.
+class FeltForce::Eights {
+    std::map<std::array<double, side_by_side>, std::uint32_t> place_;
+
+public:
+    std::vector<double> all = {};
+    std::uint32_t place(const double* of) {
+        std::array<double, side_by_side> eight;
+        std::copy_n(of, side_by_side, eight.begin());
+        const auto [at, is_new] = place_.try_emplace(eight, static_cast<std::uint32_t>(all.size()));
+        if (is_new) all.insert(all.end(), eight.begin(), eight.end());
+        return at->second;
+    }
+};
+
 /// What one tile feels. Where its units stand as the sites do, as on a grid, those of a k are neighbours: they are in a row then.
-void FeltForce::make_tile(std::size_t tile, std::size_t sites) {
+void FeltForce::make_tile(std::size_t tile, std::size_t sites, Eights& eights) {
     const auto& p = pieces_[tile / piece_tiles];
     const std::size_t first = tile % piece_tiles * force_tile;
     std::vector<std::vector<std::pair<std::uint32_t, double>>> felt(force_tile);
@@ -80,22 +100,26 @@ void FeltForce::make_tile(std::size_t tile, std::size_t sites) {
     if (in_rows)
         for (auto& [row, k] : rows) k = out.row.size(), out.row.push_back(row);
     out.most = in_rows ? rows.size() : most;
-    out.weight = lanes::Buffer<double>(out.most * force_tile);
+    std::vector<double> weights(out.most * force_tile);
     if (!in_rows) out.site = lanes::Buffer<std::uint32_t>(out.most * force_tile);
     for (std::size_t u = 0; u < force_tile; ++u)
         for (std::size_t n = 0; n < felt[u].size(); ++n) {
             const auto [s, weight] = felt[u][n];
             const auto k = in_rows ? rows[static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(u)] : n;
-            out.weight.data()[k * force_tile + u] = weight;
+            weights[k * force_tile + u] = weight;
             if (!in_rows) out.site.data()[k * force_tile + u] = s;
         }
+    for (std::size_t k = 0; k < weights.size(); k += side_by_side) out.weights.push_back(eights.place(weights.data() + k));
 }
 
 void FeltForce::make_unit_by_unit() {
     const std::size_t sites = pieces_[0].begin.size() - 1;
     now_.assign(sites + 2 * margin, 0);
     unit_by_unit_.resize(tiles_);
-    for (std::size_t t = 0; t < tiles_; ++t) make_tile(t, sites);
+    Eights eights;
+    for (std::size_t t = 0; t < tiles_; ++t) make_tile(t, sites, eights);
+    weights_ = lanes::Buffer<double>(eights.all.size());
+    std::copy(eights.all.begin(), eights.all.end(), weights_.data());
     std::vector<std::uint32_t> last(tiles_, std::uint32_t(-1));
     reach_begin_.assign(1, 0);
     for (std::uint32_t s = 0; s < sites; ++s) {
@@ -130,9 +154,9 @@ void FeltForce::feel_one_step(const Call& call) {
         const auto& tile = unit_by_unit_[t];
         double* const sums = rows_.data() + t * force_tile;
         if (tile.row.empty())
-            add_up(tile.most, tile.site.data(), tile.weight.data(), now, sums);
+            add_up(tile.most, tile.site.data(), tile.weights.data(), weights_.data(), now, sums);
         else
-            add_rows(tile.row, tile.weight.data(), now, sums);
+            add_rows(tile.row, tile.weights.data(), weights_.data(), now, sums);
     }
     for (const auto s : call.touched) now[s] = 0;
 }
@@ -147,14 +171,15 @@ void FeltForce::feel_unit_by_unit(const Call& call, Pool& pool) {
         if (without_[t]) return;
         const auto& tile = unit_by_unit_[t];
         double* const rows = rows_.data() + t * call.steps * force_tile;
-        std::vector<const double*> felt(tile.most);
+        std::vector<FeltSite> felt(tile.most);
         for (std::size_t u = 0; u < force_tile; ++u) {
             for (std::size_t k = 0; k < tile.most; ++k) {
                 const auto s = tile.row.empty() ? static_cast<std::ptrdiff_t>(tile.site.data()[k * force_tile + u])
                                                 : tile.row[k] + static_cast<std::ptrdiff_t>(u);
-                felt[k] = site_rows_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(margin) + s)];
+                felt[k] = {site_rows_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(margin) + s)],
+                           weights_.data()[tile.weights[(k * force_tile + u) / side_by_side] + u % side_by_side]};
             }
-            add_steps({felt.data(), tile.most}, tile.weight.data() + u, call.steps, rows + u);
+            add_steps(felt, call.steps, rows + u);
         }
     });
 }
