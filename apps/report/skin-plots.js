@@ -32,12 +32,12 @@ function rasterBar() {
 
 function rasterPanel(one, k) {
     const wanted = (mark) => shown.region === "all" || skin.region[mark] === Number(shown.region);
-    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, region: skin.regions[shown.region], bottom: k === skin.classes.length - 1, pointed: (unit) => pointAt(unit === null ? null : skin.markOf(unit))};
+    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, pointed: (unit) => pointAt(unit === null ? null : skin.markOf(unit))};
     if (!skin.trains) return [shadePanel(one, common, wanted)];
     const own = [];
     for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.units); t < end; ++t) own.push(t);
     const trains = own.filter((t) => wanted(skin.markOf(skin.trains.unit[t]))).map((t) => skin.trains.train(t));
-    return [panel(SkinRasterPanel, {...common, trains, fired: own.length, height: rasterHeight(trains.length)})];
+    return [panel(SkinRasterPanel, {...common, trains, told: toldOf(trains.length, own.length, `${one.units} units`), height: rasterHeight(trains.length)})];
 }
 
 function shadePanel(one, common, wanted) {
@@ -47,7 +47,9 @@ function shadePanel(one, common, wanted) {
         if (totals[m]) ++fired;
         if (totals[m] && wanted(m)) rowOf[m] = rowCount++;
     }
-    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, fired, height: rasterHeight(rowCount)});
+    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, told: toldOf(rowCount, fired, skin.together > 1 ? `${to - from} groups of ${skin.together} units` : `${one.units} units`), height: rasterHeight(rowCount)});
 }
 
-const rasterHeight = (rows) => Math.max(30, Math.min(180, 40 + rows * 0.6));
+/// How many rows a raster has, and of how many.
+const toldOf = (rows, fired, all) => (shown.region === "all" ? `${fired} of ${all} fired` : `${rows} of ${fired} that fired, in ${skin.regions[shown.region]}`);
+const rasterHeight = (rows) => Math.max(30, Math.min(120, 6 * rows), Math.min(180, 40 + 0.6 * rows));
