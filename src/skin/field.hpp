@@ -29,12 +29,10 @@ private:
         std::vector<double> weight;
     };
 
-    /// The same of a tile, unit by unit: a site with its weight for each of its units, then another for each ... [k][unit]; a weight of
-    /// 0 where a unit feels fewer. For single steps, which live skins take.
+    /// The same of a tile whose units stand as the sites do, as on a grid: [k][unit], where the sites of one k stand in a row, too; a
+    /// weight of 0 where a unit does not feel its site. For single steps, which live skins take.
     struct OneStep {
-        std::size_t most = 0;             ///< k
-        std::vector<std::ptrdiff_t> row;  ///< if the sites at each k stand in a row: its first, which may be before all sites
-        lanes::Buffer<std::uint32_t> site;
+        std::vector<std::ptrdiff_t> row;     ///< of each k the first site, which may be before all sites; none: they do not stand so
         std::vector<std::uint32_t> weights;  ///< of eight units each, by their place among all there are: [k][unit / 8]
     };
     struct Call {
@@ -59,6 +57,7 @@ private:
     class Eights;
     void make_tile(std::size_t tile, std::size_t sites, Eights&);
     void feel_one_step(const Call&);
+    void feel_site_by_site(const Call&);
 };
 
 }  // namespace corpuscle

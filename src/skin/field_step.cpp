@@ -1,4 +1,4 @@
-// Receptive fields at a single step: a unit's sum at a time, not a site's share in many. The same sums in the same order, to the bit.
+// Receptive fields at a single step. The same sums in the same order as over many, to the bit.
 
 #include <algorithm>
 #include <array>
@@ -12,19 +12,6 @@ namespace {
 
 constexpr std::size_t side_by_side = 8;  // sums in registers: side by side they are no chain
 constexpr std::size_t margin = force_tile;
-
-/// Each unit's sites, wherever they are.
-void add_up(std::size_t most, const std::uint32_t* site, const std::uint32_t* weights, const double* all, const double* now, double* sums) {
-    for (std::size_t u = 0; u < force_tile; u += side_by_side) {
-        double sum[side_by_side] = {};
-        for (std::size_t k = 0; k < most; ++k) {
-            const auto* const s = site + k * force_tile + u;
-            const double* const w = all + weights[(k * force_tile + u) / side_by_side];
-            for (std::size_t i = 0; i < side_by_side; ++i) sum[i] += w[i] * now[s[i]];
-        }
-        for (std::size_t i = 0; i < side_by_side; ++i) sums[u + i] = sum[i];
-    }
-}
 
 /// Sites in rows.
 void add_rows(std::span<const std::ptrdiff_t> rows, const std::uint32_t* weights, const double* all, const double* now, double* sums) {
@@ -56,35 +43,31 @@ public:
     }
 };
 
-/// What one tile feels. Where its units stand as the sites do, as on a grid, those of a k are neighbours: they are in a row then.
+/// What one tile feels, if its units stand as the sites do: neighbours feel neighbours.
 void FeltForce::make_tile(std::size_t tile, std::size_t sites, Eights& eights) {
     const auto& p = pieces_[tile / piece_tiles];
     const std::size_t first = tile % piece_tiles * force_tile;
-    std::vector<std::vector<std::pair<std::uint32_t, double>>> felt(force_tile);
+    struct Entry {
+        std::ptrdiff_t row;
+        std::size_t unit;
+        double weight;
+    };
+    std::vector<Entry> felt;
+    std::vector<std::size_t> counts(force_tile);
     std::map<std::ptrdiff_t, std::size_t> rows;  // by the site of their first unit
-    std::size_t most = 0;
     for (std::uint32_t s = 0; s < sites; ++s)
         for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
+            if (p.unit[k] < first || p.unit[k] >= first + force_tile) continue;
             const std::size_t unit = p.unit[k] - first;
-            if (p.unit[k] < first || unit >= force_tile) continue;
-            felt[unit].emplace_back(s, p.weight[k]);
-            rows[static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(unit)] = 0;
-            most = std::max(most, felt[unit].size());
+            felt.push_back({static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(unit), unit, p.weight[k]});
+            rows[felt.back().row] = 0, ++counts[unit];
         }
+    const auto most = *std::max_element(counts.begin(), counts.end());
+    if (rows.size() > most + most / 2) return;
     auto& out = one_step_[tile];
-    const bool in_rows = rows.size() <= most + most / 2;
-    if (in_rows)
-        for (auto& [row, k] : rows) k = out.row.size(), out.row.push_back(row);
-    out.most = in_rows ? rows.size() : most;
-    std::vector<double> weights(out.most * force_tile);
-    if (!in_rows) out.site = lanes::Buffer<std::uint32_t>(out.most * force_tile);
-    for (std::size_t u = 0; u < force_tile; ++u)
-        for (std::size_t n = 0; n < felt[u].size(); ++n) {
-            const auto [s, weight] = felt[u][n];
-            const auto k = in_rows ? rows[static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(u)] : n;
-            weights[k * force_tile + u] = weight;
-            if (!in_rows) out.site.data()[k * force_tile + u] = s;
-        }
+    for (auto& [row, k] : rows) k = out.row.size(), out.row.push_back(row);
+    std::vector<double> weights(rows.size() * force_tile);
+    for (const auto& e : felt) weights[rows[e.row] * force_tile + e.unit] = e.weight;
     for (std::size_t k = 0; k < weights.size(); k += side_by_side) out.weights.push_back(eights.place(weights.data() + k));
 }
 
@@ -121,16 +104,33 @@ void FeltForce::feel_one_step(const Call& call) {
     if (!all)
         for (const auto s : call.touched)
             for (std::size_t k = reach_begin_[s]; k < reach_begin_[s + 1]; ++k) without_[reach_[k]] = 0;
+    bool in_rows = true;
     for (std::size_t t = 0; t < tiles_; ++t) {
         if (without_[t]) continue;
         const auto& tile = one_step_[t];
         double* const sums = rows_.data() + t * force_tile;
+        in_rows &= !tile.row.empty();
         if (tile.row.empty())
-            add_up(tile.most, tile.site.data(), tile.weights.data(), weights_.data(), now, sums);
+            std::fill_n(sums, force_tile, 0.0);
         else
             add_rows(tile.row, tile.weights.data(), weights_.data(), now, sums);
     }
+    if (!in_rows) feel_site_by_site(call);
     for (const auto s : call.touched) now[s] = 0;
+}
+
+/// The tiles that are in no rows: each site gives its share to all who feel it.
+void FeltForce::feel_site_by_site(const Call& call) {
+    for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+        const auto& p = pieces_[piece];
+        double* const sums = rows_.data() + piece * piece_tiles * force_tile;
+        const OneStep* const tiles = one_step_.data() + piece * piece_tiles;
+        for (const auto s : call.touched) {
+            const double f = call.force.of[s * call.force.stride + call.at];
+            for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k)
+                if (tiles[p.unit[k] / force_tile].row.empty()) sums[p.unit[k]] += p.weight[k] * f;
+        }
+    }
 }
 
 }  // namespace corpuscle
