@@ -1,11 +1,14 @@
 #include "skin/field.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace corpuscle {
 namespace {
 
 constexpr std::size_t field_steps = 4;  // a multiple of it: rows of sums begin on whole vectors
+
+constexpr std::size_t much = 4;  // of a skin is touched: one site of so many
 
 std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
@@ -42,9 +45,33 @@ FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size
 void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool& pool) {
     const Call call{force, touched, at, steps};
     if (steps == 1) return feel_one_step(call);
-    if (touched.size() * 4 > pieces_[0].begin.size()) return feel_unit_by_unit(call, pool);  // a quarter of all sites
+    if (touched.size() * much > pieces_[0].begin.size()) return feel_by_unit(call, pool);
     while (sums_.size() < pool.threads()) sums_.emplace_back(piece_tiles * force_tile * skin_steps);
     pool.each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { feel_piece(piece, call, sums_[thread].data()); });
+}
+
+void FeltForce::make_by_unit() {
+    const std::size_t sites = pieces_[0].begin.size() - 1;
+    by_unit_.emplace(units_);
+    for (std::size_t n = 0; n < pieces_.size(); ++n)
+        for (const auto unit : pieces_[n].unit) by_unit_->count(n * piece_tiles * force_tile + unit);
+    by_unit_->counted();
+    for (std::size_t n = 0; n < pieces_.size(); ++n)
+        for (std::uint32_t s = 0; s < sites; ++s)
+            for (std::size_t k = pieces_[n].begin[s]; k < pieces_[n].begin[s + 1]; ++k)
+                by_unit_->add(n * piece_tiles * force_tile + pieces_[n].unit[k], s, pieces_[n].weight[k]);
+}
+
+/// All tiles: with so much touched few are without force.
+void FeltForce::feel_by_unit(const Call& call, Pool& pool) {
+    static constexpr std::array<double, skin_steps> nothing = {};
+    if (!by_unit_) make_by_unit();
+    site_rows_.assign(pieces_[0].begin.size() - 1, nothing.data());
+    for (const auto s : call.touched) site_rows_[s] = call.force.of + s * call.force.stride + call.at;
+    std::fill(without_.begin(), without_.end(), std::uint8_t{0});
+    pool.each(tiles_, [&call, this](std::size_t tile, unsigned) {
+        by_unit_->feel_tile(tile, site_rows_, call.steps, rows_.data() + tile * call.steps * force_tile);
+    });
 }
 
 void FeltForce::feel_piece(std::size_t piece, const Call& call, double* sums) {
