@@ -1,17 +1,20 @@
 // How long after a frame of forces are its spikes there, how much of a core does that take, and does it last?
 //   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples a second
+//   bench-live sleep [SECONDS [PROGRAM]]   the same without --spin: the program sleeps until a frame comes, and so do sender and reader
 //   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: what part of a core
+//   bench-live noise [SECONDS [PROGRAM]]   the same, where no afferent is ever at rest
 //   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 // 60 s if nothing is said (the soak is meant for 3600), of ./corpuscle. `corpuscle stream` is started as anybody would start it, bound to
 // the last core; what sends and what reads are threads of this program on the others, so that it has one core and no more.
 //
-// delay, share: frames are binary float32 through a pipe, each written when it is due by the clock (clock_nanosleep to absolute times);
-// events are binary through another pipe. The delay of a frame is from just before its write to the read that brought its first spike; a
-// frame without a spike has none, but is counted by the program, which tells at the end how many it answered and what it measured itself,
-// of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same ticks and notes how late it wakes: what
-// the machine does to anybody. Every site feels something at every frame (noise of some mN, so that no afferent can be passed over), and a
-// round contact moves over the skin. share also tells getrusage's time of the program, user and system. soak holds every byte that comes
-// against what the same frames give in this process.
+// With delay, program and sender wait without sleeping (--spin), so that what a machine takes to wake a thread is not in it.
+// delay, sleep, share: frames are binary float32 through a pipe, each written when it is due by the clock (clock_nanosleep to absolute
+// times); events are binary through another pipe. The delay of a frame is from just before its write to the read that brought its first
+// spike; a frame without a spike has none, but is counted by the program, which tells at the end how many it answered and what it measured
+// itself, of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same ticks and notes how late it
+// wakes: what the machine does to anybody. Every site feels something at every frame (noise of some mN, so that no afferent can be passed
+// over), and a round contact moves over the skin. share also tells getrusage's time of the program, user and system. soak holds every byte
+// that comes against what the same frames give in this process.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -56,7 +59,9 @@ void sleep_until(std::int64_t ns) {
 }
 
 /// Frames of one second, over and over: a contact that goes round, and noise.
-std::vector<float> frames_of_a_second(const Sites& sites, int rate, double radius) {
+std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise) {
+    const auto& sites = plan.sites;
+    const double felt = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;  // N at a site that a unit feels as 1 N
     std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
     Position low = sites.at[0], high = low;
     for (const auto& p : sites.at)
@@ -69,7 +74,8 @@ std::vector<float> frames_of_a_second(const Sites& sites, int rate, double radiu
             const double d2 = (sites.at[s].x - x) * (sites.at[s].x - x) + (sites.at[s].y - y) * (sites.at[s].y - y);
             const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
             out[static_cast<std::size_t>(k) * sites.size() + s] =
-                static_cast<float>(2 * std::exp(-d2 / (radius * radius)) + 1e-3 + 4e-3 * unit_interval(w[0], w[1]));
+                static_cast<float>(felt * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +
+                                           (noise ? 1e-3 + 4e-3 * unit_interval(w[0], w[1]) : 0)));
         }
     }
     return out;
@@ -152,45 +158,68 @@ Delays idle_loop(int rate, int seconds) {
     return late;
 }
 
-/// Frames into a descriptor, each when it is due; when each began to be written.
-void send_frames(int fd, const std::vector<float>& second, std::size_t sites, int rate, std::int64_t count, bool numbered,
-                 std::vector<std::int64_t>& at) {
-    std::vector<char> bytes(4 + sites * sizeof(float));
-    const auto begin = steady_now() + 10'000'000;
-    for (std::int64_t k = 0; k < count; ++k) {
+/// Frames, each when it is due; when each began to be written.
+class Sender {
+    const std::vector<float>& second_;
+    std::size_t sites_;
+    int rate_;
+    bool numbered_;
+    std::vector<char> bytes_;
+    std::int64_t begin_ = steady_now() + 10'000'000;
+
+public:
+    std::vector<std::int64_t> at;
+
+    Sender(const std::vector<float>& second, std::size_t sites, int rate, std::int64_t count, bool numbered)
+        : second_(second), sites_(sites), rate_(rate), numbered_(numbered), bytes_(4 + sites * sizeof(float)),
+          at(static_cast<std::size_t>(count)) {}
+    std::int64_t due(std::int64_t k) const { return begin_ + k * 1'000'000'000 / rate_; }
+    std::int64_t sent(std::int64_t k) const { return __atomic_load_n(&at[static_cast<std::size_t>(k)], __ATOMIC_ACQUIRE); }
+    void send(int fd, std::int64_t k) {
         const auto number = static_cast<std::uint32_t>(k);
-        std::memcpy(bytes.data(), &number, 4);
-        std::memcpy(bytes.data() + 4, second.data() + static_cast<std::size_t>(k % rate) * sites, sites * sizeof(float));
-        sleep_until(begin + k * 1'000'000'000 / rate);
-        std::string_view left(bytes.data(), bytes.size());
-        if (!numbered) left.remove_prefix(4);
-        if (!at.empty()) __atomic_store_n(&at[static_cast<std::size_t>(k)], steady_now(), __ATOMIC_RELEASE);
+        std::memcpy(bytes_.data(), &number, 4);
+        std::memcpy(bytes_.data() + 4, second_.data() + static_cast<std::size_t>(k % rate_) * sites_, sites_ * sizeof(float));
+        std::string_view left(bytes_.data(), bytes_.size());
+        if (!numbered_) left.remove_prefix(4);
+        __atomic_store_n(&at[static_cast<std::size_t>(k)], steady_now(), __ATOMIC_RELEASE);
         while (!left.empty()) {
             const auto n = ::write(fd, left.data(), left.size());
             if (n < 0) return;
             left.remove_prefix(static_cast<std::size_t>(n));
         }
     }
-}
+    void send_all(int fd) {
+        for (std::int64_t k = 0; k < static_cast<std::int64_t>(at.size()); ++k) sleep_until(due(k)), send(fd, k);
+    }
+};
 
 /// Events as they come; each() is called with every one and when it was read.
 template <class Each>
-void read_events(int fd, std::size_t header, const Each& each) {
-    std::vector<char> buffer(1 << 20);
-    std::size_t filled = 0;
-    for (ssize_t n = 0; (n = ::read(fd, buffer.data() + filled, buffer.size() - filled)) > 0;) {
+class Reader {
+    int fd_;
+    std::size_t header_, filled_ = 0;
+    Each each_;
+    std::vector<char> buffer_ = std::vector<char>(1 << 20);
+
+public:
+    Reader(int fd, std::size_t header, Each each) : fd_(fd), header_(header), each_(std::move(each)) {}
+    /// What one read gives; false at the end, or if there is nothing yet where reading does not wait.
+    bool read() {
+        const auto n = ::read(fd_, buffer_.data() + filled_, buffer_.size() - filled_);
+        if (n <= 0) return false;
         const auto now = steady_now();
-        filled += static_cast<std::size_t>(n);
-        std::size_t at = std::min(header, filled);
-        header -= at;
-        for (; filled - at >= address_events::spike_bytes; at += address_events::spike_bytes) {
+        filled_ += static_cast<std::size_t>(n);
+        std::size_t at = std::min(header_, filled_);
+        header_ -= at;
+        for (; filled_ - at >= address_events::spike_bytes; at += address_events::spike_bytes) {
             address_events::Packed spike;
-            std::memcpy(&spike, buffer.data() + at, sizeof spike);
-            each(spike, now);
+            std::memcpy(&spike, buffer_.data() + at, sizeof spike);
+            each_(spike, now);
         }
-        std::memmove(buffer.data(), buffer.data() + at, filled -= at);
+        std::memmove(buffer_.data(), buffer_.data() + at, filled_ -= at);
+        return true;
     }
-}
+};
 
 std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     auto plan = plan_live(population, 1);
@@ -199,31 +228,44 @@ std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     return *skin;
 }
 
-int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius) {
+int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius, bool spin, bool noise) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
     const auto header = (*event_format("aer", event_units(*skin, {rate, 1})))->header().size();
-    const auto second = frames_of_a_second(skin->plan.sites, rate, radius);
+    const auto second = frames_of_a_second(skin->plan, rate, radius, noise);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (cores > 1) bind_to(0, cores - 2);
     const auto idle = idle_loop(rate, seconds);
     const std::int64_t count = std::int64_t{rate} * seconds;
-    std::vector<std::int64_t> sent(static_cast<std::size_t>(count));
-    Program child(program, {"--population", population, "--rate", fmt::format("{}Hz", rate), "--frames", "f32", "--format", "aer"},
-                  cores - 1);
-    std::thread sender([&] {
-        send_frames(child.in.get(), second, sites, rate, count, false, sent);
-        child.in.close();
-    });
+    std::vector<std::string> words = {"--population", population, "--rate",   fmt::format("{}Hz", rate),
+                                      "--frames",     "f32",      "--format", "aer"};
+    if (spin) words.push_back("--spin");
+    Program child(program, words, cores - 1);
+    Sender sender(second, sites, rate, count, false);
     Delays delay;
     std::int64_t last = 0, spikes = 0;
-    read_events(child.out.get(), header, [&](const address_events::Packed& spike, std::int64_t now) {
+    Reader reader(child.out.get(), header, [&](const address_events::Packed& spike, std::int64_t now) {
         ++spikes;
         if (spike.step == last || spike.step >= count) return;
         last = spike.step;
-        delay.add(now - __atomic_load_n(&sent[static_cast<std::size_t>(spike.step)], __ATOMIC_ACQUIRE));
+        delay.add(now - sender.sent(spike.step));
     });
-    sender.join();
+    if (spin) {
+        ::fcntl(child.out.get(), F_SETFL, O_NONBLOCK);
+        for (std::int64_t k = 0; k < count; ++k) {
+            while (steady_now() < sender.due(k)) reader.read();
+            sender.send(child.in.get(), k);
+        }
+        ::fcntl(child.out.get(), F_SETFL, 0);
+        child.in.close();
+        while (reader.read()) {
+        }
+    } else {
+        std::thread sending([&] { sender.send_all(child.in.get()), child.in.close(); });
+        while (reader.read()) {
+        }
+        sending.join();
+    }
     const auto told = child.told(child.err.get());
     const int status = child.wait();
     fmt::print("{}: {} sites, {} afferents, {} frames of {} Hz sent, {} spikes read\n\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n",
@@ -247,7 +289,7 @@ int soak(const std::string& program, int seconds) {
     const auto skin = skin_of("grid 16x16");
     const auto sites = skin->plan.sites.size();
     const auto format = event_format("aer", event_units(*skin, {rate, 1}));
-    const auto second = frames_of_a_second(skin->plan.sites, rate, 8e-3);
+    const auto second = frames_of_a_second(skin->plan, rate, 8e-3, true);
     Endpoint here;
     auto door = listening_socket(here);
     Program child(program,
@@ -263,11 +305,8 @@ int soak(const std::string& program, int seconds) {
     if (!to) return fmt::print("{}\n", to.error().text()), 1;
     ::fcntl(to->get(), F_SETFL, 0);
     const std::int64_t count = std::int64_t{rate} * seconds;
-    std::vector<std::int64_t> sent(static_cast<std::size_t>(count));
-    std::thread sender([&] {
-        send_frames(to->get(), second, sites, rate, count, true, sent);
-        to->close();
-    });
+    Sender sender(second, sites, rate, count, true);
+    std::thread sending([&] { sender.send_all(to->get()), to->close(); });
     // The same frames here, as far as events have come.
     auto ours = SkinStream::make(skin, {rate, 1});
     std::vector<double> frame(sites);
@@ -288,20 +327,21 @@ int soak(const std::string& program, int seconds) {
     };
     std::vector<Delays> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
     std::int64_t spikes = 0, wrong = 0, told_at = 0, last = -1;
-    read_events(events.get(), (*format)->header().size(), [&](const address_events::Packed& spike, std::int64_t now) {
+    Reader reader(events.get(), (*format)->header().size(), [&](const address_events::Packed& spike, std::int64_t now) {
         next(spike.step);
         wrong += at == wanted.size() || std::memcmp(&wanted[at], &spike, sizeof spike) != 0;
         ++spikes, at += at < wanted.size();
         if (spike.step != last && spike.step < count)
-            minutes[static_cast<std::size_t>(spike.step / rate / 60)].add(
-                now - __atomic_load_n(&sent[static_cast<std::size_t>(spike.step)], __ATOMIC_ACQUIRE));
+            minutes[static_cast<std::size_t>(spike.step / rate / 60)].add(now - sender.sent(spike.step));
         last = spike.step;
         if (spike.step < told_at) return;
         fmt::print("{:6} s  {:9} events  {:6} kB resident\n", spike.step / rate, spikes, resident_kB(child.pid));
         std::fflush(stdout);
         told_at += std::max(10, seconds / 12) * rate;
     });
-    sender.join();
+    while (reader.read()) {
+    }
+    sending.join();
     next(count);
     const auto told = child.told(child.err.get());
     const int status = child.wait();
@@ -321,8 +361,10 @@ int main(int argc, char** argv) {
     const std::string what = argc > 1 ? argv[1] : "";
     const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";
-    if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3);
-    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 12e-3);
+    if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
+    if (what == "sleep") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
+    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, false);
+    if (what == "noise") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, true);
     if (what == "soak") return soak(program, seconds);
-    return fmt::print("bench-live delay|share|soak [SECONDS [PROGRAM]]\n"), 2;
+    return fmt::print("bench-live delay|sleep|share|noise|soak [SECONDS [PROGRAM]]\n"), 2;
 }

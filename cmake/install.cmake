@@ -11,5 +11,5 @@ configure_package_config_file(cmake/corpuscle-config.cmake.in corpuscle-config.c
 write_basic_package_version_file(corpuscle-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/corpuscle-config.cmake ${PROJECT_BINARY_DIR}/corpuscle-config-version.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)
 
-# Process cards and circuits, side by side as netlists expect them.
-install(DIRECTORY process circuits DESTINATION ${CMAKE_INSTALL_DATADIR}/corpuscle)
+# Process cards and circuits, side by side as netlists expect them; populations.
+install(DIRECTORY process circuits skins DESTINATION ${CMAKE_INSTALL_DATADIR}/corpuscle)

@@ -213,7 +213,7 @@ public:
         const auto n = numbers_of(words_);
         if (!n) return n.error();
         if (auto ok = open(*n, wishes); !ok) return ok;
-        StreamLoop::Ways ways{.stop = interrupted, .goes_on = !words_.save.empty()};
+        StreamLoop::Ways ways{.stop = interrupted, .spin = words_.spin, .goes_on = !words_.save.empty()};
         if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.seen = [this] { show(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *outlet_, std::move(ways));
         if (auto ok = take_up(); !ok) return ok;

@@ -120,6 +120,7 @@ void StreamVerb::add_to(CLI::App& app, Common& common) {
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
     verb.add_flag("--sampled", w.sampled, "spikes on the samples, as in the thesis; else interpolated inside the step");
+    verb.add_flag("--spin", w.spin, "wait for frames without sleeping: takes a core of its own, and saves the time to wake");
     add_frames(verb, w);
     add_events(verb, w);
     add_common(verb, common);

@@ -100,7 +100,7 @@ struct StreamWords {
     std::size_t count = 1;     ///< channels
     std::int64_t clients = 0;  ///< 0: without end
     long baud = 115200;
-    bool sampled = false;
+    bool sampled = false, spin = false;
 };
 
 struct ListWords {

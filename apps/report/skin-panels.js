@@ -28,10 +28,9 @@ class SkinRatePanel extends PopulationPanel {
 
 /// Units of one class that fired, in their order on the skin: a mark for each spike while they stand apart, else how many share a pixel.
 class SkinRasterPanel extends Panel {
-    /// `trains`: as Trains.train() gives them; `pointed(unit)` hears who is pointed at.
-    constructor({one, trains, fired, region, pointed, ...rest}) {
-        const title = trains.length === fired ? `${fired} of ${one.units} units fired` : `${trains.length} of ${fired} that fired, in ${region}`;
-        super({...rest, title: `<span class="chip" style="background: ${one.color}"></span>${escaped(one.name)} spikes <span class="unit">${escaped(title)}; neighbours stand together</span>`,
+    /// `trains`: as Trains.train() gives them; `told`: how many units these are; `pointed(unit)` hears who is pointed at.
+    constructor({one, trains, told, pointed, ...rest}) {
+        super({...rest, title: `<span class="chip" style="background: ${one.color}"></span>${escaped(one.name)} spikes <span class="unit">${escaped(told)}; neighbours stand together</span>`,
                series: [{label: one.name, html: "", color: one.color, width: 3}]});
         Object.assign(this, {one, trains, pointed});
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "report/parts_document.hpp"
+#include "report/skin_frames.hpp"
 
 namespace corpuscle {
 namespace {
@@ -14,73 +15,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr int ticks_a_sample = 10;
 
-template <class T>
-std::string array64(const std::vector<T>& values) {
-    return base64(values.data(), values.size() * sizeof(T));
-}
-
-/// Whole numbers in as few bytes as they need: seven bits each, the lowest first, the highest bit says that more follow.
-class Bytes {
-public:
-    std::vector<unsigned char> all;
-    void number(std::uint64_t n) {
-        for (; n >= 128; n >>= 7) all.push_back(static_cast<unsigned char>(n | 128));
-        all.push_back(static_cast<unsigned char>(n));
-    }
-    /// Of all places: 1 to 254 itself, 255 and a number for more, 0 and a number for so many zeros.
-    template <class Frame, class Level>
-    void frame(const Frame& f, std::size_t places, Level level) {
-        std::size_t at = 0;
-        const auto zeros_to = [&](std::size_t place) {
-            if (place > at) all.push_back(0), number(place - at);
-            at = place + 1;
-        };
-        for (const auto& [place, value] : f) {
-            zeros_to(place);
-            const std::uint64_t n = level(value);
-            all.push_back(static_cast<unsigned char>(std::min<std::uint64_t>(n, 255)));
-            if (n >= 255) number(n);
-        }
-        zeros_to(places);
-    }
-};
-
 /// Neighbours that share a mark.
 std::uint32_t a_mark(std::size_t count, std::size_t most) {
     return static_cast<std::uint32_t>((count + most - 1) / std::max<std::size_t>(most, 1));
-}
-
-template <class V>
-Json frames_document(const Framed<V>& framed, double T) {
-    Bytes bytes;
-    const auto frames = framed.frames();
-    for (const auto& f : frames) bytes.frame(f, framed.places(), [](V v) { return static_cast<std::uint64_t>(v); });
-    return {{"count", frames.size()},
-            {"width", static_cast<double>(framed.width()) * T},
-            {"places", framed.places()},
-            {"data", array64(bytes.all)}};
-}
-
-/// Mean force of each mark in each frame, in 254 parts of the greatest.
-Json force_document(const Framed<double>& sites, double T, std::int64_t samples) {
-    const auto frames = sites.frames();
-    const auto length = [&](std::size_t k) {
-        return static_cast<double>(std::clamp<std::int64_t>(samples - static_cast<std::int64_t>(k) * sites.width(), 1, sites.width()));
-    };
-    double greatest = 0;
-    for (std::size_t k = 0; k < frames.size(); ++k)
-        for (const auto& e : frames[k]) greatest = std::max(greatest, e.value / length(k));
-    Bytes bytes;
-    for (std::size_t k = 0; k < frames.size(); ++k)
-        bytes.frame(frames[k], sites.places(), [&](double sum) {
-            const double share = greatest > 0 ? sum / length(k) / greatest : 0;
-            return share > 0 ? static_cast<std::uint64_t>(std::clamp(std::lround(254 * share), 1L, 254L)) : std::uint64_t{0};
-        });
-    return {{"count", frames.size()},
-            {"width", static_cast<double>(sites.width()) * T},
-            {"places", sites.places()},
-            {"greatest", greatest},
-            {"data", array64(bytes.all)}};
 }
 
 }  // namespace
@@ -159,7 +96,7 @@ Json SkinReport::spikes_document() const {
     std::vector<std::int64_t> ticks(spike_ticks_.size());
     auto at = begin;
     for (std::size_t k = 0; k < ticks.size(); ++k) ticks[at[spike_units_[k]]++] = spike_ticks_[k];
-    Bytes bytes;
+    PackedNumbers bytes;
     std::size_t next = 0, trains = 0;
     for (std::size_t u = 0; u < class_of_.size(); ++u) {
         if (begin[u] == begin[u + 1]) continue;

@@ -124,12 +124,16 @@ bool SumCheck::is_sum(std::size_t c, std::size_t from, std::size_t to) const {
     return varies;
 }
 
+/// A channel is no sum of one like it and of others that say nothing: of a skin most sensors are like that.
 std::vector<SumCheck::Sum> SumCheck::found() const {
     std::vector<Sum> sums;
+    std::vector<std::size_t> speaking(first_.size() + 1);  // channels below this one with a value other than 0
+    for (std::size_t c = 0; c < first_.size(); ++c)
+        speaking[c + 1] = speaking[c] + std::any_of(first_[c].begin(), first_[c].end(), [](double x) { return x != 0; });
     for (std::size_t c = 0; c < first_.size(); ++c)
         for (std::size_t from = 0; from < first_.size(); ++from)
             for (std::size_t to = from + 1; to < first_.size(); ++to)
-                if ((c < from || c > to) && is_sum(c, from, to)) sums.push_back({c, from, to});
+                if ((c < from || c > to) && speaking[to + 1] - speaking[from] > 1 && is_sum(c, from, to)) sums.push_back({c, from, to});
     return sums;
 }
 

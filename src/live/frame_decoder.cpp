@@ -37,16 +37,38 @@ double number_of(std::string_view field) {
     return status == std::errc{} && end == field.data() + field.size() ? x : no_number;
 }
 
+/// Some forces, none of which is beyond the limit: true. Else they are left as they were.
+template <class Value, std::size_t count>
+bool take_good(const char* from, const FrameLayout& layout, double* force) {
+    Value x[count];
+    double f[count], beyond[8] = {};
+    std::memcpy(x, from, sizeof x);
+    for (std::size_t k = 0; k < count; ++k) f[k] = (static_cast<double>(x[k]) - layout.offset) * layout.scale;
+    for (std::size_t k = 0; k < count; k += 8)
+        for (std::size_t l = 0; l < 8; ++l) beyond[l] += std::abs(f[k + l]) <= layout.limit ? 0.0 : 1.0;
+    for (const double b : beyond)
+        if (b > 0) return false;
+    std::memcpy(force, f, sizeof f);
+    return true;
+}
+
 template <class Value>
 std::size_t take_values(const char* from, const FrameLayout& layout, std::span<double> force) {
+    constexpr std::size_t at_once = 64;
     std::size_t bad = 0;
-    for (std::size_t s = 0; s < force.size(); ++s) {
-        Value x;
-        std::memcpy(&x, from + s * sizeof x, sizeof x);
-        const double f = (static_cast<double>(x) - layout.offset) * layout.scale;
-        const bool good = std::abs(f) <= layout.limit;
-        force[s] = good ? f : force[s];
-        bad += !good;
+    for (std::size_t s = 0; s < force.size();) {
+        if (force.size() - s >= at_once && take_good<Value, at_once>(from + s * sizeof(Value), layout, force.data() + s)) {
+            s += at_once;
+            continue;
+        }
+        for (const auto end = std::min(force.size(), s + at_once); s < end; ++s) {
+            Value x;
+            std::memcpy(&x, from + s * sizeof x, sizeof x);
+            const double f = (static_cast<double>(x) - layout.offset) * layout.scale;
+            const bool good = std::abs(f) <= layout.limit;
+            force[s] = good ? f : force[s];
+            bad += !good;
+        }
     }
     return bad;
 }

@@ -39,11 +39,11 @@ Result<bool> StreamLoop::wait() {
     pollfd on[2] = {{frames_.waits_on(), POLLIN, 0}, {outlet_.waits_on(), POLLOUT, 0}};
     const auto left =
         std::max<std::int64_t>(0, std::min(frames_.due() - (frames_.due() == FrameSource::never ? 0 : steady_now()), longest_wait));
-    const timespec wait = {0, static_cast<long>(left)};
+    const timespec wait = {0, ways_.spin ? 0 : static_cast<long>(left)};
     const int ready = ::ppoll(on, 2, &wait, nullptr);
     if (ready < 0) return true;  // a signal: stop() is asked
     const bool due = frames_.waits_on() < 0 ? frames_.due() <= steady_now() : on[0].revents != 0;
-    if (on[1].revents != 0 || ready == 0)
+    if (on[1].revents != 0 || (ready == 0 && !ways_.spin))
         if (auto ok = outlet_.flush(); !ok) return ok.error();
     if (!due) return true;
     const auto more = frames_.receive();

@@ -30,6 +30,7 @@ public:
     struct Ways {
         std::function<bool()> stop = [] { return false; };  ///< asked at least five times a second
         std::function<void()> seen = [] {};                 ///< called once a second
+        bool spin = false;                                  ///< wait without sleeping: a core of its own, and no time to wake
         bool goes_on = false;                               ///< its state is kept: spikes on their way at the end are the next stream's
     };
 

@@ -10,7 +10,8 @@ namespace corpuscle {
 
 /// The SI value of a quantity. `unit` says what is wanted ("s", "Hz", "A/N", "" for a plain number).
 /// A bare number, or one with a bare prefix ("1k", "500n"), is in that unit; "10%" is 0.1 where a plain number is wanted.
-/// A power stands behind its symbol: "4 mm2", "241 /cm2". Prefixes: f p n u (or the micro sign) m k M G T; M is mega, m is milli. Refuses other dimensions, infinities and NaN.
+/// A power stands behind its symbol: "4 mm2", "241 /cm2".
+/// Prefixes: f p n u (or the micro sign) m k M G T; M is mega, m is milli. Refuses other dimensions, infinities and NaN.
 Result<double> parse_quantity(std::string_view text, std::string_view unit);
 
 /// For people: four significant digits with a prefix, "500 nA", "8 uA/N", "25 Hz".

@@ -1,24 +1,10 @@
 #pragma once
-// The classes of afferents that a population file asks for, and numbers of such a file.
+// The classes of afferents that a population file asks for.
 
 #include "skin/plan.hpp"
-#include "skin/text.hpp"
+#include "skin/said_numbers.hpp"
 
 namespace corpuscle::skins {
-
-/// Numbers as a population file writes them. A number whose unit matters says it; a length may leave that to the file's own unit.
-class SaidNumbers {
-    std::optional<double> metres_;
-
-public:
-    SaidNumbers() = default;
-    explicit SaidNumbers(double metres) : metres_(metres) {}
-    /// In SI, within [low, high].
-    Result<double> number(const Said&, std::string_view name, std::string_view unit, double low, double high) const;
-    Result<double> number(const MaybeSaid&, std::string_view name, std::string_view unit, double low, double high, double otherwise) const;
-    Result<std::uint64_t> whole(const MaybeSaid&, std::string_view name, std::uint64_t low, std::uint64_t high,
-                                std::uint64_t otherwise) const;
-};
 
 Result<std::vector<SkinClass>> classes_of(const SkinText&, const Sites&, const SaidNumbers&);
 

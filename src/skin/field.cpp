@@ -42,6 +42,7 @@ FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size
 void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool& pool) {
     const Call call{force, touched, at, steps};
     if (steps == 1) return feel_one_step(call);
+    if (touched.size() * 4 > pieces_[0].begin.size()) return feel_unit_by_unit(call, pool);  // a quarter of all sites
     while (sums_.size() < pool.threads()) sums_.emplace_back(piece_tiles * force_tile * skin_steps);
     pool.each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { feel_piece(piece, call, sums_[thread].data()); });
 }

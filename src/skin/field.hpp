@@ -30,12 +30,12 @@ private:
     };
 
     /// The same of a tile, unit by unit: a site with its weight for each of its units, then another for each ... [k][unit]; a weight of
-    /// 0 where a unit feels fewer. For single steps, which live skins take.
-    struct OneStep {
+    /// 0 where a unit feels fewer. For single steps, which live skins take, and where much of the skin is touched.
+    struct Tile {
         std::size_t most = 0;             ///< k
         std::vector<std::ptrdiff_t> row;  ///< if the sites at each k stand in a row: its first, which may be before all sites
         lanes::Buffer<std::uint32_t> site;
-        lanes::Buffer<double> weight;
+        std::vector<std::uint32_t> weights;  ///< of eight units each, by their place among all there are: [k][unit / 8]
     };
     struct Call {
         const SiteForce& force;
@@ -45,18 +45,23 @@ private:
 
     std::size_t units_, tiles_;
     std::vector<Piece> pieces_;
-    std::vector<OneStep> one_step_;         // of each tile; made when a single step comes
+    lanes::Buffer<double> weights_;         // by eights, each that there is once
+    std::vector<Tile> unit_by_unit_;        // made when it is first wanted
     std::vector<std::size_t> reach_begin_;  // with it: which tiles feel a site
     std::vector<std::uint32_t> reach_;
-    std::vector<double> now_;  // force of all sites at that step, between zeros
+    std::vector<double> now_;               // force of all sites at a single step, between zeros
+    std::vector<const double*> site_rows_;  // of all sites over some steps, likewise; zeros where nothing touches
     lanes::Buffer<double> rows_;
     std::vector<std::uint8_t> without_;
     std::vector<lanes::Buffer<double>> sums_;  // of each thread: [unit of a piece][step]
 
     void feel_piece(std::size_t piece, const Call&, double* sums);
-    void make_one_step();
-    void make_tile(std::size_t tile, std::size_t sites);
+    void make_unit_by_unit();
+    class Eights;
+    void make_tile(std::size_t tile, std::size_t sites, Eights&);
+    void find_touched_tiles(const Call&);
     void feel_one_step(const Call&);
+    void feel_unit_by_unit(const Call&, Pool&);
 };
 
 }  // namespace corpuscle

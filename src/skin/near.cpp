@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 NearSites::NearSites(const std::vector<Position>& at) {
-    constexpr double a_cell = 2;  // sites in one, were they spread evenly
+    constexpr double a_cell = 0.7;  // sites in one, were they spread evenly; measured
     double right = at[0].x, high = at[0].y;
     left_ = right, low_ = high;
     for (const auto& p : at)

@@ -1,6 +1,7 @@
 // Receptive fields: each hot spot a Gaussian over the sites, all of a unit's together a weighted mean.
 
 #include <fmt/format.h>
+#include <cmath>
 #include <numeric>
 
 #include "signal/random.hpp"
@@ -10,6 +11,13 @@ namespace corpuscle {
 namespace {
 
 constexpr double cut = 3;  // standard deviations at which a hot spot ends
+
+/// To 1e-12: sites as far from their units have the same weight, whatever rounding made of their places. So fields that are alike are
+/// stored once where they are at work.
+double without_noise(double x) {
+    constexpr double fine = 1099511627776.0;  // 2^40
+    return std::floor(x * fine + 0.5) / fine;
+}
 
 /// What units feel, unit after unit.
 struct Felt {
@@ -35,7 +43,7 @@ class FieldsOfClass {
         near_.within(x, y, cut * class_.sigma, [&](std::uint32_t site, double d2) {
             if (reaches[plan_.sites.region[site]]) near_spot_.emplace_back(site, d2);
         });
-        for (auto& s : near_spot_) s.second = num::exp(-s.second * per_square_);  // by themselves: their chains overlap
+        for (auto& s : near_spot_) s.second = num::exp(-without_noise(s.second * per_square_));  // by themselves: their chains overlap
         for (const auto& [site, w] : near_spot_) {
             if (felt_[site] == 0) reached_.push_back(site);
             felt_[site] += w;

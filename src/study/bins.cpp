@@ -7,13 +7,13 @@
 
 namespace corpuscle {
 
-Bins::Bins(std::vector<Row> rows, const Clock& clock, double bin)
+EvenBins::EvenBins(std::vector<Row> rows, const Clock& clock, double bin)
     : rows_(std::move(rows)), since_start_(clock), bin_(bin), t0_(std::exchange(since_start_.t0, 0.0)), now_(rows_.size()) {}
 
-std::int64_t Bins::bin_of(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_ + 1e-9)); }
+std::int64_t EvenBins::bin_of(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_ + 1e-9)); }
 
 /// The bin that fills is done, and ends at `to` (s since the start).
-void Bins::put(double to) {
+void EvenBins::put(double to) {
     if (std::exchange(told_, false)) text_.clear();
     const double from = static_cast<double>(at_) * bin_;
     for (std::size_t r = 0; r < now_.size(); ++r)
@@ -23,24 +23,24 @@ void Bins::put(double to) {
     ++at_;
 }
 
-void Bins::fill_up_to(std::int64_t bin) {
+void EvenBins::fill_up_to(std::int64_t bin) {
     while (at_ < bin) put(static_cast<double>(at_ + 1) * bin_);
 }
 
-void Bins::count(const Spike& s, std::size_t row) {
+void EvenBins::count(const Spike& s, std::size_t row) {
     fill_up_to(bin_of(since_start_.time(s.step, s.offset)));
     ++now_[row];
 }
 
-void Bins::known_to(std::int64_t sample) { fill_up_to(bin_of(since_start_.time(sample))); }
+void EvenBins::known_to(std::int64_t sample) { fill_up_to(bin_of(since_start_.time(sample))); }
 
-void Bins::end(std::int64_t samples) {
+void EvenBins::end(std::int64_t samples) {
     const double end = since_start_.time(samples);
     fill_up_to(std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(end / bin_ - 1e-9)) - 1, 0));
     put(end);
 }
 
-std::string_view Bins::lines() {
+std::string_view EvenBins::lines() {
     if (std::exchange(told_, true)) text_.clear();
     return {text_.data(), text_.size()};
 }

@@ -12,7 +12,7 @@ namespace corpuscle {
 
 /// Bins are counted from the start; the last one ends with the input. A bin owns its start, not its end; a spike that misses an edge by
 /// less than 1e-9 of a bin stands on it.
-class Bins {
+class EvenBins {
 public:
     /// What a bin's line begins with, and among how many its rate is shared.
     struct Row {
@@ -20,8 +20,8 @@ public:
         double units = 1;
     };
 
-    Bins() = default;
-    Bins(std::vector<Row> rows, const Clock& clock, double bin);
+    EvenBins() = default;
+    EvenBins(std::vector<Row> rows, const Clock& clock, double bin);
     void count(const Spike& s, std::size_t row);
     /// What comes from now on is behind this sample.
     void known_to(std::int64_t sample);

@@ -7,9 +7,9 @@ BinsFile::BinsFile(OutputFile file, double bin) : file_(std::move(file)), bin_(b
 }
 
 Result<void> BinsFile::begin(const Input& input) {
-    std::vector<Bins::Row> rows;
+    std::vector<EvenBins::Row> rows;
     for (auto& name : unit_names(input)) rows.push_back({std::move(name)});
-    bins_ = Bins(std::move(rows), input.source.clock(), bin_);
+    bins_ = EvenBins(std::move(rows), input.source.clock(), bin_);
     return {};
 }
 

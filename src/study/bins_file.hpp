@@ -10,7 +10,7 @@ namespace corpuscle {
 class BinsFile final : public WrittenFile {
     OutputFile file_;
     double bin_;  // s
-    Bins bins_;
+    EvenBins bins_;
 
 public:
     BinsFile(OutputFile file, double bin);

@@ -15,7 +15,7 @@ Result<void> SkinBinsFile::begin(const SkinInput& input) {
     const auto& [plan, units, first, fields] = input.skin;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> units_of;  // by class and region
     for (const auto& u : units) ++units_of[{u.of, u.region}];
-    std::vector<Bins::Row> rows;
+    std::vector<EvenBins::Row> rows;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> row_of;
     for (const auto& [of, count] : units_of) {
         row_of[of] = static_cast<std::uint32_t>(rows.size());
@@ -24,7 +24,7 @@ Result<void> SkinBinsFile::begin(const SkinInput& input) {
     }
     row_of_.clear();
     for (const auto& u : units) row_of_.push_back(row_of[{u.of, u.region}]);
-    bins_ = Bins(std::move(rows), input.clock, bin_);
+    bins_ = EvenBins(std::move(rows), input.clock, bin_);
     return {};
 }
 

@@ -11,7 +11,7 @@ namespace corpuscle {
 class SkinBinsFile final : public SkinWrittenFile {
     OutputFile file_;
     double bin_;  // s
-    Bins bins_;
+    EvenBins bins_;
     std::vector<std::uint32_t> row_of_;  // of each unit
 
 public:

@@ -48,9 +48,9 @@ TEST(Readme, ItsProgramIsTheExampleThatRuns) {
 }
 
 TEST(Readme, EveryPageItPointsToIsThere) {
-    for (const auto* page :
-         {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md", "doc/measures.md",
-          "doc/circuits.md", "doc/chips.md", "doc/lanes.md", "doc/populations.md", "doc/real-recordings.md"}) {
+    for (const auto* page : {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md",
+                             "doc/measures.md", "doc/circuits.md", "doc/chips.md", "doc/lanes.md", "doc/populations.md",
+                             "doc/real-recordings.md", "doc/live.md", "doc/events.md"}) {
         const auto text = test::read_file(project_root + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {

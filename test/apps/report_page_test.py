@@ -766,7 +766,7 @@ class OnASkin(Page):
         rows = self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")
         self.assertEqual(len(rows), len(self.classes) * (1 + len(self.data["summary"]["input"]["phases"])))
         self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#firsts tbody tr")), len(self.data["summary"]["first_spikes"]))
-        self.screenshot("skin.png")
+        self.browser.save_screenshot(str(OUT / "skin.png"))
         self.browser.set_window_size(700, 900)
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.documentElement.scrollWidth <= innerWidth"))
         self.browser.set_window_size(1200, 900)

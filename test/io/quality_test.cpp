@@ -121,6 +121,12 @@ TEST(HumCheck, DoesNotLookWhereTheRateCannotShow) {
     EXPECT_EQ(check.found().frequency, 0);
 }
 
+TEST(SumCheck, OneLikeAnotherBesideSilentOnesIsNoTotal) {
+    SumCheck check;
+    check.add({{0, 0, 0}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0, 0, 0}});
+    EXPECT_TRUE(check.found().empty());
+}
+
 TEST(SumCheck, FindsTotals) {
     std::vector<std::vector<double>> block(5);
     for (int k = 0; k < 50; ++k) {

@@ -88,6 +88,17 @@ RC_GTEST_PROP(Quantity, WrittenAndReadBackAgreesToItsDigits, ()) {
     RC_ASSERT(std::abs(*back - value) <= 1e-9 * value);
 }
 
+TEST(Quantity, HasPowersOfLengthsAndPressures) {
+    EXPECT_DOUBLE_EQ(*parse_quantity("4 mm2", "m2"), 4e-6);
+    EXPECT_DOUBLE_EQ(*parse_quantity("241 /cm2", "1/m2"), 241e4);
+    EXPECT_DOUBLE_EQ(*parse_quantity("2 1/mm2", "1/m2"), 2e6);
+    EXPECT_DOUBLE_EQ(*parse_quantity("50 kPa", "Pa"), 50e3);
+    EXPECT_DOUBLE_EQ(*parse_quantity("0.05 N/mm2", "Pa"), 50e3);
+    EXPECT_DOUBLE_EQ(*parse_quantity("3 cm", "m"), 0.03);
+    EXPECT_EQ(format_quantity(4e-6, "m2"), "4e-06 m2");  // 4 um2 would be something else
+    for (const auto* wrong : {"4 mm", "4 /", "4 2", "4 ccm2", "4 cm22"}) EXPECT_FALSE(parse_quantity(wrong, "m2")) << wrong;
+}
+
 RC_GTEST_PROP(Quantity, NeverTakesTwoUnitsOfDifferentKindForEachOther, ()) {
     const auto a = *rc::gen::element<std::string>("s", "N", "V", "A", "m"), b = *rc::gen::element<std::string>("s", "N", "V", "A", "m");
     RC_ASSERT(static_cast<bool>(parse_quantity("2 k" + a, b)) == (a == b));

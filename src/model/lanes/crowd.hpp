@@ -267,6 +267,10 @@ class Crowd final : public Population {
         return step;
     }
 
+    /// States that are no number stay so: of blocks of a step or two they are looked at now and then.
+    static constexpr std::int64_t between_looks = 16;
+    bool looks(const Block& b) const { return step_ / between_looks != (step_ + static_cast<std::int64_t>(b.steps)) / between_looks; }
+
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
         job.events.clear(), job.capped = job.unmarked = job.passed = job.fired = 0, job.lost = false;
@@ -274,7 +278,7 @@ class Crowd final : public Population {
             if (const auto* profile = std::get_if<ForceProfile>(&b.force)) gains_of(*profile, tile * tile_units, s.gain.data());
             const std::size_t steps = run_tile(b, tile, s, job);
             job.passed += static_cast<std::int64_t>(b.steps - steps) * units_of(tile);
-            if (steps == 0) continue;
+            if (steps == 0 || !(looks(b) || rests_[tile])) continue;
             job.lost |= !finite(receptor_state(tile), receptor_state_size()) || !finite(neuron_state(tile), neuron_state_size());
         }
     }
@@ -323,9 +327,10 @@ class Crowd final : public Population {
 
     Error lost(std::size_t unit, const Block& b, PopulationAnswer& answer) const {
         answer.failed = unit;
-        return {Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a gain is "
-                                                 "far too large, or the substep too long",
-                                                 cast_.name, step_, step_ + static_cast<std::int64_t>(b.steps))};
+        return {Code::not_converged,
+                fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a gain is "
+                            "far too large, or the substep too long",
+                            cast_.name, step_ / between_looks * between_looks, step_ + static_cast<std::int64_t>(b.steps))};
     }
 
     /// What jobs found that must not be.

@@ -1,7 +1,10 @@
 #pragma once
 // Sites as the squares of skin that they stand for, looked up by where a contact is.
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <span>
 
 #include "skin/near.hpp"
 

@@ -188,9 +188,9 @@ std::span<const NamedTouch> named_touches() {
         {"scan",
          "ramp-hold",
          "grating",
-         "a grating, a ridge every 2 mm, that passes over a patch of skin ('fingertip') at 40 mm/s under 1 N for 2 s",
-         {{"radius", 5e-3}, {"period", 2e-3}, {"ridge", 1e-3}, {"speed", 40e-3}},
-         {{"F_max", 1}, {"t_rest", 0.1}, {"t_up", 0.1}, {"t_hold", 2}, {"t_down", 0.1}, {"t_post", 0.2}}},
+         "a grating, a ridge every 4 mm, that passes over a patch of skin ('fingertip') at 80 mm/s under 2 N for 2 s",
+         {{"radius", 5.6e-3}, {"period", 4e-3}, {"ridge", 2e-3}, {"speed", 80e-3}},
+         {{"F_max", 2}, {"t_rest", 0.1}, {"t_up", 0.1}, {"t_hold", 2}, {"t_down", 0.1}, {"t_post", 0.2}}},
     };
     return all;
 }

@@ -1,0 +1,55 @@
+"use strict";
+// The plots of the page under each other: force, rates of classes, a raster of each class.
+
+function panel(kind, options) { return new kind({host: at("figures"), input: skin.input, ...options}); }
+
+function makePanels() {
+    const keep = view.panels.length > 0, {over} = skin.data;
+    view.clear();
+    at("figures").replaceChildren();
+    view.labelWidth = 60;
+    at("figures").style.setProperty("--left", "66px");
+    const force = new Trace(over.force, {t0: over.t0, T: over.T, samples: over.samples});
+    const panels = [panel(TracePanel, {traces: [force], name: "force", title: "force of all sites", about: "force", height: 100, named: true,
+                                       series: [{label: "force", html: "", color: colour("ink"), width: 1.6}]}),
+                    panel(SkinRatePanel, {fine: {frames: skin.perClass, classes: skin.classes}, name: "population", about: "rate of the classes", height: 140})];
+    rasterBar();
+    view.show([...panels, ...skin.classes.flatMap(rasterPanel)], skin.input, keep);
+}
+
+/// Which region's units the rasters show; where there are too many spikes, what they show instead.
+function rasterBar() {
+    const bar = element(at("figures"), "div", "bar");
+    const names = [...skin.regions.map((_, r) => r)];
+    if (names.length > 1) {
+        const label = element(bar, "label", "", "rasters of ");
+        const select = element(label, "select", "", ["all", ...names].map((r) => `<option value="${r}" ${String(r) === shown.region ? "selected" : ""}>${r === "all" ? "all regions" : escaped(skin.regions[r])}</option>`).join(""));
+        select.id = "raster-region";
+        select.onchange = () => { shown.region = select.value; makePanels(); at("raster-region").focus(); };
+    }
+    if (!skin.trains) element(bar, "span", "note", `More than ${skin.data.over.most_spikes} spikes: the rasters show how many there are in each frame of the maps, ${escaped(quantity(skin.marks.width, "s", true))}.`);
+}
+
+function rasterPanel(one, k) {
+    const wanted = (mark) => shown.region === "all" || skin.region[mark] === Number(shown.region);
+    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, pointed: (unit) => pointAt(unit === null ? null : skin.markOf(unit))};
+    if (!skin.trains) return [shadePanel(one, common, wanted)];
+    const own = [];
+    for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.units); t < end; ++t) own.push(t);
+    const trains = own.filter((t) => wanted(skin.markOf(skin.trains.unit[t]))).map((t) => skin.trains.train(t));
+    return [panel(SkinRasterPanel, {...common, trains, told: toldOf(trains.length, own.length, `${one.units} units`), height: rasterHeight(trains.length)})];
+}
+
+function shadePanel(one, common, wanted) {
+    const [from, to] = skin.marksOf(one), rowOf = new Int32Array(skin.marks.places).fill(-1);
+    let rowCount = 0, fired = 0;
+    for (let m = from; m < to; ++m) {
+        if (totals[m]) ++fired;
+        if (totals[m] && wanted(m)) rowOf[m] = rowCount++;
+    }
+    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, told: toldOf(rowCount, fired, skin.together > 1 ? `${to - from} groups of ${skin.together} units` : `${one.units} units`), height: rasterHeight(rowCount)});
+}
+
+/// How many rows a raster has, and of how many.
+const toldOf = (rows, fired, all) => (shown.region === "all" ? `${fired} of ${all} fired` : `${rows} of ${fired} that fired, in ${skin.regions[shown.region]}`);
+const rasterHeight = (rows) => Math.max(30, Math.min(120, 6 * rows), Math.min(180, 40 + 0.6 * rows));

@@ -1,0 +1,108 @@
+"use strict";
+// What all maps share: which part of the skin they show and how large, the ground, the force on it.
+
+/// Which part of the skin all maps show, how large they are, and what they share: the ground and the force on it.
+class Scene {
+    constructor(skin) {
+        Object.assign(this, {skin, maps: [], frame: 0, chosen: null, waiting: false});
+        this.all = grown(joined(extentOfPlaces(skin.sitePlaces), extentOfPlaces(skin.places)), skin.side);
+        this.box = this.all;
+        this.frameForce = null;
+    }
+
+    /// Maps stand side by side; as large as the window has room for.
+    layOut(width) {
+        const count = this.skin.classes.length, [x0, y0, x1, y1] = this.all, aspect = Math.max(0.3, Math.min(3.5, (x1 - x0) / (y1 - y0)));
+        const most = Math.max(260, Math.min(600, 0.58 * innerHeight));
+        const wide = (columns) => Math.min((width - 12 * (columns - 1)) / columns, Math.max(most * aspect, 170));
+        let columns = count;
+        while (columns > 1 && wide(columns) < Math.min(165, 0.9 * most * aspect)) columns = Math.ceil(columns / 2);
+        [this.width, this.height] = [Math.floor(wide(columns)), Math.floor(Math.max(60, Math.min(most, wide(columns) / aspect)))];
+        this.renew();
+    }
+
+    /// What is drawn beneath depends on size, part and colours.
+    renew() {
+        const [x0, y0, x1, y1] = this.box;
+        this.scale = Math.min(this.width / (x1 - x0), this.height / (y1 - y0));  // pixels a mm
+        [this.cx, this.cy] = [(x0 + x1) / 2, (y0 + y1) / 2];
+        this.ground = this.frameForce = null;
+        this.maps.forEach((map) => map.renew());
+        this.request();
+    }
+
+    x(mm) { return this.width / 2 + (mm - this.cx) * this.scale; }
+    y(mm) { return this.height / 2 - (mm - this.cy) * this.scale; }
+
+    show(box) {
+        this.box = box;
+        this.renew();
+    }
+
+    /// Keeps the point (x, y) of a map where it is.
+    zoom(factor, x = this.width / 2, y = this.height / 2) {
+        const [mx, my] = [this.cx + (x - this.width / 2) / this.scale, this.cy - (y - this.height / 2) / this.scale];
+        const [w, h] = [this.width / this.scale * factor, this.height / this.scale * factor];
+        const cx = mx - (mx - this.cx) * factor, cy = my - (my - this.cy) * factor;
+        if (w > 1.5 * (this.all[2] - this.all[0]) && h > 1.5 * (this.all[3] - this.all[1])) return this.show(this.all);
+        this.show([cx - w / 2, cy - h / 2, cx + w / 2, cy + h / 2]);
+    }
+
+    pan(dx, dy) {
+        const [mx, my] = [-dx / this.scale, dy / this.scale], [x0, y0, x1, y1] = this.box;
+        this.show([x0 + mx, y0 + my, x1 + mx, y1 + my]);
+    }
+
+    request() {
+        if (!this.waiting) requestAnimationFrame(() => this.draw());
+        this.waiting = true;
+    }
+
+    draw() {
+        this.waiting = false;
+        this.maps.forEach((map) => map.draw());
+    }
+
+    canvas() {
+        const made = document.createElement("canvas"), ratio = devicePixelRatio || 1;
+        [made.width, made.height] = [this.width * ratio, this.height * ratio];
+        const context = made.getContext("2d");
+        context.scale(ratio, ratio);
+        return [made, context];
+    }
+
+    /// Sites as squares that touch: first all of them larger, for their common edge.
+    groundLayer() {
+        if (this.ground) return this.ground;
+        const [made, context] = this.canvas(), side = this.skin.side * this.scale;
+        for (const [color, more] of [["flesh-edge", 2.4], ["flesh", 0.6]]) {
+            context.fillStyle = colour(color);
+            this.eachSite((x, y) => square(context, x, y, side + more));
+        }
+        return (this.ground = made);
+    }
+
+    eachSite(call) {
+        const {sitePlaces} = this.skin;
+        for (let s = 0; 2 * s < sitePlaces.length; ++s) call(this.x(sitePlaces[2 * s]), this.y(sitePlaces[2 * s + 1]), s);
+    }
+
+    /// Mean force of each site in the frame, as opacity.
+    forceLayer() {
+        if (this.frameForce && this.frameForce.frame === this.frame) return this.frameForce.made;
+        const [made, context] = this.canvas(), {siteForce, sitePlaces, sitesTogether} = this.skin, side = this.skin.side * this.scale + 0.6;
+        context.fillStyle = colour("force");
+        if (this.frame < siteForce.count)
+            siteForce.each(this.frame, (place, level) => {
+                context.globalAlpha = 0.12 + 0.68 * level / 254;
+                for (let s = place * sitesTogether; s < (place + 1) * sitesTogether && 2 * s < sitePlaces.length; ++s)
+                    square(context, this.x(sitePlaces[2 * s]), this.y(sitePlaces[2 * s + 1]), side);
+            });
+        this.frameForce = {frame: this.frame, made};
+        return made;
+    }
+}
+
+function square(context, x, y, side) { context.fillRect(x - side / 2, y - side / 2, side, side); }
+const joined = (a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+const grown = ([x0, y0, x1, y1], by) => [x0 - by, y0 - by, x1 + by, y1 + by];

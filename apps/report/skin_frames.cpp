@@ -1,0 +1,38 @@
+#include "report/skin_frames.hpp"
+
+#include <cmath>
+
+namespace corpuscle {
+
+nlohmann::ordered_json frames_document(const Framed<std::uint32_t>& framed, double T) {
+    PackedNumbers bytes;
+    const auto frames = framed.frames();
+    for (const auto& f : frames) bytes.frame(f, framed.places(), [](std::uint32_t n) { return std::uint64_t{n}; });
+    return {{"count", frames.size()},
+            {"width", static_cast<double>(framed.width()) * T},
+            {"places", framed.places()},
+            {"data", array64(bytes.all)}};
+}
+
+nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std::int64_t samples) {
+    const auto frames = sites.frames();
+    const auto length = [&](std::size_t k) {
+        return static_cast<double>(std::clamp<std::int64_t>(samples - static_cast<std::int64_t>(k) * sites.width(), 1, sites.width()));
+    };
+    double greatest = 0;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        for (const auto& e : frames[k]) greatest = std::max(greatest, e.value / length(k));
+    PackedNumbers bytes;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        bytes.frame(frames[k], sites.places(), [&](double sum) {
+            const double share = greatest > 0 ? sum / length(k) / greatest : 0;
+            return share > 0 ? static_cast<std::uint64_t>(std::clamp(std::lround(254 * share), 1L, 254L)) : std::uint64_t{0};
+        });
+    return {{"count", frames.size()},
+            {"width", static_cast<double>(sites.width()) * T},
+            {"places", sites.places()},
+            {"greatest", greatest},
+            {"data", array64(bytes.all)}};
+}
+
+}  // namespace corpuscle

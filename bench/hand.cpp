@@ -1,0 +1,140 @@
+// How much faster than skin does a whole hand answer, and in how much memory?
+//
+//     bench-hand [SECONDS] [RUNS]
+//
+// Method: the built-in hand (17,144 afferents, 4,793 sites), one thread, spikes stored as binary address events, time of this process's
+// processor. Built and run separately; middle of RUNS (7) with the least and the most. Beside each: the work that was done (steps of
+// afferents worked out, and passed over because no force came and nothing in them could change), spikes, bytes written. Three forces of
+// SECONDS (10) at 1 kHz: `stroke`, a fingertip moved over the hand with 1 N (what `corpuscle respond stroke --population hand` runs); a
+// flat disk of 40 mm standing on the palm under a sine; and noise on every site, so that no afferent ever rests: the worst there can be.
+// The peak of memory is the whole process's, after all.
+//
+// TouchSim's whole hand, as measured elsewhere: 3.9 to 5 s of processor for a second of touch, 2.7 GB, 12,519 units; see doc/skin.md
+// for what it pays for that this does not.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+
+#include "signal/random.hpp"
+#include "signal/stimuli.hpp"
+#include "study/skin_events_file.hpp"
+
+namespace {
+
+using namespace corpuscle;
+
+double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+template <class T>
+T good(Result<T> result) {
+    if (result) return std::move(*result);
+    fmt::print(stderr, "{}\n", result.error().text());
+    std::exit(1);
+}
+
+/// The same noise at every site, of 64 different kinds, again and again.
+class NoiseForce final : public SkinForce {
+    static constexpr std::size_t block = 64;
+    std::vector<double> force_, total_ = std::vector<double>(block, 1.0);
+    std::int64_t left_, all_;
+
+public:
+    NoiseForce(std::size_t sites, std::int64_t samples) : force_(sites * block), left_(samples), all_(samples) {
+        for (std::size_t k = 0; k < force_.size(); ++k) force_[k] = 0.02 + 0.005 * normal(1, 0, 0, k);
+    }
+    Result<Block> next() override {
+        const auto steps = static_cast<std::size_t>(std::min<std::int64_t>(block, left_));
+        left_ -= static_cast<std::int64_t>(steps);
+        return Block{{force_.data(), block}, {total_.data(), steps}};
+    }
+    double done() const override { return 1 - static_cast<double>(left_) / static_cast<double>(all_); }
+};
+
+/// What is pressed: a stimulus and an indenter.
+struct Pressed {
+    std::unique_ptr<Source> source;
+    std::unique_ptr<Contact> contact;
+    std::unique_ptr<SkinForce> force;
+};
+
+Pressed press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<Wish> wishes) {
+    Pressed p{good(make_stimulus(stimulus, wishes, 1e3, 0)), {}, {}};
+    p.contact = good(make_contact(indenter, wishes, skin.plan.sites, p.source->clock()));
+    p.force = pressed_force(*p.source, *p.contact);
+    return p;
+}
+
+void tell(const char* what, std::vector<double> seconds, double of) {
+    std::sort(seconds.begin(), seconds.end());
+    const double middle = seconds[seconds.size() / 2];
+    fmt::print("  {:<34} {:6.1f} ms ({:.1f} to {:.1f})", what, 1e3 * middle, 1e3 * seconds.front(), 1e3 * seconds.back());
+    if (of > 0) fmt::print("  {:5.0f} times real time", of / middle);
+    fmt::print("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const double length = argc > 1 ? std::atof(argv[1]) : 10;
+    const int runs = argc > 2 ? std::atoi(argv[2]) : 7;
+    const auto file = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}.aer", ::getpid())).string();
+    Pool alone(1);
+    const auto set = good(instruction_set());
+    std::vector<double> built;
+    std::shared_ptr<const Innervation> skin;
+    for (int k = 0; k < runs; ++k) {
+        const double from = processor();
+        skin = good(innervate(good(plan_skin("hand"))));
+        (void)good(Skin::make(skin, {1e-3}, set));
+        built.push_back(processor() - from);
+    }
+    fmt::print("hand: {} afferents, {} sites, {}\n", skin->units.size(), skin->plan.sites.size(), name_of(set));
+    tell("built from its file", built, 0);
+
+    const NamedTouch& stroke = named_touches()[0];
+    std::vector<Wish> stroked, palm = {{"sine", "duration", fmt::format("{}", length)},
+                                       {"sine", "f", "2"},
+                                       {"contact", "radius", "0.04"},
+                                       {"contact", "x", "0"},
+                                       {"contact", "y", "0.06"}};
+    for (const auto& s : stroke.settings) stroked.push_back({"contact", std::string(s.name), fmt::format("{}", s.value)});
+    for (const auto& s : stroke.force_settings)
+        stroked.push_back({std::string(stroke.force), std::string(s.name), fmt::format("{}", s.value)});
+    const std::pair<const char*, std::function<Pressed()>> forces[] = {
+        {"stroke", [&] { return press(*skin, stroke.force, stroke.indenter, stroked); }},
+        {"sine on the palm", [&] { return press(*skin, "sine", "flat", palm); }},
+        {"noise everywhere", [&] {
+             Pressed p;
+             p.force = std::make_unique<NoiseForce>(skin->plan.sites.size(), static_cast<std::int64_t>(1e3 * length));
+             return p;
+         }}};
+    for (const auto& [name, make] : forces) {
+        std::vector<double> ran;
+        SkinWork work;
+        std::uintmax_t bytes = 0;
+        for (int k = 0; k < runs; ++k) {
+            auto force = make();
+            auto at_work = good(Skin::make(skin, {1e-3}, set));
+            auto out = SkinEventsFile(good(OutputFile::create(file)), "aer");
+            SkinListener* const listeners[] = {&out};
+            const SkinInput input{name, "", *clock_of(1e3), {}, *skin};
+            const auto answerer = alone_answerer(*at_work, alone);
+            const double from = processor();
+            work = good(run_skin(*force.force, input, *answerer, listeners, {}));
+            if (!out.commit()) return 1;
+            ran.push_back(processor() - from);
+            bytes = std::filesystem::file_size(file);
+            std::filesystem::remove(file);
+        }
+        tell(name, ran, static_cast<double>(work.steps) * 1e-3);
+        fmt::print("  {:<34} {:.3g} afferent-steps worked out, {:.3g} passed over; {} spikes, {} bytes\n", "",
+                   static_cast<double>(work.afferent_steps), static_cast<double>(work.at_rest), work.spikes, bytes);
+    }
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    fmt::print("peak of memory: {} MB\n", used.ru_maxrss / 1000);
+}
