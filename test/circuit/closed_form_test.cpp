@@ -56,7 +56,7 @@ TEST(ClosedForm, AParallelRLCResonates) {
 }
 
 /// The root of a rising function.
-double root(double low, double high, const std::function<double(double)>& f) {
+double crossing(double low, double high, const std::function<double(double)>& f) {
     for (int k = 0; k < 200; ++k) {
         const double mid = 0.5 * (low + high);
         (f(mid) < 0 ? low : high) = mid;
@@ -71,7 +71,7 @@ TEST(ClosedForm, DiodesAndResistorsInSeriesCarryTheScalarEquationsRoot) {
             for (int k = 0; k < count; ++k)
                 text += fmt::format("r{0} n{0} m{0} 1k\nd{0} m{0} {1} dx\n", k, k + 1 < count ? fmt::format("n{}", k + 1) : "0");
             const double I =
-                root(0, volt / (1e3 * count), [&](double i) { return count * (i * 1e3 + 1.3 * v_t * std::log1p(i / 1e-14)) - volt; });
+                crossing(0, volt / (1e3 * count), [&](double i) { return count * (i * 1e3 + 1.3 * v_t * std::log1p(i / 1e-14)) - volt; });
             EXPECT_NEAR(-ran(text + ".op\n").number("i(v1)") / I, 1, 1e-6) << count << " at " << volt << " V";
         }
 }
@@ -86,7 +86,7 @@ TEST(ClosedForm, ALadderOfDiodesToGroundIsShotFromItsEnd) {
                 for (int k = 0; k < count && v < 2 * volt; ++k) i += 1e-14 * std::expm1(v / v_t), v += 100 * i;
                 return v;
             };
-            const double end = root(0, volt, [&](double v) { return start(v) - volt; });
+            const double end = crossing(0, volt, [&](double v) { return start(v) - volt; });
             EXPECT_NEAR(ran(text + ".op\n").number(fmt::format("v(n{})", count)), end, 1e-8 * end) << count << " at " << volt << " V";
         }
 }

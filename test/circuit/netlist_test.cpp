@@ -35,7 +35,7 @@ std::string refusal(const std::string& body, const Files& files = {}) {
     return c ? "accepted" : c.error().text();
 }
 
-const Element& element(const Circuit& c, std::string_view name) {
+const Element& element_in(const Circuit& c, std::string_view name) {
     static const Element none;
     const int k = c.element(name);
     EXPECT_GE(k, 0) << name;
@@ -52,7 +52,7 @@ std::string nodes(const Circuit& c, const Element& e) {
 
 TEST(NetlistLines, JoinContinuationsOverCommentsAndBlankLines) {
     const auto c = circuit("V1 a 0 PULSE(0 1\n* between\n\n+ 1n 2n ; first\n  + 3n $ second\n+4n // third\n+5n)\nR1 a 0 1k;x\n");
-    EXPECT_EQ(element(c, "v1").waveform.numbers, (std::vector<double>{0, 1, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9}));
+    EXPECT_EQ(element_in(c, "v1").waveform.numbers, (std::vector<double>{0, 1, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9}));
     EXPECT_EQ(c.elements.size(), 2U);
 }
 
@@ -107,24 +107,24 @@ TEST(NetlistElements, RCLTakeTheirValuesInEveryWay) {
     const auto c = circuit(
         ".param rv=3k\nR1 a 0 1k\nR2 a 0 {rv*2}\nR3 a 0 'rv'\nR4 a 0 r=2k tc1=1m tc2=2u m=2\nR5 a 0 rv\nR6 a 0 rm 5k\nR7 a 0 rm l=2u w=1u\n"
         "R8 a 0 2*rv\nC1 a 0 10pF ic=0.5\nC2 a 0 c={1p*2}\nL1 a 0 1m\nL2 a 0 l=2u\n.model rm r rsh=100\nC3 a 0 q='v(a)*1p'\n");
-    EXPECT_EQ(element(c, "r1").value, 1e3);
-    EXPECT_EQ(element(c, "r2").value, 6e3);
-    EXPECT_EQ(element(c, "r3").value, 3e3);
-    EXPECT_EQ(element(c, "r4").value, 2e3);
-    EXPECT_EQ(element(c, "r4").values, (Values{{"m", 2}, {"tc1", 1e-3}, {"tc2", 2e-6}}));
-    EXPECT_EQ(element(c, "r5").value, 3e3);
-    EXPECT_EQ(element(c, "r6").value, 5e3);
-    EXPECT_EQ(element(c, "r6").model, 0);
-    EXPECT_EQ(element(c, "r7").model, 0);
-    EXPECT_EQ(element(c, "r7").values.at("l"), 2e-6);
-    EXPECT_EQ(element(c, "r8").value, 6e3);
-    EXPECT_EQ(element(c, "c1").value, 10e-12);
-    EXPECT_EQ(element(c, "c1").values.at("ic"), 0.5);
-    EXPECT_EQ(element(c, "c2").value, 2e-12);
-    EXPECT_EQ(element(c, "l1").value, 1e-3);
-    EXPECT_EQ(element(c, "l2").value, 2e-6);
-    ASSERT_TRUE(element(c, "c3").formula);
-    EXPECT_EQ(element(c, "c3").formula->inputs()[0].name, "a");
+    EXPECT_EQ(element_in(c, "r1").value, 1e3);
+    EXPECT_EQ(element_in(c, "r2").value, 6e3);
+    EXPECT_EQ(element_in(c, "r3").value, 3e3);
+    EXPECT_EQ(element_in(c, "r4").value, 2e3);
+    EXPECT_EQ(element_in(c, "r4").values, (Values{{"m", 2}, {"tc1", 1e-3}, {"tc2", 2e-6}}));
+    EXPECT_EQ(element_in(c, "r5").value, 3e3);
+    EXPECT_EQ(element_in(c, "r6").value, 5e3);
+    EXPECT_EQ(element_in(c, "r6").model, 0);
+    EXPECT_EQ(element_in(c, "r7").model, 0);
+    EXPECT_EQ(element_in(c, "r7").values.at("l"), 2e-6);
+    EXPECT_EQ(element_in(c, "r8").value, 6e3);
+    EXPECT_EQ(element_in(c, "c1").value, 10e-12);
+    EXPECT_EQ(element_in(c, "c1").values.at("ic"), 0.5);
+    EXPECT_EQ(element_in(c, "c2").value, 2e-12);
+    EXPECT_EQ(element_in(c, "l1").value, 1e-3);
+    EXPECT_EQ(element_in(c, "l2").value, 2e-6);
+    ASSERT_TRUE(element_in(c, "c3").formula);
+    EXPECT_EQ(element_in(c, "c3").formula->inputs()[0].name, "a");
     EXPECT_EQ(c.models[0].type, "r");
 }
 
@@ -134,25 +134,25 @@ TEST(NetlistElements, SourcesHaveTheirCourses) {
         ".param vdd=1.8\nV1 a 0 5\nV2 b 0 DC {vdd} AC 1 90\nV3 c 0 PULSE(0, {vdd}, 1n 1n 1n 5n 10n)\nI1 d 0 SIN 0 1 1k\nV5 e 0 EXP(0 1 1n "
         "2n)\n"
         "V6 f 0 pwl ( 0 0 1m 1 2m 0 ) td=1m\nV7 in 0 FORCE\nV8 g 0 FORCE 2\nV9 h 0 AC\nV10 i 0 1 AC 2 PULSE(0 1)\nV11 j 0 dc=2 ac=3\n");
-    EXPECT_EQ(element(c, "v1").waveform.dc, 5);
-    EXPECT_TRUE(element(c, "v1").waveform.has_dc);
-    EXPECT_EQ(element(c, "v2").waveform.dc, 1.8);
-    EXPECT_EQ(element(c, "v2").waveform.ac_magnitude, 1);
-    EXPECT_EQ(element(c, "v2").waveform.ac_phase, 90);
-    EXPECT_EQ(element(c, "v3").waveform.shape, Shape::pulse);
-    EXPECT_EQ(element(c, "v3").waveform.numbers, (std::vector<double>{0, 1.8, 1e-9, 1e-9, 1e-9, 5e-9, 10e-9}));
-    EXPECT_FALSE(element(c, "v3").waveform.has_dc);
-    EXPECT_EQ(element(c, "i1").waveform.shape, Shape::sine);
-    EXPECT_EQ(element(c, "v5").waveform.shape, Shape::exponential);
-    EXPECT_EQ(element(c, "v6").waveform.numbers, (std::vector<double>{1e-3, 0, 2e-3, 1, 3e-3, 0}));
-    EXPECT_EQ(element(c, "v7").waveform.shape, Shape::force);
-    EXPECT_EQ(element(c, "v7").waveform.numbers, std::vector<double>{1});
-    EXPECT_EQ(element(c, "v8").waveform.numbers, std::vector<double>{2});
-    EXPECT_EQ(element(c, "v9").waveform.ac_magnitude, 1);
-    EXPECT_EQ(element(c, "v10").waveform.ac_magnitude, 2);
-    EXPECT_EQ(element(c, "v10").waveform.dc, 1);
-    EXPECT_EQ(element(c, "v10").waveform.shape, Shape::pulse);
-    EXPECT_EQ(element(c, "v11").waveform.ac_magnitude, 3);
+    EXPECT_EQ(element_in(c, "v1").waveform.dc, 5);
+    EXPECT_TRUE(element_in(c, "v1").waveform.has_dc);
+    EXPECT_EQ(element_in(c, "v2").waveform.dc, 1.8);
+    EXPECT_EQ(element_in(c, "v2").waveform.ac_magnitude, 1);
+    EXPECT_EQ(element_in(c, "v2").waveform.ac_phase, 90);
+    EXPECT_EQ(element_in(c, "v3").waveform.shape, Shape::pulse);
+    EXPECT_EQ(element_in(c, "v3").waveform.numbers, (std::vector<double>{0, 1.8, 1e-9, 1e-9, 1e-9, 5e-9, 10e-9}));
+    EXPECT_FALSE(element_in(c, "v3").waveform.has_dc);
+    EXPECT_EQ(element_in(c, "i1").waveform.shape, Shape::sine);
+    EXPECT_EQ(element_in(c, "v5").waveform.shape, Shape::exponential);
+    EXPECT_EQ(element_in(c, "v6").waveform.numbers, (std::vector<double>{1e-3, 0, 2e-3, 1, 3e-3, 0}));
+    EXPECT_EQ(element_in(c, "v7").waveform.shape, Shape::force);
+    EXPECT_EQ(element_in(c, "v7").waveform.numbers, std::vector<double>{1});
+    EXPECT_EQ(element_in(c, "v8").waveform.numbers, std::vector<double>{2});
+    EXPECT_EQ(element_in(c, "v9").waveform.ac_magnitude, 1);
+    EXPECT_EQ(element_in(c, "v10").waveform.ac_magnitude, 2);
+    EXPECT_EQ(element_in(c, "v10").waveform.dc, 1);
+    EXPECT_EQ(element_in(c, "v10").waveform.shape, Shape::pulse);
+    EXPECT_EQ(element_in(c, "v11").waveform.ac_magnitude, 3);
 }
 
 TEST(NetlistElements, ControlledOnesKnowWhatControlsThem) {
@@ -160,30 +160,30 @@ TEST(NetlistElements, ControlledOnesKnowWhatControlsThem) {
         "V1 a 0 1\nE1 b 0 a 0 10\nE2 c 0 value={v(a)*2}\nE3 d 0 vol='v(a,b)'\nG1 e 0 (a, b) 1m\nG2 f 0 cur='v(a)' m=2\nF1 g 0 V1 2\nH1 h 0 "
         "V1 {2*3}\n"
         "B1 i 0 v = v(a) * 2 + i(v1) == 3 tc1=0.1\nB2 j 0 i={v(a)}*2\n");
-    EXPECT_EQ(nodes(c, element(c, "e1")), "b 0 a 0");
-    EXPECT_EQ(element(c, "e1").value, 10);
-    EXPECT_TRUE(element(c, "e2").formula_is_voltage);
-    EXPECT_EQ(element(c, "e3").formula->inputs()[0].minus, "b");
-    EXPECT_EQ(nodes(c, element(c, "g1")), "e 0 a b");
-    EXPECT_FALSE(element(c, "g2").formula_is_voltage);
-    EXPECT_EQ(element(c, "g2").values.at("m"), 2);
-    EXPECT_EQ(element(c, "f1").control, "v1");
-    EXPECT_EQ(element(c, "h1").value, 6);
-    EXPECT_EQ(element(c, "b1").formula->inputs().size(), 2U);
-    EXPECT_TRUE(element(c, "b1").formula_is_voltage);
-    EXPECT_EQ(element(c, "b1").values.at("tc1"), 0.1);
+    EXPECT_EQ(nodes(c, element_in(c, "e1")), "b 0 a 0");
+    EXPECT_EQ(element_in(c, "e1").value, 10);
+    EXPECT_TRUE(element_in(c, "e2").formula_is_voltage);
+    EXPECT_EQ(element_in(c, "e3").formula->inputs()[0].minus, "b");
+    EXPECT_EQ(nodes(c, element_in(c, "g1")), "e 0 a b");
+    EXPECT_FALSE(element_in(c, "g2").formula_is_voltage);
+    EXPECT_EQ(element_in(c, "g2").values.at("m"), 2);
+    EXPECT_EQ(element_in(c, "f1").control, "v1");
+    EXPECT_EQ(element_in(c, "h1").value, 6);
+    EXPECT_EQ(element_in(c, "b1").formula->inputs().size(), 2U);
+    EXPECT_TRUE(element_in(c, "b1").formula_is_voltage);
+    EXPECT_EQ(element_in(c, "b1").values.at("tc1"), 0.1);
     const double x[] = {3};
-    EXPECT_EQ(element(c, "b2").formula->value(x), 6);
+    EXPECT_EQ(element_in(c, "b2").formula->value(x), 6);
 }
 
 TEST(NetlistElements, DiodesAndTransistorsHaveModelsAndGeometry) {
     const auto c = circuit(
         "D1 a 0 dm 2 m=3 off\nD2 a 0 dm area=4\nM1 d g s 0 nm w=2*wn l=1u stack=3 delvto=0.01 mulu0=1.1\n.param wn=2u\n"
         ".model dm d(is=1e-14, n = 1)\n.model nm nmos level=1 vto={wn} version=3.3.0\n.model unused npn bf={nothing}\n");
-    EXPECT_EQ(element(c, "d1").values, (Values{{"area", 2}, {"m", 3}, {"off", 1}}));
-    EXPECT_EQ(element(c, "d2").values, (Values{{"area", 4}}));
-    EXPECT_EQ(nodes(c, element(c, "m1")), "d g s 0");
-    EXPECT_EQ(element(c, "m1").values, (Values{{"delvto", 0.01}, {"l", 1e-6}, {"mulu0", 1.1}, {"stack", 3}, {"w", 4e-6}}));
+    EXPECT_EQ(element_in(c, "d1").values, (Values{{"area", 2}, {"m", 3}, {"off", 1}}));
+    EXPECT_EQ(element_in(c, "d2").values, (Values{{"area", 4}}));
+    EXPECT_EQ(nodes(c, element_in(c, "m1")), "d g s 0");
+    EXPECT_EQ(element_in(c, "m1").values, (Values{{"delvto", 0.01}, {"l", 1e-6}, {"mulu0", 1.1}, {"stack", 3}, {"w", 4e-6}}));
     ASSERT_EQ(c.models.size(), 2U) << "a model that nobody uses is not worked out";
     EXPECT_EQ(c.models[1].values, (Values{{"level", 1}, {"vto", 2e-6}}));
     EXPECT_EQ(c.models[1].words.at("version"), "3.3.0");
@@ -252,52 +252,52 @@ TEST(NetlistSubcircuits, AreFlattenedWithTheirPaths) {
         "vto={w}\n.ends inv\n.model pm pmos\n.global vss\n.subckt two a b\nX1 a m vd inv w=3u\nX2 m b vd inv m=2\nR1 vss vd 1\n.ends\n"
         "Xt in out two\nXu in (q), two params: m=3\n");
     EXPECT_EQ(c.elements.size(), 18U);
-    const auto& m1 = element(c, "xt.x1.m1");
+    const auto& m1 = element_in(c, "xt.x1.m1");
     EXPECT_EQ(nodes(c, m1), "xt.m in 0 0");
     EXPECT_EQ(m1.values, (Values{{"w", 3e-6}}));
     EXPECT_EQ(c.models[static_cast<std::size_t>(m1.model)].name, "xt.x1.nm");
     EXPECT_EQ(c.models[static_cast<std::size_t>(m1.model)].values.at("vto"), 3e-6);
-    const auto& m2 = element(c, "xu.x2.m2");
+    const auto& m2 = element_in(c, "xu.x2.m2");
     EXPECT_EQ(m2.values, (Values{{"m", 12}, {"w", 2e-6}})) << "m of the X in an X in the element";
     EXPECT_EQ(c.models[static_cast<std::size_t>(m2.model)].name, "pm");
-    EXPECT_EQ(nodes(c, element(c, "xt.r1")), "vss xt.vd");
-    EXPECT_EQ(nodes(c, element(c, "xt.x2.r1")), "xt.x2.n3 0");
-    const auto inputs = element(c, "xt.x2.b1").formula->inputs();
+    EXPECT_EQ(nodes(c, element_in(c, "xt.r1")), "vss xt.vd");
+    EXPECT_EQ(nodes(c, element_in(c, "xt.x2.r1")), "xt.x2.n3 0");
+    const auto inputs = element_in(c, "xt.x2.b1").formula->inputs();
     EXPECT_EQ(inputs[0].name, "xt.m");
     EXPECT_EQ(inputs[0].minus, "xt.x2.n3");
-    EXPECT_EQ(c.node("xt.x2.n3"), element(c, "xt.x2.r1").nodes[0]);
+    EXPECT_EQ(c.node("xt.x2.n3"), element_in(c, "xt.x2.r1").nodes[0]);
     EXPECT_EQ(c.node("gnd"), 0);
     EXPECT_EQ(c.node("nowhere"), -1);
-    EXPECT_EQ(element(c, "xu.x2.r1").place.line, 5);
+    EXPECT_EQ(element_in(c, "xu.x2.r1").place.line, 5);
 }
 
 TEST(NetlistSubcircuits, SeeTheParametersOfTheirCallersAsInNgspice) {
     const auto c = circuit(
         ".param w=1 k=2\n.subckt inner a\nR1 a 0 {w*k}\n.ends\n.subckt outer a params: w=5\nX2 a inner\n.param k={w+1}\n.ends\nX1 a outer "
         "w=7\nX3 a inner\n");
-    EXPECT_EQ(element(c, "x1.x2.r1").value, 7 * 8);
-    EXPECT_EQ(element(c, "x3.r1").value, 2);
+    EXPECT_EQ(element_in(c, "x1.x2.r1").value, 7 * 8);
+    EXPECT_EQ(element_in(c, "x3.r1").value, 2);
 }
 
 TEST(NetlistSubcircuits, NestAndHideTheirOwnDefinitions) {
     const auto c = circuit(
         ".subckt a x\n.subckt b x\nR1 x 0 rr 1\n.ends b\n.model rr r rsh={q}\n.param q=4\nX1 x b\n.ends a\n.subckt b x\nR2 x 0 "
         "2\n.ends\nX1 n a\nX2 n b\n");
-    EXPECT_EQ(element(c, "x1.x1.r1").value, 1);
+    EXPECT_EQ(element_in(c, "x1.x1.r1").value, 1);
     EXPECT_EQ(c.models[0].name, "x1.rr");
     EXPECT_EQ(c.models[0].values.at("rsh"), 4);
-    EXPECT_EQ(element(c, "x2.r2").value, 2);
+    EXPECT_EQ(element_in(c, "x2.r2").value, 2);
 }
 
 TEST(NetlistSubcircuits, InParallelMultiplyCurrentsAndNothingElse) {
     const auto c = circuit(
         ".subckt s a\nV1 a b 0\nR1 b 0 1k\nF1 a 0 V1 2\nH1 h 0 V1 6\nE1 e 0 a 0 2\nG1 a 0 e h 1\nI1 a 0 1\nB1 q 0 v=v(a)\nB2 q 0 "
         "i=v(a)\n.ends\nX1 a s m=3\n");
-    for (const auto* name : {"x1.r1", "x1.g1", "x1.i1", "x1.b2"}) EXPECT_EQ(element(c, name).values.at("m"), 3) << name;
-    for (const auto* name : {"x1.v1", "x1.f1", "x1.h1", "x1.e1", "x1.b1"}) EXPECT_TRUE(element(c, name).values.empty()) << name;
-    EXPECT_EQ(element(c, "x1.f1").value, 2) << "what controls it is three times as large already";
-    EXPECT_EQ(element(c, "x1.h1").value, 2);
-    EXPECT_EQ(element(c, "x1.f1").control, "x1.v1");
+    for (const auto* name : {"x1.r1", "x1.g1", "x1.i1", "x1.b2"}) EXPECT_EQ(element_in(c, name).values.at("m"), 3) << name;
+    for (const auto* name : {"x1.v1", "x1.f1", "x1.h1", "x1.e1", "x1.b1"}) EXPECT_TRUE(element_in(c, name).values.empty()) << name;
+    EXPECT_EQ(element_in(c, "x1.f1").value, 2) << "what controls it is three times as large already";
+    EXPECT_EQ(element_in(c, "x1.h1").value, 2);
+    EXPECT_EQ(element_in(c, "x1.f1").control, "x1.v1");
 }
 
 TEST(NetlistSubcircuits, AreRefusedWithPlaceAndSuggestion) {
@@ -342,10 +342,10 @@ TEST(NetlistSubcircuits, ThatDoubleEachTimeStopAtALimit) {
 TEST(NetlistParameters, StandInAnyOrderAndAreOverruledFromOutside) {
     const std::string body = ".param a={b*2} b = c + 1, c=3\n.param g(x,y)='x*y+a'\n.func h(z) {z+g(1,z)}\nR1 n 0 {h(2)}\nR2 n 0 a\n";
     const auto c = circuit(body);
-    EXPECT_EQ(element(c, "r2").value, 8);
-    EXPECT_EQ(element(c, "r1").value, 2 + 2 + 8);
-    EXPECT_EQ(element(circuit(body, {}, {{"c", 4}}), "r2").value, 10);
-    EXPECT_EQ(element(circuit(body, {}, {{"b", 1}}), "r2").value, 2);
+    EXPECT_EQ(element_in(c, "r2").value, 8);
+    EXPECT_EQ(element_in(c, "r1").value, 2 + 2 + 8);
+    EXPECT_EQ(element_in(circuit(body, {}, {{"c", 4}}), "r2").value, 10);
+    EXPECT_EQ(element_in(circuit(body, {}, {{"b", 1}}), "r2").value, 2);
     const auto unknown = read(body, {}, {{"bb", 1}});
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().text(), "dir/t.cir: no .param bb; did you mean 'b'?");
@@ -366,7 +366,7 @@ TEST(NetlistParameters, AHundredThousandInARowDoNotOverflow) {
     std::string body;
     for (int k = 0; k < 100000; ++k) body += fmt::format(".param a{}={{a{}+1}}\n", k, k + 1);
     const auto c = circuit(body + ".param a100000=1\nR1 a 0 {a0}\n");
-    EXPECT_EQ(element(c, "r1").value, 100001);
+    EXPECT_EQ(element_in(c, "r1").value, 100001);
 }
 
 // ---- files ----
@@ -375,9 +375,9 @@ TEST(NetlistFiles, AreIncludedFromWhereTheyAreNamed) {
     const Files files{{"dir/Sub/A.inc", "R1 a 0 {w}\n.include \"../b.inc\"\n.end\nnot read\n"},
                       {"dir/b.inc", ".param w=5\n.subckt s a\nR1 a 0 1\n.ends\n"}};
     const auto c = circuit(".INCLUDE 'Sub/A.inc' ; comment\nX1 a s\nR2 a 0 1\n", files);
-    EXPECT_EQ(element(c, "r1").value, 5);
-    EXPECT_EQ(element(c, "r1").place.file, "dir/Sub/A.inc");
-    EXPECT_EQ(element(c, "r1").place.line, 1);
+    EXPECT_EQ(element_in(c, "r1").value, 5);
+    EXPECT_EQ(element_in(c, "r1").place.file, "dir/Sub/A.inc");
+    EXPECT_EQ(element_in(c, "r1").place.line, 1);
     EXPECT_EQ(c.elements.size(), 3U);
 }
 

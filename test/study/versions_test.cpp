@@ -99,8 +99,8 @@ TEST(Comparisons, AShiftIsPositiveWhereTheVersionIsLater) {
     EXPECT_EQ(row.median_shift, 0);
     EXPECT_EQ(row.victor_purpura + row.van_rossum, 0);
     const auto kim = run_versions({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons().rows().at(0);
-    const auto model = test::train("sa1", "press", {.rate = 2e3}), late = test::train("sa1-kim", "press", {.rate = 2e3});
-    ASSERT_LT(late[0], model[0]) << "else this proves nothing";
+    const auto model = test::train("sa1", "press", {.rate = 2e3}), behind = test::train("sa1-kim", "press", {.rate = 2e3});
+    ASSERT_LT(behind[0], model[0]) << "else this proves nothing";
     EXPECT_LT(kim.median_shift, 0);
 }
 
