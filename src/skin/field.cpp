@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t field_steps = 4;  // a multiple of it: rows of sums begin on whole vectors
 
-constexpr std::size_t much = 4;  // of a skin is touched: one site of so many
+constexpr std::size_t much = 2;  // of a skin is touched: one site of so many
 
 std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
