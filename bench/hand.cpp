@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
 
     const NamedTouch& stroke = named_touches()[0];
     std::vector<Wish> stroked, palm = {{"sine", "duration", fmt::format("{}", length)},
-                                       {"sine", "f", "2"}, {"sine", "F_0", "20"}, {"sine", "F_amp", "10"},
+                                       {"sine", "f", "2"}, {"sine", "F_mean", "20"}, {"sine", "F_amp", "10"},
                                        {"contact", "radius", "0.04"},
                                        {"contact", "x", "0"},
                                        {"contact", "y", "0.06"}};

@@ -2,6 +2,7 @@
 //   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples a second
 //   bench-live sleep [SECONDS [PROGRAM]]   the same without --spin: the program sleeps until a frame comes, and so do sender and reader
 //   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: what part of a core
+//   bench-live together [SECONDS [PROGRAM]] the same with --together 16
 //   bench-live noise [SECONDS [PROGRAM]]   the same, where no afferent is ever at rest
 //   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 // 60 s if nothing is said (the soak is meant for 3600), of ./corpuscle. `corpuscle stream` is started as anybody would start it, bound to
@@ -228,7 +229,8 @@ std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     return *skin;
 }
 
-int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius, bool spin, bool noise) {
+int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius, bool spin, bool noise,
+                  int together = 1) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
     const auto header = (*event_format("aer", event_units(*skin, {rate, 1})))->header().size();
@@ -240,6 +242,7 @@ int through_pipes(const std::string& program, const std::string& population, int
     std::vector<std::string> words = {"--population", population, "--rate",   fmt::format("{}Hz", rate),
                                       "--frames",     "f32",      "--format", "aer"};
     if (spin) words.push_back("--spin");
+    if (together > 1) words.insert(words.end(), {"--together", std::to_string(together)});
     Program child(program, words, cores - 1);
     Sender sender(second, sites, rate, count, false);
     Delays delay;
@@ -363,8 +366,9 @@ int main(int argc, char** argv) {
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";
     if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
     if (what == "sleep") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
-    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, false);
+    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false);
+    if (what == "together") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false, 16);
     if (what == "noise") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, true);
     if (what == "soak") return soak(program, seconds);
-    return fmt::print("bench-live delay|sleep|share|noise|soak [SECONDS [PROGRAM]]\n"), 2;
+    return fmt::print("bench-live delay|sleep|share|together|noise|soak [SECONDS [PROGRAM]]\n"), 2;
 }

@@ -140,7 +140,7 @@ class LiveRun {
         clock.t0 = 0;  // a stream begins at its first frame
         auto placed = innervate(plan);
         if (!placed) return placed.error();
-        auto skin = SkinStream::make(*placed, clock, words_.sampled);
+        auto skin = SkinStream::make(*placed, clock, words_.sampled, words_.together);
         if (!skin) return skin.error();
         skin_ = std::move(*skin);
         return {};

@@ -120,6 +120,11 @@ void StreamVerb::add_to(CLI::App& app, Common& common) {
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
     verb.add_flag("--sampled", w.sampled, "spikes on the samples, as in the thesis; else interpolated inside the step");
+    verb.add_option("--together", w.together,
+                    "answer so many frames at once: a fraction of the work, and spikes up to so many frames late; the spikes are the same")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str()
+        ->type_name("N");
     verb.add_flag("--spin", w.spin, "wait for frames without sleeping: takes a core of its own, and saves the time to wake");
     add_frames(verb, w);
     add_events(verb, w);

@@ -98,6 +98,7 @@ struct StreamWords {
     std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M";
     std::string out = "-", to, format = "lines", save, resume;
     std::size_t count = 1;     ///< channels
+    std::size_t together = 1;  ///< frames
     std::int64_t clients = 0;  ///< 0: without end
     long baud = 115200;
     bool sampled = false, spin = false;

@@ -6,12 +6,14 @@
 
 namespace corpuscle {
 
-Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Innervation> innervation, const Clock& clock, bool sampled) {
+Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Innervation> innervation, const Clock& clock, bool sampled,
+                                                     std::size_t together) {
     const auto set = instruction_set();
     if (!set) return set.error();
     auto skin = Skin::make(innervation, {.dt = clock.T(), .sampled = sampled}, *set);
     if (!skin) return skin.error();
     std::unique_ptr<SkinStream> stream(new SkinStream(std::move(innervation), clock, std::move(*skin)));
+    stream->make_room(together);
     if (auto ok = stream->warm_up(); !ok) return ok.error();
     return stream;
 }
@@ -19,9 +21,6 @@ Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Inner
 /// Blows of 10 N as every unit feels it, now and again, then as it was: what a skin asks for when all of it fires, it has then.
 Result<void> SkinStream::warm_up() {
     const auto start = skin_->save();
-    touched_.resize(sites()), every_.resize(sites());
-    std::iota(every_.begin(), every_.end(), 0U);
-    spikes_.reserve(8 * innervation_->units.size() + 64);
     const auto& plan = innervation_->plan;
     const double blow = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
     std::vector<double> frame(sites());
@@ -30,8 +29,12 @@ Result<void> SkinStream::warm_up() {
     for (std::size_t k = 0; k < frames; ++k) {
         chance = 1664525 * chance + 1013904223;
         std::fill(frame.begin(), frame.end(), chance >> 31 == 0 ? 0.0 : blow);
-        if (auto pushed = push(frame); !pushed) return pushed.error();
+        if (k + 2 * together_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // at the end at one site alone
+        if (together_ > 1 && !gather(frame)) continue;
+        if (auto answered = together_ > 1 ? answer_gathered() : push(frame); !answered) return answered.error();
     }
+    if (together_ > 1)
+        if (auto answered = answer_gathered(); !answered) return answered.error();
     return skin_->resume(start);
 }
 
@@ -47,6 +50,40 @@ Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
     if (frame.size() != sites()) return bad_input(fmt::format("a frame of {} forces for {} sites", frame.size(), sites()));
     spikes_.clear();
     if (auto ok = skin_->respond({frame.data(), 1, touched_by(frame), false}, 1, spikes_, here_); !ok) return ok.error();
+    return std::span<const Spike>(spikes_);
+}
+
+void SkinStream::make_room(std::size_t together) {
+    touched_.resize(sites()), every_.resize(sites());
+    std::iota(every_.begin(), every_.end(), 0U);
+    spikes_.reserve(8 * innervation_->units.size() + 64);
+    together_ = together;
+    if (together == 1) return;
+    block_.assign(sites() * together, 0.0);
+    is_in_block_.assign(sites(), 0);
+    in_block_.reserve(sites());
+}
+
+bool SkinStream::gather(std::span<const double> frame) {
+    for (const auto s : touched_by(frame)) {
+        if (!is_in_block_[s]) {
+            is_in_block_[s] = 1;
+            in_block_.push_back(s);
+            std::fill_n(block_.begin() + static_cast<std::ptrdiff_t>(s * together_), together_, 0.0);
+        }
+        block_[s * together_ + gathered_] = frame[s];
+    }
+    return ++gathered_ == together_;
+}
+
+Result<std::span<const Spike>> SkinStream::answer_gathered() {
+    spikes_.clear();
+    std::sort(in_block_.begin(), in_block_.end());
+    const auto ok = skin_->respond({block_.data(), together_, in_block_, false}, gathered_, spikes_, here_);
+    for (const auto s : in_block_) is_in_block_[s] = 0;
+    in_block_.clear();
+    gathered_ = 0;
+    if (!ok) return ok.error();
     return std::span<const Spike>(spikes_);
 }
 

@@ -13,7 +13,9 @@ constexpr std::int64_t second = 1'000'000'000, longest_wait = second / 5;
 
 StreamLoop::StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventOutlet& outlet, Ways ways)
     : skin_(skin), format_(format), frames_(frames), outlet_(outlet), ways_(std::move(ways)), force_(skin.sites()),
-      event_(format.most_bytes()) {}
+      event_(format.most_bytes()) {
+    came_.reserve(skin.together());
+}
 
 Result<void> StreamLoop::run() {
     Result<void> ended;
@@ -29,6 +31,7 @@ Result<void> StreamLoop::run() {
             next_look_ = now + second;
         }
     }
+    if (ended) ended = answer_gathered();
     if (ended && !ways_.goes_on) put(skin_.last());
     const auto finished = outlet_.finish();
     return ended ? finished : ended;
@@ -61,17 +64,27 @@ Result<void> StreamLoop::answer_all() {
 }
 
 Result<void> StreamLoop::answer(bool came, std::int64_t at) {
-    const auto spikes = skin_.push(force_);
+    if (came) {
+        frame_came(at);
+        came_.push_back(at);
+    } else {
+        ++done_.filled;
+    }
+    if (skin_.together() > 1 && !skin_.gather(force_)) return {};
+    return tell(skin_.together() > 1 ? skin_.answer_gathered() : skin_.push(force_));
+}
+
+/// Fewer than go together, at the end.
+Result<void> StreamLoop::answer_gathered() { return skin_.together() > 1 ? tell(skin_.answer_gathered()) : Result<void>{}; }
+
+Result<void> StreamLoop::tell(const Result<std::span<const Spike>>& spikes) {
     if (!spikes) return spikes.error();
     put(*spikes);
     if (!spikes->empty())
         if (auto ok = outlet_.flush(); !ok) return ok;
-    if (came) {
-        frame_came(at);
-        done_.delay.add(steady_now() - at);
-    } else {
-        ++done_.filled;
-    }
+    const auto now = steady_now();
+    for (const auto at : came_) done_.delay.add(now - at);
+    came_.clear();
     return {};
 }
 

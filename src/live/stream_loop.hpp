@@ -45,6 +45,8 @@ private:
     Result<bool> wait();
     Result<void> answer_all();
     Result<void> answer(bool came, std::int64_t at);
+    Result<void> answer_gathered();
+    Result<void> tell(const Result<std::span<const Spike>>&);
     void put(std::span<const Spike> spikes);
     void frame_came(std::int64_t at);
 
@@ -56,6 +58,7 @@ private:
     StreamDone done_;
     std::vector<double> force_;
     std::vector<char> event_;
+    std::vector<std::int64_t> came_;  // of the frames gathered, those that came: when
     std::int64_t next_look_ = 0;
 };
 

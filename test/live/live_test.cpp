@@ -224,8 +224,9 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
         const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
         const auto format =
             sure(event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), event_units(*skin, clock)));
-        auto stream = sure(SkinStream::make(skin, clock));
-        std::string live;
+        const auto together = *rc::gen::inRange<std::size_t>(1, 40);
+        auto stream = sure(SkinStream::make(skin, clock)), grouped = sure(SkinStream::make(skin, clock, false, together));
+        std::string live, in_groups;
         for (std::size_t k = 0; k < frames.size(); ++k) {
             if (k == cut) {
                 const auto kept = sure(unpacked(packed({frames[k], 7, stream->save()}), "x"));
@@ -234,8 +235,11 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
                 RC_ASSERT(bool(stream->resume(kept.skin)));
             }
             live += bytes_of(*format, sure(stream->push(frames[k])));
+            if (grouped->gather(frames[k])) in_groups += bytes_of(*format, sure(grouped->answer_gathered()));
         }
         live += bytes_of(*format, stream->last());
+        in_groups += bytes_of(*format, sure(grouped->answer_gathered()));
+        RC_ASSERT(in_groups + bytes_of(*format, grouped->last()) == live);
         RC_ASSERT(live == bytes_of(*format, offline(skin, frames)));
     }));
 }
