@@ -58,7 +58,6 @@ void SkinStream::make_room(std::size_t together) {
     std::iota(every_.begin(), every_.end(), 0U);
     spikes_.reserve(8 * innervation_->units.size() + 64);
     together_ = together;
-    if (together == 1) return;
     block_.assign(sites() * together, 0.0);
     is_in_block_.assign(sites(), 0);
     in_block_.reserve(sites());
