@@ -29,8 +29,13 @@ def main(corpuscle, picture, *words):
                 const sections = [...document.querySelectorAll('#figures > section')];
                 for (const inner of sections.slice(1, -1)) inner.remove();  // currents and membranes: the report has them
                 document.querySelector('#figures').style.padding = '0 12px';""")
+            browser.execute_script("""
+                const skin = document.querySelector('#maps') !== null;  // maps and what goes on below them, in one picture
+                for (const other of document.querySelectorAll('main > *')) other.hidden = skin && !['maps', 'figures'].includes(other.id);
+                for (const hint of document.querySelectorAll('#maps .bar')) hint.hidden = skin;""")
             browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
-            if not browser.find_element(By.ID, "figures").screenshot(picture):
+            whole = browser.find_elements(By.CSS_SELECTOR, "main:has(#maps)") or browser.find_elements(By.ID, "figures")
+            if not whole[0].screenshot(picture):
                 sys.exit(f"{picture} cannot be written")
         finally:
             browser.quit()

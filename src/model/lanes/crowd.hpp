@@ -2,16 +2,16 @@
 // A population of one precision: its models and states in tiles of 64 units, its blocks cut into chunks that stay in the cache.
 
 #include <fmt/format.h>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <tuple>
 
 #include "model/lanes/buffer.hpp"
 #include "model/lanes/collect.hpp"
+#include "model/lanes/feeding.hpp"
 #include "model/lanes/kernel.hpp"
 #include "model/lanes/profile.hpp"
+#include "model/lanes/states.hpp"
 #include "model/population.hpp"
 
 namespace corpuscle::lanes {
@@ -57,25 +57,14 @@ class Crowd final : public Population {
     Method method_;
     bool sampled_;
     std::size_t tiles_;
-    Buffer<V> receptor_states_, neuron_states_;
+    TileStates<V> states_;
     std::int64_t step_ = 0;
     std::optional<std::pair<std::size_t, bool>> kind_;  // how force came so far: which of its forms, and whether transduced once
-    std::array<ProfileCurrents, most_outputs> currents_;
-    std::array<std::array<Buffer<V>, 3>, most_outputs> currents_in_v_;  // from, to, both
-    Buffer<V> profile_;
+    ProfileRows<V> profile_;
     std::vector<Scratch> scratch_;
     std::vector<Job> jobs_;
-    std::vector<std::uint8_t> rests_;                     // of each tile: nothing in it can change without force
     Buffer<V> nothing_{chunk_steps<V> * 2 * tile_units};  // rows of no force
     std::vector<std::size_t> begin_, at_;
-
-    // Of one tile; neurons of all outputs, one after another.
-    std::size_t receptor_state_size() const { return cast_.receptor->state_values * tile_units; }
-    std::size_t neuron_state_size() const {
-        return cast_.neuron->state_values * tile_units * static_cast<std::size_t>(cast_.receptor->outputs);
-    }
-    V* receptor_state(std::size_t tile) const { return receptor_states_.data() + tile * receptor_state_size(); }
-    V* neuron_state(std::size_t tile) const { return neuron_states_.data() + tile * neuron_state_size(); }
 
     /// A tile's models, and how far they are apart.
     template <class L>
@@ -86,27 +75,6 @@ class Crowd final : public Population {
 
     int units_of(std::size_t tile) const { return static_cast<int>(std::min<std::size_t>(tile_units, cast_.units - tile * tile_units)); }
     std::uint64_t valid(std::size_t tile) const { return ~std::uint64_t{0} >> (tile_units - units_of(tile)); }
-
-    /// The profile of a block, in V; its currents, if they are worked out once.
-    void prepare(const ForceProfile& profile, bool once) {
-        const auto in_v = [](const std::vector<double>& values, Buffer<V>& out) {
-            if (out.size() < values.size()) out = Buffer<V>(values.size());
-            std::transform(values.begin(), values.end(), out.data(), [](double x) { return static_cast<V>(x); });
-        };
-        if (!once) return in_v({profile.force.begin(), profile.force.end()}, profile_);
-        cast_.once->run(profile.force, step_ == 0, currents_);
-        for (int k = 0; k < cast_.receptor->outputs; ++k) {
-            auto& [from, to, both] = currents_in_v_[static_cast<std::size_t>(k)];
-            const auto& c = currents_[static_cast<std::size_t>(k)];
-            in_v(c.from, from), in_v(c.to, to), in_v(c.both, both);
-        }
-    }
-
-    /// The gains of a tile, 1 where none are given.
-    static void gains_of(const ForceProfile& profile, std::size_t first, V* out) {
-        for (std::size_t u = 0; u < tile_units; ++u)
-            out[u] = profile.gain.empty() ? V(1) : first + u < profile.gain.size() ? static_cast<V>(profile.gain[first + u]) : V(0);
-    }
 
     /// Columns of force become rows, a chunk at a time.
     void rows_of(const ForceColumns& columns, std::size_t first, std::size_t step, int steps, V* rows) const {
@@ -134,7 +102,7 @@ class Crowd final : public Population {
     TransductionCall<V> transduction(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
         const auto [models, stride] = this->models(cast_.receptors, *cast_.receptor, tile);
         TransductionCall<V> c{};
-        c.models = models, c.stride = stride, c.state = receptor_state(tile);
+        c.models = models, c.stride = stride, c.state = states_.receptor(tile);
         c.units = units_of(tile), c.steps = steps, c.method = method_;
         c.from = s.from.data(), c.to = to_of(s), c.gain = s.gain.data();
         const std::size_t row = (tile * b.steps + step) * tile_units;
@@ -150,7 +118,7 @@ class Crowd final : public Population {
         } else if (const auto* words = std::get_if<ForceWords>(&b.force)) {
             c.feed = Feed::words, c.words = words->rows + row, c.scale = static_cast<V>(words->scale), c.ahead = after(c.words, steps);
         } else {
-            c.feed = Feed::profile, c.profile = profile_.data() + step;
+            c.feed = Feed::profile, c.profile = profile_.force() + step;
         }
         return c;
     }
@@ -160,9 +128,9 @@ class Crowd final : public Population {
         const auto [models, stride] = this->models(cast_.neurons, *cast_.neuron, tile);
         NeuronCall<V> c{};
         c.models = models, c.stride = stride, c.units = units_of(tile), c.steps = steps, c.fired = &fired, c.ahead = ahead;
-        c.state = neuron_state(tile) + static_cast<std::size_t>(output) * cast_.neuron->state_values * tile_units;
+        c.state = states_.neuron(tile) + static_cast<std::size_t>(output) * cast_.neuron->state_values * tile_units;
         if (b.once) {
-            const auto& [from, to, both] = currents_in_v_[static_cast<std::size_t>(output)];
+            const auto& [from, to, both] = profile_.currents(output);
             c.from = from.data() + step, c.to = to.data() + step, c.both = both.data() + step, c.gain = s.gain.data();
         } else {
             c.to = to_of(s) + output * current_rows<V> * tile_units;
@@ -213,12 +181,12 @@ class Crowd final : public Population {
     void settle(std::size_t tile) const {
         TransductionCall<V> c{};
         std::tie(c.models, c.stride) = models(cast_.receptors, *cast_.receptor, tile);
-        c.state = receptor_state(tile);
+        c.state = states_.receptor(tile);
         cast_.receptor->settle(c);
         NeuronCall<V> n{};
         std::tie(n.models, n.stride) = models(cast_.neurons, *cast_.neuron, tile);
         for (int k = 0; k < cast_.receptor->outputs; ++k) {
-            n.state = neuron_state(tile) + static_cast<std::size_t>(k) * cast_.neuron->state_values * tile_units;
+            n.state = states_.neuron(tile) + static_cast<std::size_t>(k) * cast_.neuron->state_values * tile_units;
             cast_.neuron->settle(n);
         }
     }
@@ -226,21 +194,13 @@ class Crowd final : public Population {
     /// One step without force: a tile that it leaves as it was, to the bit, and that did not fire, rests, and can be passed over until
     /// force comes. What settles later settles now, so that resting it is the same.
     void look_for_rest(const Block& b, std::size_t tile, std::size_t step, Scratch& s, Job& job) {
-        const std::size_t felt = receptor_state_size(), all = felt + neuron_state_size();
-        s.before.resize(all);
-        std::copy_n(receptor_state(tile), felt, s.before.data());
-        std::copy_n(neuron_state(tile), all - felt, s.before.data() + felt);
+        states_.copy(tile, s.before);
         const auto fired = job.fired;
         run_chunk(b, tile, step, 1, s, job);
-        const auto same = [&] {
-            return std::memcmp(receptor_state(tile), s.before.data(), felt * sizeof(V)) == 0 &&
-                   std::memcmp(neuron_state(tile), s.before.data() + felt, (all - felt) * sizeof(V)) == 0;
-        };
-        if (job.fired != fired || !same()) return;
+        if (job.fired != fired || !states_.is(tile, s.before)) return;
         settle(tile);
-        rests_[tile] = same();
-        std::copy_n(s.before.data(), felt, receptor_state(tile));
-        std::copy_n(s.before.data() + felt, all - felt, neuron_state(tile));
+        states_.set_rest(tile, states_.is(tile, s.before));
+        states_.put_back(tile, s.before);
     }
 
     /// As many steps as go together: none beyond where states settle, and alone the one after which a tile may be found at rest.
@@ -248,10 +208,10 @@ class Crowd final : public Population {
     std::size_t run_tile(const Block& b, std::size_t tile, Scratch& s, Job& job) {
         constexpr std::int64_t looking = 256;
         const bool without = without_force(b, tile);
-        rests_[tile] = rests_[tile] && without;
+        if (!without) states_.set_rest(tile, false);
         const std::int64_t most = b.once ? 256 : cast_.joined ? long_chunk : chunk;
         std::size_t step = 0;
-        while (step < b.steps && !rests_[tile]) {
+        while (step < b.steps && !states_.rests(tile)) {
             const std::int64_t now = step_ + static_cast<std::int64_t>(step);
             if (now % settling == 0 && now > 0) settle(tile);
             const std::int64_t to_look = (looking + 1 - now % looking) % looking;
@@ -275,26 +235,19 @@ class Crowd final : public Population {
         auto& job = jobs_[number];
         job.events.clear(), job.capped = job.unmarked = job.passed = job.fired = 0, job.lost = false;
         for (std::size_t tile = number * tiles_a_job; tile < std::min(tiles_, (number + 1) * tiles_a_job); ++tile) {
-            if (const auto* profile = std::get_if<ForceProfile>(&b.force)) gains_of(*profile, tile * tile_units, s.gain.data());
+            if (const auto* profile = std::get_if<ForceProfile>(&b.force)) profile_gains(*profile, tile * tile_units, s.gain.data());
             const std::size_t steps = run_tile(b, tile, s, job);
             job.passed += static_cast<std::int64_t>(b.steps - steps) * units_of(tile);
-            if (steps == 0 || !(looks(b) || rests_[tile])) continue;
-            job.lost |= !finite(receptor_state(tile), receptor_state_size()) || !finite(neuron_state(tile), neuron_state_size());
+            if (steps == 0 || !(looks(b) || states_.rests(tile))) continue;
+            job.lost |= !states_.all_numbers(tile);
         }
-    }
-
-    /// Whether all of some states are numbers; eight at a time, each with a sum of its own.
-    static bool finite(const V* states, std::size_t count) {
-        V sums[8] = {};
-        for (std::size_t k = 0; k < count; k += 8)
-            for (std::size_t l = 0; l < 8; ++l) sums[l] += states[k + l] - states[k + l];  // 0, or no number
-        return std::all_of(std::begin(sums), std::end(sums), [](V x) { return x == 0; });
     }
 
     /// The force of a unit at a step of the block, as it was handed in.
     double force_of(const Block& b, std::size_t unit, std::size_t step) const {
         const std::size_t at = (unit / tile_units * b.steps + step) * tile_units + unit % tile_units;
         if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->of[unit][step];
+        if (without_force(b, unit / tile_units)) return 0;
         if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) return static_cast<double>(tiles->rows[at]);
         if (const auto* profile = std::get_if<ForceProfile>(&b.force)) return profile->force[step];
         return 0;  // integers are always numbers
@@ -313,15 +266,8 @@ class Crowd final : public Population {
 
     /// The first unit whose state is no number; none if only padding's is.
     std::optional<std::size_t> first_lost() const {
-        const auto lost = [](const V* states, std::size_t size, std::size_t lane) {
-            for (std::size_t k = lane; k < size; k += tile_units)
-                if (!std::isfinite(states[k])) return true;
-            return false;
-        };
-        for (std::size_t unit = 0; unit < cast_.units; ++unit) {
-            const std::size_t tile = unit / tile_units, lane = unit % tile_units;
-            if (lost(receptor_state(tile), receptor_state_size(), lane) || lost(neuron_state(tile), neuron_state_size(), lane)) return unit;
-        }
+        for (std::size_t unit = 0; unit < cast_.units; ++unit)
+            if (states_.is_lost(unit)) return unit;
         return {};
     }
 
@@ -351,59 +297,40 @@ class Crowd final : public Population {
         const std::pair kind(force.index(), once(force));
         if (kind_ && *kind_ != kind) return bad_input(fmt::format("{}: its force came in another way before", cast_.name));
         kind_ = kind;
-        if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->of.size() != cast_.units)
-            return bad_input(fmt::format("{}: {} columns of force for {} units", cast_.name, columns->of.size(), cast_.units));
-        if (!std::is_same_v<V, double> && std::holds_alternative<ForceTiles<double>>(force))
-            return bad_input(fmt::format("{}: tiles of double were handed to a population in float", cast_.name));
-        if (!std::is_same_v<V, float> && std::holds_alternative<ForceTiles<float>>(force))
-            return bad_input(fmt::format("{}: tiles of float were handed to a population in double", cast_.name));
-        if (const auto* profile = std::get_if<ForceProfile>(&force)) {
-            if (profile->force.size() < steps)
-                return bad_input(fmt::format("{}: a profile of {} samples for {} steps", cast_.name, profile->force.size(), steps));
-            if (!profile->gain.empty() && profile->gain.size() != cast_.units)
-                return bad_input(fmt::format("{}: {} gains for {} units", cast_.name, profile->gain.size(), cast_.units));
-            for (const double g : profile->gain)
-                if (!(g >= 0 && std::isfinite(g))) return bad_input(fmt::format("{}: a gain of {} is not in [0, inf)", cast_.name, g));
-        }
+        if (auto wrong = unfit_force<V>(force, steps, cast_.units, cast_.name)) return *wrong;
         return {};
     }
 
 public:
     Crowd(Cast<V> cast, const Run& run)
         : cast_(std::move(cast)), method_(run.method), sampled_(run.sampled), tiles_((cast_.units + tile_units - 1) / tile_units),
-          receptor_states_(tiles_ * receptor_state_size()), neuron_states_(tiles_ * neuron_state_size()),
-          jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job), rests_(tiles_) {}
+          states_(tiles_, cast_.receptor->state_values, cast_.neuron->state_values * static_cast<std::size_t>(cast_.receptor->outputs)),
+          jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
 
     std::size_t units() const override { return cast_.units; }
     std::int64_t step() const override { return step_; }
 
     std::vector<double> save() const override {
         std::vector<double> all = {static_cast<double>(step_), kind_ ? static_cast<double>(1 + 2 * kind_->first + kind_->second) : 0.0};
-        const auto add = [&](const auto* values, std::size_t count) { all.insert(all.end(), values, values + count); };
-        add(receptor_states_.data(), receptor_states_.size());
-        add(neuron_states_.data(), neuron_states_.size());
-        add(rests_.data(), rests_.size());
+        states_.save(all);
         if (cast_.once) {
             const auto profile = cast_.once->save();
-            add(profile.data(), profile.size());
+            all.insert(all.end(), profile.begin(), profile.end());
         }
         return all;
     }
 
     Result<void> resume(std::span<const double> all) override {
-        const std::size_t own = 2 + receptor_states_.size() + neuron_states_.size() + rests_.size();
-        const bool fits = all.size() >= own && (cast_.once ? cast_.once->resume(all.subspan(own)) : all.size() == own);
+        constexpr double last_step = 1LL << 53, kinds = 2 * std::variant_size_v<PopulationForce>;
+        const std::size_t own = 2 + states_.size();
+        const auto whole = [](double x, double most) { return x >= 0 && x <= most && x == std::floor(x); };
+        const bool fits = all.size() >= own && whole(all[0], last_step) && whole(all[1], kinds) &&
+                          (cast_.once ? cast_.once->resume(all.subspan(own)) : all.size() == own) &&
+                          states_.resume(all.subspan(2, states_.size()));
         if (!fits) return bad_input(fmt::format("{}: {} numbers of a saved state are not of this population", cast_.name, all.size()));
         step_ = static_cast<std::int64_t>(all[0]);
         const auto kind = static_cast<std::size_t>(all[1]);
         kind_ = kind == 0 ? std::nullopt : std::optional(std::pair((kind - 1) / 2, (kind - 1) % 2 == 1));
-        const double* at = all.data() + 2;
-        const auto take = [&]<class T>(T* values, std::size_t count) {
-            for (std::size_t k = 0; k < count; ++k) values[k] = static_cast<T>(*at++);
-        };
-        take(receptor_states_.data(), receptor_states_.size());
-        take(neuron_states_.data(), neuron_states_.size());
-        take(rests_.data(), rests_.size());
         return {};
     }
 
@@ -413,7 +340,8 @@ public:
         Block block{force, steps, once(force), nullptr};
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
             if (const auto at = first_not_finite(profile->force.first(steps)); at < steps) return *no_force(block, answer);
-            prepare({profile->force.first(steps), profile->gain}, block.once);
+            const auto now = profile->force.first(steps);
+            block.once ? profile_.transduce(*cast_.once, now, step_ == 0, cast_.receptor->outputs) : profile_.keep(now);
         }
         if (answer.marks) answer.marks->assign(tiles_ * steps, 0), block.marks = answer.marks->data();
         while (scratch_.size() < pool.threads()) scratch_.emplace_back();

@@ -23,7 +23,7 @@ public:
         return all;
     }
     bool resume(std::span<const double> saved) override {
-        if (saved.size() != 1 + sizeof(state_) / sizeof(double)) return false;
+        if (saved.size() != 1 + sizeof(state_) / sizeof(double) || !(saved[0] >= 0 && saved[0] <= 0x1p53)) return false;
         step_ = static_cast<std::int64_t>(saved[0]);
         std::memcpy(&state_, saved.data() + 1, sizeof(state_));
         return true;
