@@ -1,7 +1,6 @@
 #include "outputs.hpp"
 
 #include <fmt/format.h>
-#include <filesystem>
 
 #include "recording_words.hpp"
 #include "study/bins_file.hpp"
@@ -10,17 +9,9 @@
 #include "study/npz_file.hpp"
 #include "study/stale.hpp"
 #include "study/vectors.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
-namespace {
-
-Result<void> put(std::optional<OutputFile>& file, const std::string& text) {
-    if (auto ok = file->write(text); !ok) return ok;
-    return file->commit();
-}
-
-}  // namespace
-
 /// The last first: a directory goes with the first file, which made it, and then must hold no other.
 Outputs::~Outputs() {
     report_file_.reset(), summary_file_.reset();
@@ -89,30 +80,19 @@ void Outputs::listen(std::vector<Listener*>& listeners) {
     if (report_) listeners.push_back(&*report_);
 }
 
-std::vector<std::string> Outputs::names() const {
-    std::vector<std::string> all;
-    for (const auto& path : paths())
-        if (!directory_.empty() && path.starts_with(directory_ + "/") && path.find('/', directory_.size() + 1) == path.npos)
-            all.push_back(std::filesystem::path(path).filename().string());
-    return all;
-}
+std::vector<std::string> Outputs::names() const { return names_in(directory_, paths()); }
 
 Result<void> Outputs::commit(const Summary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
                              const std::string& document, const std::string& command, const nlohmann::ordered_json& costs) {
     if (report_)
-        if (auto ok = put(report_file_, report_->page(summary, afferents, command, warnings, costs)); !ok) return ok;
+        if (auto ok = put_whole(*report_file_, report_->page(summary, afferents, command, warnings, costs)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};
     removed_ = remove_stale(directory_, names());
-    return put(summary_file_, document);
+    return put_whole(*summary_file_, document);
 }
 
-std::string Outputs::told() const {
-    const auto all = paths();
-    if (all.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
-    const auto gone = removed_.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed_, ", "));
-    return fmt::format("Written: {}\n{}", fmt::join(all, ", "), gone);
-}
+std::string Outputs::told() const { return told_of(paths(), removed_); }
 
 }  // namespace corpuscle

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <filesystem>
 
 #include "recording_words.hpp"
 #include "signal/text.hpp"
@@ -11,6 +10,7 @@
 #include "study/skin_spikes_file.hpp"
 #include "study/skin_units_file.hpp"
 #include "study/stale.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
 
@@ -78,34 +78,19 @@ std::vector<std::string> SkinOutputs::paths() const {
     return all;
 }
 
-std::vector<std::string> SkinOutputs::names() const {
-    std::vector<std::string> all;
-    for (const auto& path : paths())
-        if (!directory_.empty() && std::filesystem::path(path).parent_path() == std::filesystem::path(directory_))
-            all.push_back(std::filesystem::path(path).filename().string());
-    return all;
-}
+std::vector<std::string> SkinOutputs::names() const { return names_in(directory_, paths()); }
 
 Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinTold& told, const std::string& document,
                                  const std::string& command) {
-    const auto put = [](OutputFile& file, const std::string& text) {
-        auto ok = file.write(text);
-        return ok ? file.commit() : ok;
-    };
     if (report_)
-        if (auto ok = put(*report_file_, skin_page(summary, *report_, told, command)); !ok) return ok;
+        if (auto ok = put_whole(*report_file_, skin_page(summary, *report_, told, command)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};
     removed_ = remove_stale(directory_, names());
-    return put(*summary_file_, document);
+    return put_whole(*summary_file_, document);
 }
 
-std::string SkinOutputs::told() const {
-    const auto all = paths();
-    if (all.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
-    const auto gone = removed_.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed_, ", "));
-    return fmt::format("Written: {}\n{}", fmt::join(all, ", "), gone);
-}
+std::string SkinOutputs::told() const { return told_of(paths(), removed_); }
 
 }  // namespace corpuscle
