@@ -9,12 +9,13 @@
 // the last core; what sends and what reads are threads of this program on the others, so that it has one core and no more.
 //
 // With delay, program and sender wait without sleeping (--spin), so that what a machine takes to wake a thread is not in it.
-// delay, sleep, share: frames are binary float32 through a pipe, each written when it is due by the clock (clock_nanosleep to absolute
-// times); events are binary through another pipe. The delay of a frame is from just before its write to the read that brought its first
-// spike; a frame without a spike has none, but is counted by the program, which tells at the end how many it answered and what it measured
-// itself, of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same ticks and notes how late it
-// wakes: what the machine does to anybody. Every site feels something at every frame (noise of some mN, so that no afferent can be passed
-// over), and a round contact moves over the skin. share also tells getrusage's time of the program, user and system. soak holds every byte
+// delay, sleep, share, together, noise: frames are binary float32 through a pipe, each written when it is due by the clock (clock_nanosleep
+// to absolute times); events are binary through another pipe. The delay of a frame is from just before its write to the read that brought
+// its first spike; a frame without a spike has none, but is counted by the program, which tells at the end how many it answered and what it
+// measured itself, of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same ticks and notes how late
+// it wakes: what the machine does to anybody. Every site feels something at every frame (noise of some mN, so that no afferent can be
+// passed over), and a round contact moves over the skin; but with share and together a fingertip rubs the palm in circles of 1 cm, and
+// nothing else touches. Told is the program's time, user and system, after the seconds in which its skin is built. soak holds every byte
 // that comes against what the same frames give in this process.
 
 #include <arpa/inet.h>
@@ -59,8 +60,10 @@ void sleep_until(std::int64_t ns) {
     }
 }
 
-/// Frames of one second, over and over: a contact that goes round, and noise.
-std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise) {
+constexpr int start_up = 3;  // s in which the program builds its skin and warms up
+
+/// Frames of one second, over and over: a contact that goes round, of `turn_radius` (0: over much of the skin), and noise.
+std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise, double turn_radius = 0) {
     const auto& sites = plan.sites;
     const double felt = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;  // N at a site that a unit feels as 1 N
     std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
@@ -69,8 +72,8 @@ std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double rad
         low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     for (int k = 0; k < rate; ++k) {
         const double turn = 6.283185307179586 * k / rate;
-        const double x = (low.x + high.x) / 2 + (high.x - low.x) / 4 * std::cos(turn),
-                     y = (low.y + high.y) / 2 + (high.y - low.y) / 4 * std::sin(turn);
+        const double x = (low.x + high.x) / 2 + (turn_radius > 0 ? turn_radius : (high.x - low.x) / 4) * std::cos(turn),
+                     y = (low.y + high.y) / 2 + (turn_radius > 0 ? turn_radius : (high.y - low.y) / 4) * std::sin(turn);
         for (std::size_t s = 0; s < sites.size(); ++s) {
             const double d2 = (sites.at[s].x - x) * (sites.at[s].x - x) + (sites.at[s].y - y) * (sites.at[s].y - y);
             const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
@@ -116,6 +119,15 @@ struct Program {
         char piece[4096];
         for (ssize_t n = 0; (n = ::read(fd, piece, sizeof piece)) > 0;) all.append(piece, static_cast<std::size_t>(n));
         return all;
+    }
+    /// s of processor until now, its own and the system's for it.
+    double so_far() const {
+        std::ifstream in(fmt::format("/proc/{}/stat", pid));
+        std::string word;
+        double user = 0, system = 0;
+        for (int k = 1; k < 14; ++k) in >> word;
+        in >> user >> system;
+        return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
     }
     double seconds() const {
         const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
@@ -230,11 +242,11 @@ std::shared_ptr<const Innervation> skin_of(const std::string& population) {
 }
 
 int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius, bool spin, bool noise,
-                  int together = 1) {
+                  int together = 1, double turn_radius = 0) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
     const auto header = (*event_format("aer", event_units(*skin, {rate, 1})))->header().size();
-    const auto second = frames_of_a_second(skin->plan, rate, radius, noise);
+    const auto second = frames_of_a_second(skin->plan, rate, radius, noise, turn_radius);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (cores > 1) bind_to(0, cores - 2);
     const auto idle = idle_loop(rate, seconds);
@@ -244,6 +256,11 @@ int through_pipes(const std::string& program, const std::string& population, int
     if (spin) words.push_back("--spin");
     if (together > 1) words.insert(words.end(), {"--together", std::to_string(together)});
     Program child(program, words, cores - 1);
+    double begun = 0;  // s of processor
+    std::thread watch([&] {
+        std::this_thread::sleep_for(std::chrono::seconds(start_up));
+        begun = child.so_far();
+    });
     Sender sender(second, sites, rate, count, false);
     Delays delay;
     std::int64_t last = 0, spikes = 0;
@@ -271,12 +288,16 @@ int through_pipes(const std::string& program, const std::string& population, int
     }
     const auto told = child.told(child.err.get());
     const int status = child.wait();
+    watch.join();
     fmt::print("{}: {} sites, {} afferents, {} frames of {} Hz sent, {} spikes read\n\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n",
                population, sites, skin->units.size(), count, rate, spikes, "us", "number", "50 %", "99 %", "99.9 %", "longest");
     fmt::print("{}{}", row("idle loop, late", idle), row("frame written to spike read", delay));
     print_histograms(idle, delay);
-    fmt::print("\nIts own summary (status {}):\n{}\nOf one core it took {:.2f} % ({:.2f} s of {} s); {} MB at the most.\n", status, told,
-               100 * child.seconds() / seconds, child.seconds(), seconds, child.used.ru_maxrss / 1024);
+    fmt::print(
+        "\nIts own summary (status {}):\n{}\nOf one core it took {:.2f} % of the time after the first {} s, and {:.2f} s in all of {} s; "
+        "{} MB at the most.\n",
+        status, told, 100 * (child.seconds() - begun) / std::max(1, seconds - start_up), start_up, child.seconds(), seconds,
+        child.used.ru_maxrss / 1024);
     return status;
 }
 
@@ -366,8 +387,8 @@ int main(int argc, char** argv) {
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";
     if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
     if (what == "sleep") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
-    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false);
-    if (what == "together") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false, 16);
+    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false, 1, 5e-3);
+    if (what == "together") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false, 16, 5e-3);
     if (what == "noise") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, true);
     if (what == "soak") return soak(program, seconds);
     return fmt::print("bench-live delay|sleep|share|together|noise|soak [SECONDS [PROGRAM]]\n"), 2;
