@@ -2,14 +2,14 @@
 //   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples a second
 //   bench-live sleep [SECONDS [PROGRAM]]   the same without --spin: the program sleeps until a frame comes, and so do sender and reader
 //   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: what part of a core
-//   bench-live together [SECONDS [PROGRAM]] the same with --together 16
+//   bench-live together [SECONDS [PROGRAM]] the same with --together 16, over loopback: the program sleeps until 16 frames are there
 //   bench-live noise [SECONDS [PROGRAM]]   the same, where no afferent is ever at rest
 //   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 // 60 s if nothing is said (the soak is meant for 3600), of ./corpuscle. `corpuscle stream` is started as anybody would start it, bound to
 // the last core; what sends and what reads are threads of this program on the others, so that it has one core and no more.
 //
 // With delay, program and sender wait without sleeping (--spin), so that what a machine takes to wake a thread is not in it.
-// delay, sleep, share, together, noise: frames are binary float32 through a pipe, each written when it is due by the clock (clock_nanosleep
+// delay, sleep, share, together, noise: frames are binary float32 through a pipe (together: TCP), each written when it is due by the clock (clock_nanosleep
 // to absolute times); events are binary through another pipe. The delay of a frame is from just before its write to the read that brought
 // its first spike; a frame without a spike has none, but is counted by the program, which tells at the end how many it answered and what it
 // measured itself, of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same ticks and notes how late
@@ -135,6 +135,20 @@ struct Program {
     }
 };
 
+/// To where a program says that it listens.
+Descriptor connected_to(const Program& child) {
+    pollfd wait = {child.err.get(), POLLIN, 0};
+    ::poll(&wait, 1, 10000);
+    std::string said(200, '\0');
+    said.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), said.data(), said.size()))));
+    const auto at = said.find("127.");
+    auto to = at < said.size() ? connected_socket(*parse_endpoint(said.substr(at, said.find('\n') - at)), 5000)
+                               : Result<Descriptor>(bad_input("it does not listen: " + said));
+    if (!to) fmt::print("{}\n", to.error().text()), std::exit(1);
+    ::fcntl(to->get(), F_SETFL, 0);
+    return std::move(*to);
+}
+
 std::string row(const char* name, const Delays& d) {
     std::uint64_t within = 0;
     for (int b = 0; b < Delays::size() && Delays::end_of(b) <= 1'000'000; ++b) within += d.in(b);
@@ -254,8 +268,9 @@ int through_pipes(const std::string& program, const std::string& population, int
     std::vector<std::string> words = {"--population", population, "--rate",   fmt::format("{}Hz", rate),
                                       "--frames",     "f32",      "--format", "aer"};
     if (spin) words.push_back("--spin");
-    if (together > 1) words.insert(words.end(), {"--together", std::to_string(together)});
+    if (together > 1) words.insert(words.end(), {"--together", std::to_string(together), "--in", "tcp:0", "--clients", "1"});
     Program child(program, words, cores - 1);
+    if (together > 1) child.in = connected_to(child);
     double begun = 0;  // s of processor
     std::thread watch([&] {
         std::this_thread::sleep_for(std::chrono::seconds(start_up));
@@ -323,14 +338,10 @@ int soak(const std::string& program, int seconds) {
     pollfd wait = {door->get(), POLLIN, 0};
     ::poll(&wait, 1, 10000);
     Descriptor events(::accept(door->get(), nullptr, nullptr));
-    std::string said(200, '\0');
-    said.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), said.data(), said.size()))));
-    auto to = connected_socket(*parse_endpoint(said.substr(said.find("127."), said.find('\n') - said.find("127."))), 5000);
-    if (!to) return fmt::print("{}\n", to.error().text()), 1;
-    ::fcntl(to->get(), F_SETFL, 0);
+    auto to = connected_to(child);
     const std::int64_t count = std::int64_t{rate} * seconds;
     Sender sender(second, sites, rate, count, true);
-    std::thread sending([&] { sender.send_all(to->get()), to->close(); });
+    std::thread sending([&] { sender.send_all(to.get()), to.close(); });
     // The same frames here, as far as events have come.
     auto ours = SkinStream::make(skin, {rate, 1});
     std::vector<double> frame(sites);

@@ -132,7 +132,8 @@ class LiveRun {
         auto bytes = bytes_of(words_);
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
-        frames_ = frames_of(std::move(*bytes), layout_of(words_, n, skin_->sites(), *clock), in_frames(n.hold), in_frames(n.longest));
+        frames_ = frames_of(std::move(*bytes), layout_of(words_, n, skin_->sites(), *clock), in_frames(n.hold), in_frames(n.longest),
+                            words_.together);
         return {};
     }
 
@@ -217,7 +218,7 @@ public:
         if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.seen = [this] { show(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *outlet_, std::move(ways));
         if (auto ok = take_up(); !ok) return ok;
-        if (words_.in.starts_with("tcp:")) fmt::print(stderr, "corpuscle: {}\n", frames_->sentence());
+        if (words_.in.starts_with("tcp:") || words_.in.starts_with("serial:")) fmt::print(stderr, "corpuscle: {}\n", frames_->sentence());
         auto ended = loop_->run();
         tell();
         if (auto ok = put_by(); ended && !ok) return ok;

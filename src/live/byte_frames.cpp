@@ -33,8 +33,10 @@ class ByteFrames final : public FrameSource {
     }
 
 public:
-    ByteFrames(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold, std::int64_t longest)
-        : source_(std::move(source)), decoder_(layout), order_(hold, longest) {}
+    ByteFrames(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold, std::int64_t longest, std::size_t together)
+        : source_(std::move(source)), decoder_(layout, together), order_(hold, longest) {
+        if (layout.kind != FrameKind::csv) source_->enough(together * layout.bytes());
+    }
 
     int waits_on() const override { return source_->waits_on(); }
     std::string sentence() const override { return source_->sentence(); }
@@ -82,8 +84,8 @@ public:
 }  // namespace
 
 std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold,
-                                       std::int64_t longest) {
-    return std::make_unique<ByteFrames>(std::move(source), layout, hold, longest);
+                                       std::int64_t longest, std::size_t together) {
+    return std::make_unique<ByteFrames>(std::move(source), layout, hold, longest, together);
 }
 
 }  // namespace corpuscle

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <termios.h>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -31,6 +32,7 @@ class Listener final : public ByteSource {
     Endpoint at_;
     Descriptor door_, client_;
     std::int64_t clients_, most_;
+    int enough_ = 1;
 
     Came accept() {
         client_ = Descriptor(::accept4(door_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
@@ -38,6 +40,7 @@ class Listener final : public ByteSource {
         ++clients_;
         const int yes = 1;
         ::setsockopt(client_.get(), SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);  // one whose machine has died goes, too
+        ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &enough_, sizeof enough_);
         return {Came::nothing};
     }
 
@@ -45,6 +48,7 @@ public:
     Listener(const Endpoint& at, Descriptor door, std::int64_t most) : at_(at), door_(std::move(door)), clients_(0), most_(most) {}
     int waits_on() const override { return client_ ? client_.get() : door_.get(); }
     std::string sentence() const override { return "listening on " + at_.text(); }
+    void enough(std::size_t bytes) override { enough_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20)); }
     std::int64_t producers() const override { return clients_; }
     Result<Came> read(std::span<char> out) override {
         if (!client_) return accept();

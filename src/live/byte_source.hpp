@@ -25,7 +25,9 @@ public:
     virtual ~ByteSource() = default;
     virtual int waits_on() const = 0;  ///< to be polled for reading
     virtual Result<Came> read(std::span<char>) = 0;
-    virtual std::string sentence() const = 0;             ///< "127.0.0.1, port 7000"
+    virtual std::string sentence() const = 0;  ///< "127.0.0.1, port 7000"
+    /// There is no hurry to read fewer bytes than these: a source that can lets the reader sleep until so many are there.
+    virtual void enough(std::size_t) {}
     virtual std::int64_t producers() const { return 1; }  ///< that sent until now
 };
 

@@ -37,47 +37,17 @@ double number_of(std::string_view field) {
     return status == std::errc{} && end == field.data() + field.size() ? x : no_number;
 }
 
-/// Some forces, none of which is beyond the limit: true. Else they are left as they were.
-template <class Value, std::size_t count>
-bool take_good(const char* from, const FrameLayout& layout, double* force) {
-    Value x[count];
-    double f[count], beyond[8] = {};
-    std::memcpy(x, from, sizeof x);
-    for (std::size_t k = 0; k < count; ++k) f[k] = (static_cast<double>(x[k]) - layout.offset) * layout.scale;
-    for (std::size_t k = 0; k < count; k += 8)
-        for (std::size_t l = 0; l < 8; ++l) beyond[l] += std::abs(f[k + l]) <= layout.limit ? 0.0 : 1.0;
-    for (const double b : beyond)
-        if (b > 0) return false;
-    std::memcpy(force, f, sizeof f);
-    return true;
-}
-
-template <class Value>
-std::size_t take_values(const char* from, const FrameLayout& layout, std::span<double> force) {
-    constexpr std::size_t at_once = 64;
-    std::size_t bad = 0;
-    for (std::size_t s = 0; s < force.size();) {
-        if (force.size() - s >= at_once && take_good<Value, at_once>(from + s * sizeof(Value), layout, force.data() + s)) {
-            s += at_once;
-            continue;
-        }
-        for (const auto end = std::min(force.size(), s + at_once); s < end; ++s) {
-            Value x;
-            std::memcpy(&x, from + s * sizeof x, sizeof x);
-            const double f = (static_cast<double>(x) - layout.offset) * layout.scale;
-            const bool good = std::abs(f) <= layout.limit;
-            force[s] = good ? f : force[s];
-            bad += !good;
-        }
-    }
-    return bad;
+const lanes::FrameLanes& best_lanes() {
+    const auto set = instruction_set();
+    return lanes::frame_lanes(set ? *set : InstructionSet::baseline);
 }
 
 }  // namespace
 
-FrameDecoder::FrameDecoder(const FrameLayout& layout)
-    : layout_(layout),
-      bytes_(std::max<std::size_t>(65536, 4 * (layout.kind == FrameKind::csv ? (layout.sites + 1) * longest_field : layout.bytes()))) {
+FrameDecoder::FrameDecoder(const FrameLayout& layout, std::size_t frames)
+    : layout_(layout), lanes_(best_lanes()),
+      bytes_(std::max<std::size_t>(
+          65536, 2 * (1 + frames) * (layout.kind == FrameKind::csv ? (layout.sites + 1) * longest_field : layout.bytes()))) {
     if (layout.kind == FrameKind::csv) values_.resize(layout.sites);
 }
 
@@ -156,17 +126,18 @@ bool FrameDecoder::read_line(std::string_view line) {
 }
 
 std::size_t FrameDecoder::take(std::span<double> force) const {
+    const lanes::FrameForce of{layout_.offset, layout_.scale, layout_.limit};
     switch (layout_.kind) {
         case FrameKind::f32:
-            return take_values<float>(found_.data(), layout_, force);
-        case FrameKind::f64:
-            return take_values<double>(found_.data(), layout_, force);
+            return lanes_.f32(found_.data(), of, force.data(), force.size());
         case FrameKind::i16:
-            return take_values<std::int16_t>(found_.data(), layout_, force);
+            return lanes_.i16(found_.data(), of, force.data(), force.size());
+        case FrameKind::f64:
         case FrameKind::csv:
             break;
     }
-    return take_values<double>(reinterpret_cast<const char*>(values_.data()), layout_, force);
+    const char* const from = layout_.kind == FrameKind::csv ? reinterpret_cast<const char*>(values_.data()) : found_.data();
+    return lanes_.f64(from, of, force.data(), force.size());
 }
 
 }  // namespace corpuscle

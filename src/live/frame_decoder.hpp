@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "live/frame_layout.hpp"
+#include "live/lanes/kernel.hpp"
 
 namespace corpuscle {
 
 class FrameDecoder {
     FrameLayout layout_;
+    const lanes::FrameLanes& lanes_;
     std::vector<char> bytes_;
     std::size_t begin_ = 0, end_ = 0;  // of what came and was not yet taken
     std::size_t looked_ = 0;           // up to here there is no end of a line
@@ -30,7 +32,8 @@ class FrameDecoder {
 public:
     enum class Found { nothing, frame, unreadable };
 
-    explicit FrameDecoder(const FrameLayout&);
+    /// There is always room for so many more frames.
+    explicit FrameDecoder(const FrameLayout&, std::size_t frames = 1);
     const FrameLayout& layout() const { return layout_; }
 
     std::span<char> room();                                    ///< where the next bytes go; never empty

@@ -47,8 +47,9 @@ public:
     virtual FrameOrder* order() { return nullptr; }  ///< of numbered frames
 };
 
-/// `hold`, `longest`: of a gap, in frames (see FrameOrder).
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t longest);
+/// `hold`, `longest`: of a gap, in frames (see FrameOrder). `together`: so many are answered at once.
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t longest,
+                                       std::size_t together = 1);
 
 /// A recording, each frame at its time, or as fast as they can be answered.
 std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source>, bool at_its_pace);

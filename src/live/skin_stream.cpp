@@ -38,11 +38,17 @@ Result<void> SkinStream::warm_up() {
     return skin_->resume(start);
 }
 
-/// The sites at which there is force. Without a branch for each: noise makes zeros come and go.
+/// The sites at which there is force: most of a skin is touched nowhere, so many are looked at together. Among those of which some are
+/// touched, without a branch for each: noise makes zeros come and go.
 std::span<const std::uint32_t> SkinStream::touched_by(std::span<const double> frame) {
     if (std::count(frame.begin(), frame.end(), 0.0) == 0) return every_;
+    constexpr std::size_t together = 16;
     std::size_t touched = 0;
-    for (std::size_t s = 0; s < frame.size(); ++s) touched_[touched] = static_cast<std::uint32_t>(s), touched += frame[s] != 0;
+    for (std::size_t from = 0; from < frame.size(); from += together) {
+        const auto some = frame.subspan(from, std::min(together, frame.size() - from));
+        if (static_cast<std::size_t>(std::count(some.begin(), some.end(), 0.0)) == some.size()) continue;
+        for (std::size_t k = 0; k < some.size(); ++k) touched_[touched] = static_cast<std::uint32_t>(from + k), touched += some[k] != 0;
+    }
     return std::span(touched_).first(touched);
 }
 

@@ -102,6 +102,26 @@ Lanes<V> of_words(const std::int16_t* words) {
 #endif
 }
 
+/// Floats, as many as there are lanes.
+template <class V>
+Lanes<V> of_floats(const float* floats) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(V) == 8)
+        return _mm512_cvtps_pd(_mm256_loadu_ps(floats));
+    else
+        return _mm512_loadu_ps(floats);
+#elif defined(__AVX2__)
+    if constexpr (sizeof(V) == 8)
+        return _mm256_cvtps_pd(_mm_loadu_ps(floats));
+    else
+        return _mm256_loadu_ps(floats);
+#else
+    alignas(64) V lanes[Lanes<V>::size];
+    for (std::size_t l = 0; l < Lanes<V>::size; ++l) lanes[l] = static_cast<V>(floats[l]);
+    return Lanes<V>::load_aligned(lanes);
+#endif
+}
+
 template <class T>
 Mask<T> none();
 template <>

@@ -12,10 +12,6 @@ constexpr std::size_t much = 2;  // of a skin is touched: one site of so many
 
 std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
-void add(double weight, const double* force, double* sum, std::size_t steps) {
-    for (std::size_t t = 0; t < steps; ++t) sum[t] += weight * force[t];
-}
-
 /// [unit][step] to [step][unit].
 void turn(const double* sums, std::size_t stride, std::size_t steps, double* rows) {
     for (std::size_t from = 0; from < steps; from += field_steps)
@@ -25,9 +21,9 @@ void turn(const double* sums, std::size_t stride, std::size_t steps, double* row
 
 }  // namespace
 
-FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size_t count, std::size_t sites)
-    : units_(count), tiles_((count + force_tile - 1) / force_tile), pieces_((tiles_ + piece_tiles - 1) / piece_tiles),
-      rows_(tiles_ * skin_steps * force_tile), without_(tiles_) {
+FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size_t count, std::size_t sites, InstructionSet set)
+    : lanes_(lanes::field_lanes(set)), units_(count), tiles_((count + force_tile - 1) / force_tile),
+      pieces_((tiles_ + piece_tiles - 1) / piece_tiles), rows_(tiles_ * skin_steps * force_tile), without_(tiles_) {
     constexpr std::size_t piece_units = piece_tiles * force_tile;
     for (auto& p : pieces_) p.begin.assign(1, 0);
     for (std::size_t s = 0; s < sites; ++s) {
@@ -52,7 +48,7 @@ void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touc
 
 void FeltForce::make_by_unit() {
     const std::size_t sites = pieces_[0].begin.size() - 1;
-    by_unit_.emplace(units_);
+    by_unit_.emplace(units_, lanes_);
     for (std::size_t n = 0; n < pieces_.size(); ++n)
         for (const auto unit : pieces_[n].unit) by_unit_->count(n * piece_tiles * force_tile + unit);
     by_unit_->counted();
@@ -82,12 +78,11 @@ void FeltForce::feel_piece(std::size_t piece, const Call& call, double* sums) {
     std::fill_n(without, tiles, std::uint8_t{1});
     double* rows = rows_.data() + first * steps * force_tile;
     for (const auto s : touched) {
-        const double* f = force.of + s * force.stride + at;
-        for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
-            const std::size_t unit = p.unit[k], tile = unit / force_tile;
-            if (without[tile]) std::fill_n(sums + tile * force_tile * stride, force_tile * stride, 0.0), without[tile] = 0;
-            add(p.weight[k], f, sums + unit * stride, steps);
-        }
+        const std::size_t begin = p.begin[s], end = p.begin[s + 1];
+        for (std::size_t k = begin; k < end; ++k)
+            if (const auto tile = p.unit[k] / force_tile; without[tile])
+                std::fill_n(sums + tile * force_tile * stride, force_tile * stride, 0.0), without[tile] = 0;
+        lanes_.add_site(p.unit.data() + begin, p.weight.data() + begin, end - begin, force.of + s * force.stride + at, steps, sums, stride);
     }
     for (std::size_t tile = 0; tile < tiles; ++tile)
         if (!without[tile]) turn(sums + tile * force_tile * stride, stride, steps, rows + tile * steps * force_tile);

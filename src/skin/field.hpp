@@ -6,6 +6,7 @@
 #include "model/lanes/buffer.hpp"
 #include "model/population.hpp"
 #include "skin/field_units.hpp"
+#include "skin/lanes/kernel.hpp"
 #include "skin/skin.hpp"
 
 namespace corpuscle {
@@ -17,7 +18,7 @@ inline constexpr std::size_t skin_steps = 32;
 class FeltForce {
 public:
     /// Of units [first, first + count) of a class.
-    FeltForce(const ReceptiveFields&, std::size_t first, std::size_t count, std::size_t sites);
+    FeltForce(const ReceptiveFields&, std::size_t first, std::size_t count, std::size_t sites, InstructionSet);
 
     /// Some steps, at most skin_steps, from `at` of the block on.
     void feel(const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool&);
@@ -44,10 +45,12 @@ private:
         std::size_t at, steps;
     };
 
+    const lanes::FieldLanes& lanes_;
     std::size_t units_, tiles_;
     std::vector<Piece> pieces_;
     lanes::Buffer<double> weights_;         // by eights, each that there is once
     std::vector<OneStep> one_step_;         // of each tile; made when a single step comes
+    std::vector<std::uint8_t> in_rows_;     // with it: whether all tiles of a piece stand so
     std::vector<std::size_t> reach_begin_;  // with it: which tiles feel a site
     std::vector<std::uint32_t> reach_;
     std::vector<double> now_;               // force of all sites at that step, between zeros
@@ -64,7 +67,8 @@ private:
     class Eights;
     void make_tile(std::size_t tile, std::size_t sites, Eights&);
     void feel_one_step(const Call&);
-    void feel_site_by_site(const Call&);
+    void feel_in_rows(std::size_t piece, const double* now);
+    void feel_site_by_site(std::size_t piece, const Call&);
 };
 
 }  // namespace corpuscle

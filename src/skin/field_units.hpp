@@ -7,11 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "skin/lanes/kernel.hpp"
+
 namespace corpuscle {
 
 class FieldsByUnit {
 public:
-    explicit FieldsByUnit(std::size_t units) : begin_(units + 1) {}
+    FieldsByUnit(std::size_t units, const lanes::FieldLanes& lanes) : lanes_(lanes), begin_(units + 1) {}
     /// First how many sites each unit feels, then, in the order of the sites, which.
     void count(std::size_t unit) { ++begin_[unit + 1]; }
     void counted();
@@ -22,11 +24,10 @@ public:
     void feel_tile(std::size_t tile, std::span<const double* const> site_rows, std::size_t steps, double* rows) const;
 
 private:
+    const lanes::FieldLanes& lanes_;
     std::vector<std::size_t> begin_, filled_;
     std::vector<std::uint32_t> site_;
     std::vector<double> weight_;
-
-    void feel_unit(std::size_t unit, std::span<const double* const> site_rows, std::size_t steps, double* column) const;
 };
 
 }  // namespace corpuscle

@@ -44,7 +44,7 @@ Result<std::optional<SkinCrowd>> crowd_of(const Innervation& skin, std::size_t o
     if (!population) return population.error();
     const auto same = static_cast<std::size_t>(std::find(skin.fields.begin(), skin.fields.end(), skin.fields[of]) - skin.fields.begin());
     const bool as_before = felt[same] && skin.first[same + 1] - skin.first[same] == all;
-    felt[of] = as_before ? felt[same] : std::make_shared<FeltForce>(skin.fields[of], first, count, skin.plan.sites.size());
+    felt[of] = as_before ? felt[same] : std::make_shared<FeltForce>(skin.fields[of], first, count, skin.plan.sites.size(), set);
     return std::optional<SkinCrowd>(SkinCrowd{std::move(*population), felt[of], as_before});
 }
 

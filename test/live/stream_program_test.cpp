@@ -4,9 +4,11 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <pty.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -222,6 +224,68 @@ TEST(StreamProgram, AThousandClientsOneAfterAnotherSendTheirFrames) {
     EXPECT_EQ(doc["frames_as_bytes"]["senders"], 1000);
     EXPECT_EQ(doc["frames_as_bytes"]["halves"], 334);
     EXPECT_EQ(doc["frames"], 334 + 2 * 333);
+}
+
+TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
+    before();
+    const Folder folder;
+    std::vector<float> frames;  // 0.6 s of 1000 forces, of which the last are too few to go together
+    for (int k = 0; k < 600; ++k)
+        for (int s = 0; s < 1000; ++s) frames.push_back(k % 200 < 50 ? 0.0F : 0.002F * static_cast<float>(s));
+    const std::string_view bytes(reinterpret_cast<const char*>(frames.data()), frames.size() * sizeof(float));
+    const std::vector<std::string> words = {"--channels", "1000", "--frames", "f32", "--format", "aer", "--quiet"};
+    Child alone(folder, with(words));
+    std::thread feeding([&] { alone.send(bytes), alone.close_in(); });
+    const auto wanted = alone.read_out();
+    feeding.join();
+    EXPECT_EQ(alone.wait(), 0) << alone.told();
+    EXPECT_GT(wanted.size(), 50000U);
+    auto together = words;
+    together.insert(together.end(), {"--together", "16", "--clients", "1", "--in", "tcp:0"});
+    together.erase(std::find(together.begin(), together.end(), "--quiet"));
+    Child child(folder, with(together));
+    const int fd = connected(child.port());
+    std::thread sending([&] {
+        for (std::size_t at = 0; at < bytes.size(); at += 333'333)  // neither whole frames nor whole groups
+            EXPECT_GT(::send(fd, bytes.data() + at, std::min<std::size_t>(333'333, bytes.size() - at), 0), 0);
+        ::close(fd);
+    });
+    EXPECT_EQ(child.read_out(), wanted);
+    sending.join();
+    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_NE(child.told().find("600 frames of 600 ms"), std::string::npos) << child.told();
+}
+
+TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
+    before();
+    const Folder folder;
+    int far = -1, near = -1;
+    char name[128];
+    if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << "no pseudo terminal here";
+    ::fcntl(far, F_SETFD, FD_CLOEXEC), ::fcntl(near, F_SETFD, FD_CLOEXEC);
+    Child whole(folder, with({"--quiet"}));
+    whole.send(some_lines(500)), whole.close_in();
+    const auto wanted = whole.read_out();
+    EXPECT_EQ(whole.wait(), 0);
+    Child child(folder, with({"--in", std::string("serial:") + name, "--baud", "115200"}));
+    ASSERT_TRUE(child.said("serial line")) << child.told();
+    const auto lines = some_lines(500);
+    for (std::size_t at = 0; at < lines.size(); at += 100) {
+        const auto piece = lines.substr(at, 100);
+        EXPECT_EQ(::write(far, piece.data(), piece.size()), static_cast<ssize_t>(piece.size()));
+    }
+    std::string got;
+    char some[4096];
+    for (pollfd there = {child.out, POLLIN, 0}; got.size() < wanted.size() && ::poll(&there, 1, 10000) == 1;)
+        got.append(some, static_cast<std::size_t>(::read(child.out, some, sizeof some)));
+    EXPECT_EQ(got, wanted);
+    termios ways = {};
+    EXPECT_EQ(::tcgetattr(near, &ways), 0);
+    EXPECT_EQ(::cfgetispeed(&ways), static_cast<speed_t>(B115200));
+    EXPECT_EQ(ways.c_lflag & static_cast<tcflag_t>(ICANON | ECHO), 0U) << "no byte of a frame means anything to the line";
+    ::close(near), ::close(far);  // the device is pulled out
+    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_NE(child.told().find("500 frames of 500 ms"), std::string::npos) << child.told();
 }
 
 TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {

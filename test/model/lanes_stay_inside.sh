@@ -5,7 +5,7 @@
 set -eu
 test $# -ge 3 || { echo "objects for three instruction sets were to come, not $#"; exit 1; }
 status=0
-table='corpuscle::(circuit::)?lanes::(baseline|avx2|avx512)::(doubles|floats|transistors|chip_lanes)$'
+table='corpuscle::(circuit::)?lanes::(baseline|avx2|avx512)::(doubles|floats|fields|frames|transistors|chip_lanes)$'
 for object in "$@"; do
   wide=$(nm -C "$object" | grep -E ' [WVuw] ' | grep -v 'xsimd' || true)
   strong=$(nm -C --defined-only "$object" | grep -E ' [TDBRG] ' | grep -vE "$table" || true)

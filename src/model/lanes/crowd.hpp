@@ -167,7 +167,7 @@ class Crowd final : public Population {
         TransductionCall<V> c{};
         std::tie(c.models, c.stride) = models(cast_.receptors, *cast_.receptor, tile);
         c.state = states_.receptor(tile);
-        cast_.receptor->settle(c);
+        (cast_.joined ? cast_.joined->settle : cast_.receptor->settle)(c);
         NeuronCall<V> n{};
         std::tie(n.models, n.stride) = models(cast_.neurons, *cast_.neuron, tile);
         for (int k = 0; k < cast_.receptor->outputs; ++k) {
@@ -213,7 +213,7 @@ class Crowd final : public Population {
     }
 
     /// States that are no number stay so: of blocks of a step or two they are looked at now and then.
-    static constexpr std::int64_t between_looks = 16;
+    static constexpr std::int64_t between_looks = 64;
     bool looks(const Block& b) const { return step_ / between_looks != (step_ + static_cast<std::int64_t>(b.steps)) / between_looks; }
 
     void run_job(const Block& b, std::size_t number, Scratch& s) {

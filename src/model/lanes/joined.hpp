@@ -11,29 +11,39 @@ namespace {
 template <class R, class N>
 inline constexpr bool joins = continuous<R> && R::outputs == 1 && requires { R::keeps_strays; } && requires(const N& n) { n.may_wait(); };
 
-/// J vectors of a tile at once, from `unit` on.
-template <class V, class R, class N, Feed feed, Method method, int J>
-void feel(const TransductionCall<V>& c, const NeuronCall<V>& to, int unit, Asking& asked) {
+/// Of a state that is used here: what flowed last follows from the rest, and nobody waits. Memory is what a single step takes.
+template <class V, class R>
+inline constexpr std::size_t felt_values = values_of<typename R::State, V> - 1;
+template <class V, class N>
+inline constexpr std::size_t own_values = values_of<typename N::State, V> - N::values_of_waiting;
+
+/// J vectors of a tile at once, from `unit` on; `once`: over a single step.
+template <class V, class R, class N, Feed feed, Method method, int J, bool once>
+[[gnu::always_inline]] inline void feel(const TransductionCall<V>& c, const NeuronCall<V>& to, int unit, Asking& asked) {
     constexpr int w = width<V>;
     using T = Batch<V>;
+    using Felt = typename R::State;
+    using Own = typename N::State;
+    static_assert(offsetof(Felt, I) == sizeof(Felt) - sizeof(T));
     const R* r[J];
     const N* n[J];
-    typename R::State felt[J];
-    typename N::State s[J];
+    Felt felt[J];
+    Own s[J];
     Fired<V> fired[J];
     each_of<J>([&](auto j) __attribute__((always_inline)) {
         r[j] = &model<R>(c.models, c.stride, unit / w + j);
         n[j] = &model<N>(to.models, to.stride, unit / w + j);
-        felt[j] = read<typename R::State>(c.state, unit + j * w);
-        s[j] = read<typename N::State>(to.state, unit + j * w);
+        felt[j] = read<Felt, V, felt_values<V, R>>(c.state, unit + j * w);
+        felt[j].I = r[j]->current(felt[j]);
+        s[j] = read<Own, V, own_values<V, N>>(to.state, unit + j * w);
         fired[j] = {to.fired, unit + j * w};
     });
     const Force<feed, V> force(c, unit);
     FiringList<V>& list = *to.fired;
     Asking asking = asked;
-    for (int t = 0, steps = c.steps; t < steps; ++t) {
+    for (int t = 0, steps = once ? 1 : c.steps; t < steps; ++t) {
         list.step = t;
-        if constexpr (feed != Feed::profile) asking.some();
+        if constexpr (feed != Feed::profile && !once) asking.some();
         Current<T> i[J];
         each_of<J>([&](auto j) __attribute__((always_inline)) {
             const T before = felt[j].I;
@@ -45,24 +55,44 @@ void feel(const TransductionCall<V>& c, const NeuronCall<V>& to, int unit, Askin
     }
     asked = asking;
     each_of<J>([&](auto j) __attribute__((always_inline)) {
-        write(felt[j], c.state, unit + j * w);
-        write(s[j], to.state, unit + j * w);
+        write<Felt, V, felt_values<V, R>>(felt[j], c.state, unit + j * w);
+        write<Own, V, own_values<V, N>>(s[j], to.state, unit + j * w);
     });
 }
 
-template <class V, class R, class N, Feed feed>
+template <class V, class R, class N, Feed feed, Method method, int J>
+[[gnu::noinline]] void feel_steps(const TransductionCall<V>& c, const NeuronCall<V>& to, int unit, Asking& asked) {
+    feel<V, R, N, feed, method, J, false>(c, to, unit, asked);
+}
+
+template <class V, class R, class N, Feed feed, Method method, bool once = false>
 void feel_tile(const TransductionCall<V>& c, const NeuronCall<V>& to) {
     constexpr int J = 2;
     Asking asking(c.ahead, rounds<V, J>(c));
-    for (int unit = 0; unit < c.units; unit += J * width<V>)
-        c.method == Method::exact ? feel<V, R, N, feed, Method::exact, J>(c, to, unit, asking)
-                                  : feel<V, R, N, feed, Method::backward_euler, J>(c, to, unit, asking);
+    for (int unit = 0; unit < c.units; unit += J * width<V>) {
+        if constexpr (once)
+            feel<V, R, N, feed, method, J, true>(c, to, unit, asking);
+        else
+            feel_steps<V, R, N, feed, method, J>(c, to, unit, asking);
+    }
 }
+template <class V, class R, class N, Feed feed>
+void feel_tile(const TransductionCall<V>& c, const NeuronCall<V>& to) {
+    c.method == Method::exact ? feel_tile<V, R, N, feed, Method::exact>(c, to) : feel_tile<V, R, N, feed, Method::backward_euler>(c, to);
+}
+/// A single step of rows, which a live skin takes, has a loop of its own: what goes before and after it is as much as the step.
 template <class V, class R, class N>
 void feel_tile(const TransductionCall<V>& c, const NeuronCall<V>& to) {
+    if (c.feed == Feed::rows && c.steps == 1 && c.method == Method::exact)
+        return feel_tile<V, R, N, Feed::rows, Method::exact, true>(c, to);
     if (c.feed == Feed::rows) feel_tile<V, R, N, Feed::rows>(c, to);
     if (c.feed == Feed::words) feel_tile<V, R, N, Feed::words>(c, to);
     if (c.feed == Feed::profile) feel_tile<V, R, N, Feed::profile>(c, to);
+}
+
+template <class V, class R>
+void settle_felt(const TransductionCall<V>& c) {
+    settle<V, R, TransductionCall<V>, felt_values<V, R>>(c);
 }
 
 template <class N>

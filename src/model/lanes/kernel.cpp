@@ -12,7 +12,7 @@ namespace {
 template <class V, class R, class N>
 constexpr JoinedLanes<V> joined_lanes() {
     if constexpr (joins<R, N>)
-        return {none_waits<N>, feel_tile<V, R, N>};
+        return {none_waits<N>, settle_felt<V, R>, feel_tile<V, R, N>};
     else
         return {};
 }

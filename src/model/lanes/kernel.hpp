@@ -87,6 +87,7 @@ struct NeuronCall {
 template <class V>
 struct JoinedLanes {
     bool (*suits)(const std::byte* neurons, std::size_t count);     ///< whether it may be used with these models
+    void (*settle)(const TransductionCall<V>&);                     ///< the receptors'
     void (*run)(const TransductionCall<V>&, const NeuronCall<V>&);  ///< uses nothing of their currents
 };
 

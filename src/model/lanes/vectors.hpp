@@ -56,19 +56,25 @@ const M& model(const std::byte* models, std::size_t stride, int vector) {
     return *reinterpret_cast<const M*>(models + stride * static_cast<std::size_t>(vector));
 }
 
-/// A state among those of its tile, value by value. Through a copy: what a loop works on has no address, so it can be registers.
+/// How many values a state has.
 template <class S, class V>
+inline constexpr std::size_t values_of = sizeof(S) / sizeof(Batch<V>);
+
+/// A state among those of its tile, value by value, or only its first ones, and 0 for the others. Through a copy: what a loop works on
+/// has no address, so it can be registers.
+template <class S, class V, std::size_t kept = values_of<S, V>>
 [[gnu::always_inline]] inline S read(const V* state, int unit) {
     return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
-        return S{load(state + k * tile_units + unit)...};
-    }(std::make_index_sequence<sizeof(S) / sizeof(Batch<V>)>{});
+        return S{(k < kept ? load(state + k * tile_units + unit) : Batch<V>(V(0)))...};
+    }(std::make_index_sequence<values_of<S, V>>{});
 }
-template <class S, class V>
+/// Back to where it was; of `kept` only the first.
+template <class S, class V, std::size_t kept = values_of<S, V>>
 [[gnu::always_inline]] inline void write(const S& s, V* state, int unit) {
-    constexpr auto values = sizeof(S) / sizeof(Batch<V>);
+    constexpr auto values = values_of<S, V>;
     const auto put = [&](const auto&... value) __attribute__((always_inline)) {
-        int k = 0;
-        (value.store_aligned(state + k++ * tile_units + unit), ...);
+        std::size_t k = 0;
+        ((k < kept ? value.store_aligned(state + k * tile_units + unit) : void(), ++k), ...);
     };
     static_assert(values <= 5);
     if constexpr (values == 1) {
@@ -89,14 +95,14 @@ template <class S, class V>
     }
 }
 
-/// Lets go of what has faded in a tile's states of one part.
-template <class V, class M, class Call>
+/// Lets go of what has faded in a tile's states of one part, of which `kept` values are used.
+template <class V, class M, class Call, std::size_t kept = values_of<typename M::State, V>>
 void settle(const Call& c) {
     if constexpr (requires(const M& m, typename M::State& s) { m.settle(s); })
         for (int unit = 0; unit < tile_units; unit += width<V>) {
-            auto s = read<typename M::State>(c.state, unit);
+            auto s = read<typename M::State, V, kept>(c.state, unit);
             model<M>(c.models, c.stride, unit / width<V>).settle(s);
-            write(s, c.state, unit);
+            write<typename M::State, V, kept>(s, c.state, unit);
         }
 }
 

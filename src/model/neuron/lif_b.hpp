@@ -39,6 +39,7 @@ struct LifB : LifBFacts {
     struct State {
         T q, wait;  // charge; what is left of t_ref, in steps
     };
+    static constexpr std::size_t values_of_waiting = 1;  ///< at its end: 0 where may_wait() is false
 
     template <class Values>
     LifB(const Values& value, double dt, Method)

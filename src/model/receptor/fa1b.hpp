@@ -40,11 +40,11 @@ struct Fa1b : Fa1bFacts {
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         const T before = s.I;
         s.x = filter.next(s.x, F - s.F);
-        s.F = F;
-        s.I = k_A * num::positive(s.x) + k_B * num::positive(-s.x);
+        s.F = F, s.I = current(s);
         i[0] = {hold ? before : s.I, s.I};
     }
-    void settle(State& s) const { s.x = settled(s.x, faded_force); }
+    T current(const State& s) const { return k_A * num::positive(s.x) + k_B * num::positive(-s.x); }
+    void settle(State& s) const { s.x = settled(s.x, faded_force), s.I = current(s); }
     void show(const State& s, T (&out)[2]) const { out[0] = k_A * num::positive(s.x), out[1] = k_B * num::positive(-s.x); }
 
 private:

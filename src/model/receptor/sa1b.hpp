@@ -46,11 +46,14 @@ struct Sa1b : Sa1bFacts {
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         const T dF = F - s.F, before = s.I;
         s.I_B = B.next(s.I_B, dF), s.I_C = C.next(s.I_C, dF);
-        s.I = k_A * F + num::positive(s.I_B) + num::positive(s.I_C);
-        s.F = F;
+        s.F = F, s.I = current(s);
         i[0] = {hold ? before : s.I, s.I};
     }
-    void settle(State& s) const { s.I_B = settled(s.I_B, faded_current), s.I_C = settled(s.I_C, faded_current); }
+    T current(const State& s) const { return k_A * s.F + num::positive(s.I_B) + num::positive(s.I_C); }
+    void settle(State& s) const {
+        s.I_B = settled(s.I_B, faded_current), s.I_C = settled(s.I_C, faded_current);
+        s.I = current(s);
+    }
     void show(const State& s, T (&out)[3]) const { out[0] = k_A * s.F, out[1] = s.I_B, out[2] = s.I_C; }
 
 private:

@@ -42,11 +42,13 @@ struct Vibration : VibrationFacts {
     State start(T F) const { return {F, T(0.0), T(0.0), T(0.0), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         const T before = s.I, x_1 = high.next(s.x_1, F - s.F), x_2 = high.next(s.x_2, x_1 - s.x_1), x_3 = low.next(s.x_3, x_2 - s.x_2);
-        s = {F, x_1, x_2, x_3, k * num::positive(x_2 - x_3)};  // a low-pass is what a high-pass leaves
+        s.F = F, s.x_1 = x_1, s.x_2 = x_2, s.x_3 = x_3, s.I = current(s);
         i[0] = {hold ? before : s.I, s.I};
     }
+    T current(const State& s) const { return k * num::positive(s.x_2 - s.x_3); }  // a low-pass is what a high-pass leaves
     void settle(State& s) const {
         s.x_1 = settled(s.x_1, faded_force), s.x_2 = settled(s.x_2, faded_force), s.x_3 = settled(s.x_3, faded_force);
+        s.I = current(s);
     }
 
 private:

@@ -1,0 +1,73 @@
+// Receptive fields on SIMD lanes. Compiled once for each instruction set, CORPUSCLE_ISA; what is made here must not leave this file but
+// for one table.
+
+#include "skin/lanes/kernel.hpp"
+
+#include "signal/number.hpp"
+
+namespace corpuscle::lanes {
+namespace {
+
+using T = num::Lanes<double>;
+constexpr std::size_t width = T::size;
+constexpr std::size_t vectors = 8;  // of sums that stay in registers
+
+void add_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* eights, const double* weights, const double* now,
+              double* sums) {
+    constexpr std::size_t units = 64, a_row = units / eight, at_once = vectors * width;
+    for (std::size_t u = 0; u < units; u += at_once) {
+        T sum[vectors];
+        for (auto& s : sum) s = T(0.0);
+        for (std::size_t k = 0; k < rows; ++k) {
+            const double* const f = now + row[k] + u;
+            for (std::size_t i = 0; i < vectors; ++i) {
+                const double* const w = weights + eights[k * a_row + (u + i * width) / eight] + i * width % eight;
+                sum[i] = sum[i] + T::load_aligned(w) * T::load_unaligned(f + i * width);
+            }
+        }
+        for (std::size_t i = 0; i < vectors; ++i) sum[i].store_aligned(sums + u + i * width);
+    }
+}
+
+void add_site(const std::uint32_t* unit, const double* weight, std::size_t count, const double* force, std::size_t steps, double* sums,
+              std::size_t stride) {
+    const std::size_t whole = steps / width * width;
+    for (std::size_t k = 0; k < count; ++k) {
+        double* const sum = sums + unit[k] * stride;
+        const T w(weight[k]);
+        for (std::size_t t = 0; t < whole; t += width)
+            (T::load_unaligned(sum + t) + w * T::load_unaligned(force + t)).store_unaligned(sum + t);
+        for (std::size_t t = whole; t < steps; ++t) sum[t] += weight[k] * force[t];
+    }
+}
+
+void add_unit(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* of, std::size_t steps,
+              double* column, std::size_t stride) {
+    constexpr std::size_t at_once = 16;  // steps: how many come is a multiple of it, mostly
+    std::size_t from = 0;
+    for (; from + at_once <= steps; from += at_once) {
+        T sum[at_once / width];
+        for (auto& s : sum) s = T(0.0);
+        for (std::size_t k = 0; k < count; ++k) {
+            const double* const f = of[site[k]] + from;
+            const T w(weight[k]);
+            for (std::size_t i = 0; i < at_once / width; ++i) sum[i] = sum[i] + w * T::load_unaligned(f + i * width);
+        }
+        alignas(64) double sums[at_once];
+        for (std::size_t i = 0; i < at_once / width; ++i) sum[i].store_aligned(sums + i * width);
+        for (std::size_t t = 0; t < at_once; ++t) column[(from + t) * stride] = sums[t];
+    }
+    for (; from < steps; ++from) {
+        double sum = 0;
+        for (std::size_t k = 0; k < count; ++k) sum += weight[k] * of[site[k]][from];
+        column[from * stride] = sum;
+    }
+}
+
+}  // namespace
+
+namespace CORPUSCLE_ISA {
+const FieldLanes fields{add_rows, add_site, add_unit};
+}
+
+}  // namespace corpuscle::lanes
