@@ -9,145 +9,29 @@
 // the last core; what sends and what reads are threads of this program on the others, so that it has one core and no more.
 //
 // With delay, program and sender wait without sleeping (--spin), so that what a machine takes to wake a thread is not in it.
-// delay, sleep, share, together, noise: frames are binary float32 through a pipe (together: TCP), each written when it is due by the clock (clock_nanosleep
-// to absolute times); events are binary through another pipe. The delay of a frame is from just before its write to the read that brought
-// its first spike; a frame without a spike has none, but is counted by the program, which tells at the end how many it answered and what it
-// measured itself, of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same ticks and notes how late
-// it wakes: what the machine does to anybody. Every site feels something at every frame (noise of some mN, so that no afferent can be
-// passed over), and a round contact moves over the skin; but with share and together a fingertip rubs the palm in circles of 1 cm, and
-// nothing else touches. Told is the program's time, user and system, after the seconds in which its skin is built. soak holds every byte
-// that comes against what the same frames give in this process.
+// delay, sleep, share, together, noise: frames are binary float32 through a pipe (together: TCP), each written when it is due by the clock
+// (clock_nanosleep to absolute times); events are binary through another pipe. The delay of a frame is from just before its write to the
+// read that brought its first spike; a frame without a spike has none, but is counted by the program, which tells at the end how many it
+// answered and what it measured itself, of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same
+// ticks and notes how late it wakes: what the machine does to anybody. Every site feels something at every frame (noise of some mN, so that
+// no afferent can be passed over), and a round contact moves over the skin; but with share and together a fingertip rubs the palm in
+// circles of 1 cm, and nothing else touches. Told is the program's time, user and system, after the seconds in which its skin is built.
+// soak holds every byte that comes against what the same frames give in this process.
 
-#include <arpa/inet.h>
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <netinet/tcp.h>
-#include <poll.h>
-#include <sched.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
-#include <cmath>
 #include <csignal>
-#include <cstring>
-#include <ctime>
-#include <fstream>
-#include <thread>
 
-#include "io/address_events.hpp"
 #include "live/delays.hpp"
-#include "live/frame_source.hpp"
 #include "live/live_population.hpp"
-#include "live/network.hpp"
 #include "live/skin_stream.hpp"
-#include "signal/random.hpp"
+#include "live_program.hpp"
 
 namespace {
 
 using namespace corpuscle;
 
-void bind_to(int first, int last) {
-    cpu_set_t cores;
-    CPU_ZERO(&cores);
-    for (int c = first; c <= last; ++c) CPU_SET(static_cast<std::size_t>(c), &cores);
-    ::sched_setaffinity(0, sizeof cores, &cores);
-}
-
-void sleep_until(std::int64_t ns) {
-    const timespec at = {ns / 1'000'000'000, ns % 1'000'000'000};
-    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
-    }
-}
-
 constexpr int start_up = 3;  // s in which the program builds its skin and warms up
-
-/// Frames of one second, over and over: a contact that goes round, of `turn_radius` (0: over much of the skin), and noise.
-std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise, double turn_radius = 0) {
-    const auto& sites = plan.sites;
-    const double felt = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;  // N at a site that a unit feels as 1 N
-    std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
-    Position low = sites.at[0], high = low;
-    for (const auto& p : sites.at)
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    for (int k = 0; k < rate; ++k) {
-        const double turn = 6.283185307179586 * k / rate;
-        const double x = (low.x + high.x) / 2 + (turn_radius > 0 ? turn_radius : (high.x - low.x) / 4) * std::cos(turn),
-                     y = (low.y + high.y) / 2 + (turn_radius > 0 ? turn_radius : (high.y - low.y) / 4) * std::sin(turn);
-        for (std::size_t s = 0; s < sites.size(); ++s) {
-            const double d2 = (sites.at[s].x - x) * (sites.at[s].x - x) + (sites.at[s].y - y) * (sites.at[s].y - y);
-            const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
-            out[static_cast<std::size_t>(k) * sites.size() + s] =
-                static_cast<float>(felt * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +
-                                           (noise ? 1e-3 + 4e-3 * unit_interval(w[0], w[1]) : 0)));
-        }
-    }
-    return out;
-}
-
-/// The program at work.
-struct Program {
-    pid_t pid = 0;
-    Descriptor in, out, err;
-    rusage used = {};
-
-    Program(const std::string& path, std::vector<std::string> words, int core) {
-        int pipes[3][2];
-        for (auto& p : pipes)
-            if (::pipe2(p, O_CLOEXEC) != 0) std::exit(1);
-        ::fcntl(pipes[0][0], F_SETPIPE_SZ, 1 << 20);
-        words.insert(words.begin(), {path, "stream"});
-        std::vector<char*> arguments;
-        for (auto& w : words) arguments.push_back(w.data());
-        arguments.push_back(nullptr);
-        if ((pid = ::fork()) == 0) {
-            bind_to(core, core);
-            ::dup2(pipes[0][0], 0), ::dup2(pipes[1][1], 1), ::dup2(pipes[2][1], 2);
-            ::execv(arguments[0], arguments.data());
-            ::_exit(127);
-        }
-        in = Descriptor(pipes[0][1]), out = Descriptor(pipes[1][0]), err = Descriptor(pipes[2][0]);
-        ::close(pipes[0][0]), ::close(pipes[1][1]), ::close(pipes[2][1]);
-    }
-    int wait() {
-        int status = 0;
-        ::wait4(pid, &status, 0, &used);
-        return WEXITSTATUS(status);
-    }
-    std::string told(int fd) const {
-        std::string all;
-        char piece[4096];
-        for (ssize_t n = 0; (n = ::read(fd, piece, sizeof piece)) > 0;) all.append(piece, static_cast<std::size_t>(n));
-        return all;
-    }
-    /// s of processor until now, its own and the system's for it.
-    double so_far() const {
-        std::ifstream in(fmt::format("/proc/{}/stat", pid));
-        std::string word;
-        double user = 0, system = 0;
-        for (int k = 1; k < 14; ++k) in >> word;
-        in >> user >> system;
-        return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-    }
-    double seconds() const {
-        const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-        return s(used.ru_utime) + s(used.ru_stime);
-    }
-};
-
-/// To where a program says that it listens.
-Descriptor connected_to(const Program& child) {
-    pollfd wait = {child.err.get(), POLLIN, 0};
-    ::poll(&wait, 1, 10000);
-    std::string said(200, '\0');
-    said.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), said.data(), said.size()))));
-    const auto at = said.find("127.");
-    auto to = at < said.size() ? connected_socket(*parse_endpoint(said.substr(at, said.find('\n') - at)), 5000)
-                               : Result<Descriptor>(bad_input("it does not listen: " + said));
-    if (!to) fmt::print("{}\n", to.error().text()), std::exit(1);
-    ::fcntl(to->get(), F_SETFL, 0);
-    return std::move(*to);
-}
 
 std::string row(const char* name, const Delays& d) {
     std::uint64_t within = 0;
@@ -184,69 +68,6 @@ Delays idle_loop(int rate, int seconds) {
     }
     return late;
 }
-
-/// Frames, each when it is due; when each began to be written.
-class Sender {
-    const std::vector<float>& second_;
-    std::size_t sites_;
-    int rate_;
-    bool numbered_;
-    std::vector<char> bytes_;
-    std::int64_t begin_ = steady_now() + 10'000'000;
-
-public:
-    std::vector<std::int64_t> at;
-
-    Sender(const std::vector<float>& second, std::size_t sites, int rate, std::int64_t count, bool numbered)
-        : second_(second), sites_(sites), rate_(rate), numbered_(numbered), bytes_(4 + sites * sizeof(float)),
-          at(static_cast<std::size_t>(count)) {}
-    std::int64_t due(std::int64_t k) const { return begin_ + k * 1'000'000'000 / rate_; }
-    std::int64_t sent(std::int64_t k) const { return __atomic_load_n(&at[static_cast<std::size_t>(k)], __ATOMIC_ACQUIRE); }
-    void send(int fd, std::int64_t k) {
-        const auto number = static_cast<std::uint32_t>(k);
-        std::memcpy(bytes_.data(), &number, 4);
-        std::memcpy(bytes_.data() + 4, second_.data() + static_cast<std::size_t>(k % rate_) * sites_, sites_ * sizeof(float));
-        std::string_view left(bytes_.data(), bytes_.size());
-        if (!numbered_) left.remove_prefix(4);
-        __atomic_store_n(&at[static_cast<std::size_t>(k)], steady_now(), __ATOMIC_RELEASE);
-        while (!left.empty()) {
-            const auto n = ::write(fd, left.data(), left.size());
-            if (n < 0) return;
-            left.remove_prefix(static_cast<std::size_t>(n));
-        }
-    }
-    void send_all(int fd) {
-        for (std::int64_t k = 0; k < static_cast<std::int64_t>(at.size()); ++k) sleep_until(due(k)), send(fd, k);
-    }
-};
-
-/// Events as they come; each() is called with every one and when it was read.
-template <class Each>
-class Reader {
-    int fd_;
-    std::size_t header_, filled_ = 0;
-    Each each_;
-    std::vector<char> buffer_ = std::vector<char>(1 << 20);
-
-public:
-    Reader(int fd, std::size_t header, Each each) : fd_(fd), header_(header), each_(std::move(each)) {}
-    /// What one read gives; false at the end, or if there is nothing yet where reading does not wait.
-    bool read() {
-        const auto n = ::read(fd_, buffer_.data() + filled_, buffer_.size() - filled_);
-        if (n <= 0) return false;
-        const auto now = steady_now();
-        filled_ += static_cast<std::size_t>(n);
-        std::size_t at = std::min(header_, filled_);
-        header_ -= at;
-        for (; filled_ - at >= address_events::spike_bytes; at += address_events::spike_bytes) {
-            address_events::Packed spike;
-            std::memcpy(&spike, buffer_.data() + at, sizeof spike);
-            each_(spike, now);
-        }
-        std::memmove(buffer_.data(), buffer_.data() + at, filled_ -= at);
-        return true;
-    }
-};
 
 std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     auto plan = plan_live(population, 1);

@@ -1,145 +1,20 @@
 // corpuscle stream with real pipes and sockets, and what goes wrong with them: nothing crashes, nothing hangs, all is counted and told.
 
-#include <arpa/inet.h>
-#include <fcntl.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <pty.h>
 #include <sys/ioctl.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <termios.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "io/spikes.hpp"
-#include "support/program.hpp"
+#include "stream_child.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
 using test::sure;
-
-/// The program at work, its three streams in our hands; standard error in a file.
-class Child {
-    pid_t pid_ = -1;
-    std::string err_;
-
-public:
-    int in = -1, out = -1;
-
-    Child(const Folder& folder, std::vector<std::string> words) : err_(folder / "err") {
-        int to[2], from[2];
-        if (::pipe2(to, O_CLOEXEC) != 0 || ::pipe2(from, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-        words.insert(words.begin(), {test::program(), "stream"});
-        std::vector<char*> arguments;
-        for (auto& w : words) arguments.push_back(w.data());
-        arguments.push_back(nullptr);
-        std::ofstream(err_).close();
-        pid_ = ::fork();
-        if (pid_ == 0) {
-            const int err = ::open(err_.c_str(), O_WRONLY | O_APPEND);
-            ::dup2(to[0], 0), ::dup2(from[1], 1), ::dup2(err, 2);
-            ::execv(arguments[0], arguments.data());
-            ::_exit(127);
-        }
-        ::close(to[0]), ::close(from[1]);
-        in = to[1], out = from[0];
-    }
-    ~Child() {
-        ::close(in), ::close(out);
-        if (pid_ > 0) ::kill(pid_, SIGKILL), ::waitpid(pid_, nullptr, 0);
-    }
-    void close_in() { ::close(in), in = -1; }
-    void close_out() { ::close(out), out = -1; }
-    void send(std::string_view text) const {
-        while (!text.empty()) {
-            const auto count = ::write(in, text.data(), text.size());
-            if (count < 0) return;
-            text.remove_prefix(static_cast<std::size_t>(count));
-        }
-    }
-    void interrupt() const { ::kill(pid_, SIGINT); }
-    std::string told() const { return test::read_file(err_); }
-    /// All that it writes, until it closes.
-    std::string read_out() const {
-        std::string all;
-        char piece[65536];
-        for (ssize_t count = 0; (count = ::read(out, piece, sizeof piece)) > 0;) all.append(piece, static_cast<std::size_t>(count));
-        return all;
-    }
-    /// Its exit status; -1 if it hangs, 128 and more if a signal ended it.
-    int wait() {
-        for (int k = 0; k < 2000; ++k) {
-            int status = 0;
-            if (::waitpid(pid_, &status, WNOHANG) == pid_) {
-                pid_ = -1;
-                return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        return -1;
-    }
-    /// Until it has said this; false if it never does.
-    bool said(const std::string& text) const {
-        for (int k = 0; k < 2000; ++k) {
-            if (told().find(text) != std::string::npos) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        return false;
-    }
-    int port() const {
-        EXPECT_TRUE(said("listening on 127.0.0.1:")) << told();
-        return std::stoi(told().substr(told().find("127.0.0.1:") + 10));
-    }
-};
-
-void before() { std::signal(SIGPIPE, SIG_IGN); }
-
-sockaddr_in here(int port) {
-    sockaddr_in at = {};
-    at.sin_family = AF_INET, at.sin_port = htons(static_cast<std::uint16_t>(port)), at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    return at;
-}
-
-int connected(int port) {
-    const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const auto at = here(port);
-    EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
-    return fd;
-}
-
-/// A door of our own, and its port.
-std::pair<int, int> listening(int port = 0) {
-    const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const int yes = 1;
-    ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    auto at = here(port);
-    socklen_t size = sizeof at;
-    EXPECT_EQ(::bind(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
-    EXPECT_EQ(::listen(fd, 8), 0);
-    ::getsockname(fd, reinterpret_cast<sockaddr*>(&at), &size);
-    return {fd, ntohs(at.sin_port)};
-}
-
-std::string some_lines(int count, int first = 0) {
-    std::string text;
-    for (int k = first; k < first + count; ++k) text += std::to_string(k % 400 < 100 ? 0 : 2) + "\n";
-    return text;
-}
-
-const std::vector<std::string> plain = {"--rate", "1kHz"};
-
-std::vector<std::string> with(std::vector<std::string> more) {
-    more.insert(more.begin(), plain.begin(), plain.end());
-    return more;
-}
 
 TEST(StreamProgram, AnswersInPiecesAsInOneAndEachFrameWithoutWaitingForTheNext) {
     before();
