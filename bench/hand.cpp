@@ -9,8 +9,7 @@
 // flat disk of 40 mm standing on the palm under a sine; and noise on every site, so that no afferent ever rests: the worst there can be.
 // The peak of memory is the whole process's, after all.
 //
-// TouchSim's whole hand, as measured elsewhere: 3.9 to 5 s of processor for a second of touch, 2.7 GB, 12,519 units; see doc/skin.md
-// for what it pays for that this does not.
+// Beside TouchSim: peers/touchsim_hand.py; doc/skin.md says what that pays for that this does not.
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""A fingertip strokes the hand: how much processor and memory does a second of touch take, ours and TouchSim's (Saal et al., PNAS 2017)?
+
+    touchsim_hand.py CORPUSCLE [--rounds N] [--seconds S] [--rate HZ] [--pitch MM] [--part UNITS] [--noise]
+
+Method: in each round, one after another, each in a process of its own on one core: `corpuscle respond stroke --population hand` for its
+10 s, and TouchSim for the first S of them, all units at once (as one calls it) and UNITS at a time (smaller arrays: kinder to caches and
+memory). Middles are told, and of ratios the least and most. Ours is the whole command: it builds the hand, answers, writes its files.
+TouchSim's is Stimulus() and response() alone; its import (numba compiles then), its afferents and a first small run are told apart. Peaks
+of memory are whole processes'; what TouchSim's had taken before it began is told.
+
+The same: places and classes (our sa1 is its SA1, fa1 RA, fa2 PC), the sphere, its path and speed, and how many samples a second go in.
+Not the same: TouchSim has no SA-II, so ours has more units. It takes millimetres: pins on a lattice as fine as our sites, only where this
+contact comes, each sunk by max(0, d - r^2/2R), where d is how deep our Hertz contact is under the stroke's force; its own mechanics let go
+of pins that would pull, which leaves Hertz's circle, and its newtons follow from its own skin. That skin is an endless plane here: finding
+the waves' ways round its hand's outline, or its usual ten pins a millimetre, would cost more. Whatever goes in, its neurons step at 5 kHz;
+ours step as the samples do. Its noise is off unless --noise.
+"""
+import argparse
+import csv
+import importlib.util
+import json
+import os
+import random
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+import warnings
+from pathlib import Path
+
+CLASSES = {"sa1": "SA1", "fa1": "RA", "fa2": "PC"}
+ONE_CORE = {f"{who}_NUM_THREADS": "1" for who in ("NUMBA", "OPENBLAS", "OMP", "MKL")}
+
+
+def ran(command):
+    """Processor's and real seconds, peak MB and output of a process."""
+    began = time.perf_counter()
+    with tempfile.TemporaryFile("w+") as said:
+        process = subprocess.Popen([str(word) for word in command], stdout=said, env=os.environ | ONE_CORE)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode:
+            raise SystemExit(f"{command[0]} ended with status {process.returncode}")
+        said.seek(0)
+        return used.ru_utime + used.ru_stime, time.perf_counter() - began, used.ru_maxrss / 1024, said.read()
+
+
+def touchsim(folder, given):
+    """TouchSim under the stroke that this folder of ours tells; in a process of its own, which prints what it took as JSON."""
+    warnings.simplefilter("ignore")
+    import numpy as np
+    import touchsim as ts
+    p = {name: said["value"] for name, said in json.loads((folder / "summary.json").read_text())["input"]["parameters"].items()}
+    R, E, t = 1e3 * p["contact.radius"], 1e-6 * p["contact.E_star"], np.arange(round(given.seconds * given.rate)) / given.rate  # mm, MPa, s
+    depth = np.cbrt(9 * (p["ramp-hold.F_max"] * np.minimum(1, t / p["ramp-hold.t_up"])) ** 2 / (16 * R * E**2))
+    start, end = (1e3 * np.array([p["contact.x" + n], p["contact.y" + n]]) for n in ("", "1"))
+    path = start + np.outer(t / p["contact.t_move"], end - start)
+    low, high = ((path.min(0), path.max(0)) + np.sqrt(2 * R * depth.max()) * np.array([[-1], [1]])) // given.pitch
+    lattice = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1))
+    pins = given.pitch * (np.stack(lattice, -1).reshape(-1, 2) + 0.5)
+    sunk = np.maximum(0, depth - ((pins[:, None] - path) ** 2).sum(-1) / (2 * R))
+    pins, sunk = pins[sunk.any(1)], sunk[sunk.any(1)]
+    random.seed(0)  # each afferent is one of the few that were fitted
+    units = [(u["afferent"].split("#")[0], float(u["x_mm"]), float(u["y_mm"])) for u in csv.DictReader((folder / "units.csv").open())]
+    skin = ts.AfferentPopulation(*[ts.Afferent(CLASSES[c], location=[x, y], noisy=given.noise) for c, x, y in units if c in CLASSES])
+
+    def answer(skin, samples):
+        stroke = ts.Stimulus(trace=sunk[:, :samples], location=pins, fs=given.rate, pin_radius=given.pitch / 2)
+        part = given.part or len(skin)
+        return stroke, [train for k in range(0, len(skin), part) for train in skin[k:k + part].response(stroke).spikes]
+
+    answer(skin[:100], round(0.1 * given.rate))
+    before, real = resource.getrusage(resource.RUSAGE_SELF), time.perf_counter()
+    stroke, trains = answer(skin, t.size)
+    after, real = resource.getrusage(resource.RUSAGE_SELF), time.perf_counter() - real
+    kernel, user = after.ru_stime - before.ru_stime, after.ru_utime - before.ru_utime
+    far = np.hypot(*(skin.location[:, None] - path[::20]).T).min(0)  # from the path, mm
+    said = []
+    for c in CLASSES.values():
+        fired = [(len(train), d) for a, train, d in zip(skin.affclass, trains, far) if a == c and len(train)]
+        spikes, off = sum(k for k, _ in fired), np.median([d for _, d in fired] or [0])
+        said.append(f"{c} {spikes} spikes of {len(fired)} units, half of these within {off:.0f} mm")
+    print(json.dumps({
+        "cpu": (user + kernel) / given.seconds, "kernel": kernel / given.seconds, "real": real / given.seconds,
+        "units": len(skin), "steps": 5000 * len(skin),
+        "spikes": sum(map(len, trains)) / given.seconds, "apart": before.ru_utime + before.ru_stime, "before": before.ru_maxrss / 1024,
+        "pressed": f"{len(pins)} pins, up to {depth.max():.2f} mm deep, {np.median(stroke._profile.sum(1)):.2f} N by its mechanics",
+        "fired": "; ".join(said)}))
+
+
+def middle(runs):
+    return {name: value if isinstance(value, str) else statistics.median(run[name] for run in runs) for name, value in runs[0].items()}
+
+
+def row(who, runs):
+    m = middle(runs)
+    print(f"{who:<36}{m['cpu']:9.4f}{m['real']:9.4f}{m['peak']:9.0f}{m['units']:8.0f}{m['steps']:10.2g}{m['spikes']:9.0f}")
+
+
+def main():
+    words = argparse.ArgumentParser()
+    words.add_argument("corpuscle")
+    words.add_argument("--rounds", type=int, default=5)
+    words.add_argument("--seconds", type=float, default=1, help="of the stroke, for TouchSim; its memory goes with them")
+    words.add_argument("--rate", type=float, default=1000, help="of samples, for both, Hz")
+    words.add_argument("--pitch", type=float, default=2, help="of TouchSim's pins, mm")
+    words.add_argument("--part", type=int, default=100, help="how many of TouchSim's units at a time")
+    words.add_argument("--noise", action="store_true", help="TouchSim's")
+    words.add_argument("--within", type=Path, help=argparse.SUPPRESS)
+    given = words.parse_args()
+    if given.within:
+        return touchsim(given.within, given)
+    there = importlib.util.find_spec("touchsim") is not None
+    ours, theirs = [], {0: [], given.part: []}
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        for _ in range(given.rounds):
+            stroke = ["respond", "stroke", "--population", "hand", "--rate", given.rate, "--threads", 1, "--quiet", "--out", folder]
+            cpu, real, peak, _ = ran([given.corpuscle, *stroke])
+            said = json.loads((folder / "summary.json").read_text())
+            work, s = said["work"], said["input"]["samples"] / said["input"]["rate_Hz"]
+            ours.append({"cpu": cpu / s, "real": real / s, "peak": peak, "units": said["skin"]["units"], "spikes": work["spikes"] / s,
+                         "steps": (work["afferent_steps"] + work["at_rest"]) / s, "worked": work["afferent_steps"] / s})
+            for part, runs in theirs.items() if there else ():
+                same = [word for name in ("seconds", "rate", "pitch") for word in ("--" + name, getattr(given, name))]
+                same += ["--noise"] * given.noise
+                _, _, peak, told = ran([sys.executable, __file__, given.corpuscle, "--within", folder, "--part", part, *same])
+                runs.append(json.loads(told) | {"peak": peak})
+        heard = csv.DictReader((folder / "spikes.csv").open())
+        first = [u["afferent"].split("#")[0] for u in heard if float(u["time_s"]) < given.seconds]
+    print("one core, of a second of touch         cpu s   real s  peak MB   units     steps   spikes")
+    row("corpuscle, a stroke over the hand", ours)
+    print(f"    {ours[0]['worked']:.2g} steps worked out, the others passed over; in the first {given.seconds:g} s "
+          + ", ".join(f"{name} {first.count(name)}" for name in sorted(set(first))) + " spikes")
+    if not there:
+        print("TouchSim is not here: pip install git+https://github.com/hsaal/touchsim, or put a checkout of it into PYTHONPATH.")
+    for part, runs in theirs.items() if there else ():
+        row("TouchSim, " + (f"{part} units at a time" if part else "all units at once"), runs)
+        m, ratios = middle(runs), [run["cpu"] / mine["cpu"] for run, mine in zip(runs, ours)]
+        print(f"    {m['kernel']:.1f} s of it in the kernel; before it began {m['apart']:.1f} s and {m['before']:.0f} MB")
+        print(f"    over ours: processor {statistics.median(ratios):.0f} ({min(ratios):.0f} to {max(ratios):.0f}, {given.rounds} rounds), "
+              f"memory {m['peak'] / middle(ours)['peak']:.1f}")
+    if there:
+        print(f"under TouchSim {m['pressed']}; from the path:\n    {m['fired']}")
+
+
+main()
