@@ -7,9 +7,15 @@
 namespace corpuscle::lanes {
 namespace {
 
-/// Pairs that go in one loop: one current, which begins where it ended, and a neuron that can tell at a glance that nothing happens.
+/// Pairs that go in one loop: one current, which begins where it ended and follows from the rest of the state, and a neuron that can
+/// tell at a glance that nothing happens.
 template <class R, class N>
-inline constexpr bool joins = continuous<R> && R::outputs == 1 && requires { R::keeps_strays; } && requires(const N& n) { n.may_wait(); };
+inline constexpr bool joins = continuous<R> && R::outputs == 1 && requires(const R& r, const typename R::State& s, const N& n) {
+    R::keeps_strays;
+    r.current(s);
+    n.may_wait();
+    N::values_of_waiting;
+};
 
 /// Of a state that is used here: what flowed last follows from the rest, and nobody waits. Memory is what a single step takes.
 template <class V, class R>
