@@ -48,6 +48,8 @@ public:
         return counts;
     }
 
+    void hurry() override { source_->enough(1); }
+
     Result<bool> receive() override {
         const auto came = source_->read(decoder_.room());
         if (!came) return came.error();

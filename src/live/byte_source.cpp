@@ -40,15 +40,19 @@ class Listener final : public ByteSource {
         ++clients_;
         const int yes = 1;
         ::setsockopt(client_.get(), SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);  // one whose machine has died goes, too
-        ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &enough_, sizeof enough_);
+        wake_at_enough();
         return {Came::nothing};
     }
+    void wake_at_enough() const { ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &enough_, sizeof enough_); }
 
 public:
     Listener(const Endpoint& at, Descriptor door, std::int64_t most) : at_(at), door_(std::move(door)), clients_(0), most_(most) {}
     int waits_on() const override { return client_ ? client_.get() : door_.get(); }
     std::string sentence() const override { return "listening on " + at_.text(); }
-    void enough(std::size_t bytes) override { enough_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20)); }
+    void enough(std::size_t bytes) override {
+        enough_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20));
+        if (client_) wake_at_enough();
+    }
     std::int64_t producers() const override { return clients_; }
     Result<Came> read(std::span<char> out) override {
         if (!client_) return accept();

@@ -41,6 +41,7 @@ public:
     virtual int waits_on() const { return -1; }         ///< to be polled for reading; -1: it goes by the clock
     virtual std::int64_t due() const { return never; }  ///< when there is more without a poll; steady_now()
     virtual Result<bool> receive() = 0;                 ///< reads what is there; false: nothing more will come
+    virtual void hurry() {}                             ///< whatever is there is to be read, however little
     virtual Next next(std::span<double> force) = 0;     ///< the next frame over the last one
     virtual FrameCounts counts() const = 0;
     virtual std::string sentence() const = 0;

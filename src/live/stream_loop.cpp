@@ -31,6 +31,7 @@ Result<void> StreamLoop::run() {
             next_look_ = now + second;
         }
     }
+    if (ended && ways_.stop()) ended = answer_rest();
     if (ended) ended = answer_gathered();
     if (ended && !ways_.goes_on) put(skin_.last());
     const auto finished = outlet_.finish();
@@ -53,6 +54,15 @@ Result<bool> StreamLoop::wait() {
     if (!more) return more.error();
     if (auto ok = answer_all(); !ok) return ok.error();
     return *more;
+}
+
+/// Once stopped: frames that have come, and waited to be as many as go together.
+Result<void> StreamLoop::answer_rest() {
+    frames_.hurry();
+    pollfd on = {frames_.waits_on(), POLLIN, 0};
+    if (skin_.together() == 1 || on.fd < 0 || ::poll(&on, 1, 0) <= 0) return {};
+    if (const auto more = frames_.receive(); !more) return more.error();
+    return answer_all();
 }
 
 /// The frames that are there.

@@ -46,6 +46,7 @@ private:
     Result<void> answer_all();
     Result<void> answer(bool came, std::int64_t at);
     Result<void> answer_gathered();
+    Result<void> answer_rest();
     Result<void> tell(const Result<std::span<const Spike>>&);
     void put(std::span<const Spike> spikes);
     void frame_came(std::int64_t at);

@@ -131,6 +131,25 @@ TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
     EXPECT_NE(child.told().find("600 frames of 600 ms"), std::string::npos) << child.told();
 }
 
+TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
+    before();
+    const Folder folder;
+    Child child(folder, with({"--channels", "4", "--frames", "f64", "--together", "16", "--in", "tcp:0", "-o", folder / "s.csv"}));
+    const int fd = connected(child.port());
+    const std::array<double, 5 * 4> frames = {};
+    EXPECT_EQ(::send(fd, frames.data(), sizeof frames, 0), static_cast<ssize_t>(sizeof frames));
+    int unacknowledged = 1;
+    for (int k = 0; k < 2000 && unacknowledged > 0; ++k) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ::ioctl(fd, TIOCOUTQ, &unacknowledged);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and its sender accepted
+    child.interrupt();
+    EXPECT_EQ(child.wait(), 130) << child.told();
+    EXPECT_NE(child.told().find("5 frames of 5 ms"), std::string::npos) << child.told();
+    ::close(fd);
+}
+
 TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
     before();
     const Folder folder;
