@@ -11,8 +11,8 @@
 namespace corpuscle {
 
 class ByteRing {
-    std::vector<char> bytes_;
     alignas(64) std::atomic<std::size_t> put_ = 0;  // bytes in all; the place is modulo the size
+    std::vector<char> bytes_;
     alignas(64) std::atomic<std::size_t> taken_ = 0;
 
 public:
