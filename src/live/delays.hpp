@@ -39,8 +39,10 @@ public:
     std::int64_t quantile(double share) const {
         const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(count_));
         std::uint64_t seen = 0;
-        for (int b = 0; b < bins; ++b)
-            if ((seen += in(b)) > wanted) return std::min(end_of(b), most_);
+        for (int b = 0; b < bins; ++b) {
+            seen += in(b);
+            if (seen > wanted) return std::min(end_of(b), most_);
+        }
         return most_;
     }
 };

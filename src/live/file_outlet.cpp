@@ -76,7 +76,7 @@ Result<void> write_all(int fd, const std::string& name, std::string_view text) {
 
 }  // namespace
 
-Result<std::unique_ptr<EventOutlet>> plain_file_outlet(int fd, std::string name, const EventFormat& format, std::size_t ring) {
+Result<std::unique_ptr<EventOutlet>> plain_file_outlet(int fd, const std::string& name, const EventFormat& format, std::size_t ring) {
     return std::unique_ptr<EventOutlet>(std::make_unique<FileOutlet>(
         format, ring, name, [fd, name](std::string_view text) { return write_all(fd, name, text); }, [] { return Result<void>(); }));
 }

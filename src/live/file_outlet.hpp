@@ -6,6 +6,6 @@
 namespace corpuscle {
 
 /// A descriptor that may wait, written as it is.
-Result<std::unique_ptr<EventOutlet>> plain_file_outlet(int fd, std::string name, const EventFormat&, std::size_t ring);
+Result<std::unique_ptr<EventOutlet>> plain_file_outlet(int fd, const std::string& name, const EventFormat&, std::size_t ring);
 
 }  // namespace corpuscle

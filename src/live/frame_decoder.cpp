@@ -68,7 +68,7 @@ FrameDecoder::Found FrameDecoder::next() {
         if (end_ - begin_ < layout_.bytes()) return Found::nothing;
         const char* const at = bytes_.data() + begin_;
         begin_ += layout_.bytes();
-        found_ = {at + layout_.stamp_bytes(), layout_.bytes() - layout_.stamp_bytes()};
+        found_ = at + layout_.stamp_bytes();
         if (layout_.stamp == FrameStamp::count) std::memcpy(&number_, at, sizeof number_);
         if (layout_.stamp != FrameStamp::time) return Found::frame;
         double seconds = 0;
@@ -129,14 +129,14 @@ std::size_t FrameDecoder::take(std::span<double> force) const {
     const lanes::FrameForce of{layout_.offset, layout_.scale, layout_.limit};
     switch (layout_.kind) {
         case FrameKind::f32:
-            return lanes_.f32(found_.data(), of, force.data(), force.size());
+            return lanes_.f32(found_, of, force.data(), force.size());
         case FrameKind::i16:
-            return lanes_.i16(found_.data(), of, force.data(), force.size());
+            return lanes_.i16(found_, of, force.data(), force.size());
         case FrameKind::f64:
         case FrameKind::csv:
             break;
     }
-    const char* const from = layout_.kind == FrameKind::csv ? reinterpret_cast<const char*>(values_.data()) : found_.data();
+    const char* const from = layout_.kind == FrameKind::csv ? reinterpret_cast<const char*>(values_.data()) : found_;
     return lanes_.f64(from, of, force.data(), force.size());
 }
 

@@ -19,7 +19,7 @@ class FrameDecoder {
     std::size_t looked_ = 0;           // up to here there is no end of a line
     bool skipping_ = false;            // a line that is longer than any frame: to its end
     bool first_ = true;                // nothing was read yet: a header may come
-    std::string_view found_;           // a binary frame's forces
+    const char* found_ = nullptr;      // a binary frame's forces
     std::vector<double> values_;       // of a line
     std::uint32_t number_ = 0;
     std::int64_t headers_ = 0;

@@ -21,7 +21,7 @@ struct LiveSkin::Held {
 namespace {
 
 template <class T>
-T or_throw(Result<T> result) {
+T or_throw(Result<T>&& result) {
     if (!result) throw Refused(result.error().text());
     if constexpr (!std::is_void_v<T>) return std::move(*result);
 }

@@ -105,7 +105,8 @@ Result<void> Skin::Held::feel(const SiteForce& force, std::size_t at, std::size_
     return {};
 }
 
-Result<std::unique_ptr<Skin>> Skin::make(std::shared_ptr<const Innervation> skin, const Run& run, InstructionSet set, SkinShare share) {
+Result<std::unique_ptr<Skin>> Skin::make(const std::shared_ptr<const Innervation>& skin, const Run& run, InstructionSet set,
+                                         SkinShare share) {
     auto held = std::make_unique<Held>(skin, run, share);
     std::vector<std::shared_ptr<FeltForce>> felt(skin->plan.classes.size());
     for (std::size_t c = 0; c < skin->plan.classes.size(); ++c) {

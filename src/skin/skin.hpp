@@ -40,7 +40,7 @@ struct SkinWork {
 class Skin {
 public:
     /// Without noise, sensors and converters: see goes_on_lanes().
-    static Result<std::unique_ptr<Skin>> make(std::shared_ptr<const Innervation>, const Run&, InstructionSet, SkinShare = {});
+    static Result<std::unique_ptr<Skin>> make(const std::shared_ptr<const Innervation>&, const Run&, InstructionSet, SkinShare = {});
     ~Skin();
 
     const Innervation& innervation() const;
