@@ -5,6 +5,7 @@ Makes reports with the program, opens them in headless Chromium, uses them as a 
 show with the data they carry. Leaves OUTDIR/press.png and OUTDIR/press-zoomed.png to look at.
 """
 import base64
+import contextlib
 import json
 import math
 import pathlib
@@ -197,6 +198,18 @@ class Page(unittest.TestCase):
                 return [name, count];
             }))""")
 
+    @contextlib.contextmanager
+    def screen(self, width, height, pixel_ratio):
+        """The page anew on a screen of this size."""
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": width, "height": height, "deviceScaleFactor": pixel_ratio, "mobile": width < 600})
+        try:
+            self.browser.get(self.path.as_uri())
+            self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+            yield
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
     def screenshot(self, name):
         self.browser.set_window_size(1200, 900)
         height = self.js("scrollTo(0, 0); return document.documentElement.scrollHeight")
@@ -227,7 +240,7 @@ class Press(Page):
 
     def test_every_panel_is_there_and_drawn(self):
         inked = self.inked()
-        self.assertEqual(self.panels(), ["force", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane", "raster", "frequency"])
+        self.assertEqual(self.panels(), ["force", "raster", "frequency", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane"])
         self.assertEqual({name: count for name, count in inked.items() if count < 80}, {})
         self.screenshot("press.png")
 
@@ -352,6 +365,25 @@ class Press(Page):
         self.assertLessEqual(self.js("return document.documentElement.scrollWidth - innerWidth"), 0)
         self.browser.set_window_size(1200, 900)
 
+    def test_the_first_screen_shows_force_spikes_and_rate(self):
+        with self.screen(1400, 900, 1):
+            for panel in ("force", "raster", "frequency"):
+                self.assertLess(self.js("return document.querySelector(arguments[0]).getBoundingClientRect().bottom", f'[data-panel="{panel}"]'), 900)
+
+    def test_on_a_telephone_the_page_is_as_wide_as_the_screen_and_the_plots_nearly_so(self):
+        with self.screen(390, 844, 2):
+            self.assertEqual(self.js("return document.documentElement.scrollWidth"), 390)
+            self.assertGreater(min(drawn["width"] for drawn in self.js("return corpuscle.pointsDrawn()").values()), 0.7 * 390)
+
+    def test_curves_are_drawn_to_the_screens_own_pixels(self):
+        """Two points for each pixel of the screen, not for each pixel of the layout: else slopes are stairs."""
+        rows = []
+        for ratio in (1, 2):
+            with self.screen(390, 844, ratio):
+                rows.append(self.js("return corpuscle.pointsDrawn()")["force"]["rows"])
+                self.assertEqual(self.js("const canvas = document.querySelector('.plot canvas'); return canvas.width / canvas.clientWidth"), ratio)
+        self.assertGreater(rows[1], 1.5 * rows[0])
+
 
 class Versions(Page):
     """Both receptors as a model and as a chip."""
@@ -378,8 +410,8 @@ class Versions(Page):
             return Array.from({length: chart.numRows()}, (_, row) => [chart.getValue(row, 0), chart.getValue(row, arguments[1])])""", panel, column)
 
     def test_each_quantity_has_a_panel_for_both(self):
-        self.assertEqual(self.panels(), ["force", "sa1 I", "sa1 I_A", "sa1 I_B", "sa1 I_C", "sa1 u", "circuits/sa1.cir nodes", "fa1 I", "fa1 I_A", "fa1 I_B",
-                                         "fa1 u", "circuits/fa1.cir nodes", "raster", "sa1 frequency", "fa1 frequency"])
+        self.assertEqual(self.panels(), ["force", "raster", "sa1 frequency", "fa1 frequency", "sa1 I", "sa1 I_A", "sa1 I_B", "sa1 I_C", "sa1 u",
+                                         "circuits/sa1.cir nodes", "fa1 I", "fa1 I_A", "fa1 I_B", "fa1 u", "circuits/fa1.cir nodes"])
         self.assertEqual({name: count for name, count in self.inked().items() if count < 80}, {})
         self.screenshot("versions.png")
 
@@ -802,6 +834,17 @@ class Studies(unittest.TestCase):
             points = browser.execute_script("return charts.map((chart) => chart.numRows())")
             self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
             self.assertGreater(min(points), 2)
+            self.on_a_telephone(browser)
+
+    def on_a_telephone(self, browser):
+        """A claim is as wide as the screen and a few lines high."""
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        browser.refresh()
+        self.assertEqual(browser.execute_script("return document.documentElement.scrollWidth"), 390)
+        boxes = browser.execute_script("""return [...document.querySelectorAll("tbody tr, tbody tr .reason")].map((one) => {
+            const {right, height} = one.getBoundingClientRect(); return [right, height]; })""")
+        self.assertLessEqual(max(right for right, _ in boxes), 390)
+        self.assertLess(max(height for _, height in boxes), 260)
 
 
 class Sweeps(unittest.TestCase):
