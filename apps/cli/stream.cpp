@@ -7,11 +7,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/output_check.hpp"
 #include "io/recording.hpp"
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
 #include "model/population.hpp"
+#include "own_files.hpp"
+#include "printable.hpp"
 #include "recording_words.hpp"
+#include "signal/input_files.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
 #include "stream_told.hpp"
@@ -188,17 +192,28 @@ class LiveRun {
         drawn_ = true;
     }
 
-    void tell() {
+    void tell_end() {
         if (drawn_) fmt::print(stderr, "\r\033[K");
-        if (common_.json) fmt::print("{}\n", stream_document(facts()).dump(1));
-        if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", stream_summary(facts()));
+        if (common_.json) fmt::print("{}\n", json_text(stream_document(facts())));
+        if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", printable_lines(stream_summary(facts())));
     }
 
     Result<void> open(const StreamNumbers& n, std::span<const Wish> wishes) {
         if (auto ok = is_wire(words_.in) ? open_wire(n, wishes) : open_recorded(n, wishes); !ok) return ok;
         for (const auto& w : wishes)
             if (!w.used) return bad_usage(fmt::format("--set {}: nothing here is called '{}'", w.text(), w.of));
+        if (auto ok = check_outputs(); !ok) return ok;
         return open_outlet(n);
+    }
+
+    /// The state that is taken up may be replaced by the one that is kept, and by nothing else.
+    Result<void> check_outputs() const {
+        OutputCheck outputs(common_.overwrite);
+        remember_input("-");
+        if (!words_.save.empty())
+            if (auto ok = outputs.file(words_.save, is_own_state); !ok) return ok;
+        if (!words_.resume.empty()) remember_input(words_.resume);
+        return words_.out == "-" ? Result<void>() : outputs.growing_file(words_.out, is_own_events);
     }
 
 public:
@@ -218,9 +233,9 @@ public:
         if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.seen = [this] { show(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *outlet_, std::move(ways));
         if (auto ok = take_up(); !ok) return ok;
-        if (words_.in.starts_with("tcp:") || words_.in.starts_with("serial:")) fmt::print(stderr, "corpuscle: {}\n", frames_->sentence());
+        if (words_.in.starts_with("tcp:") || words_.in.starts_with("serial:")) tell(frames_->sentence());
         auto ended = loop_->run();
-        tell();
+        tell_end();
         if (auto ok = put_by(); ended && !ok) return ok;
         if (ended && interrupted()) return Error{Code::interrupted, "interrupted"};
         return ended;
