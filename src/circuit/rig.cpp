@@ -76,7 +76,7 @@ Result<void> Rig::begin(std::span<const double> force) {
         return error;
     }
     start_ = std::move(x->x);
-    return transient_->begin(start_, x->settled);
+    return transient_->begin(start_, x->settled, x->charge);
 }
 
 Result<void> Rig::step() {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
+#include <unordered_map>
 
 #include "measure/distance.hpp"
 
@@ -18,11 +21,24 @@ std::string listed(const Trains& trains) {
     return fmt::format("{}{}", fmt::join(names, "; "), names.size() < trains.size() ? " ..." : "");
 }
 
-const NamedTrain* find(const Trains& trains, const std::string& afferent, const std::string& channel) {
-    const auto found =
-        std::find_if(trains.begin(), trains.end(), [&](const NamedTrain& t) { return t.afferent == afferent && t.channel == channel; });
-    return found == trains.end() ? nullptr : &*found;
-}
+/// Trains by their two names, and by the one that is shown; of several the first.
+class TrainIndex {
+    std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_names_;
+    std::unordered_map<std::string, const NamedTrain*> by_name_;
+
+public:
+    explicit TrainIndex(const Trains& trains) {
+        for (const auto& t : trains) by_names_.try_emplace({t.afferent, t.channel}, &t), by_name_.try_emplace(t.name(), &t);
+    }
+    const NamedTrain* find(const std::string& afferent, const std::string& channel) const {
+        const auto at = by_names_.find({afferent, channel});
+        return at == by_names_.end() ? nullptr : at->second;
+    }
+    const NamedTrain* called(const std::string& name) const {
+        const auto at = by_name_.find(name);
+        return at == by_name_.end() ? nullptr : at->second;
+    }
+};
 
 PairedTrains paired(const NamedTrain* a, const NamedTrain* b) {
     return {a ? a->name() : "", b ? b->name() : "", a ? &a->times : nullptr, b ? &b->times : nullptr};
@@ -36,11 +52,10 @@ std::vector<const NamedTrain*> called(const Trains& trains, const std::string& n
 }
 
 /// What in B answers a train of A that goes by `from`, when that is `to` there: the same train with the name changed.
-const NamedTrain* renamed(const Trains& b, const NamedTrain& train, const std::string& from, const std::string& to) {
-    for (const auto& t : b)
-        if (train.name() == from && t.name() == to) return &t;
-    const auto* found = train.afferent == from ? find(b, to, train.channel) : nullptr;
-    return found || train.channel != from ? found : find(b, train.afferent, to);
+const NamedTrain* renamed(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
+    if (const auto* t = train.name() == from ? b.called(to) : nullptr) return t;
+    const auto* found = train.afferent == from ? b.find(to, train.channel) : nullptr;
+    return found || train.channel != from ? found : b.find(train.afferent, to);
 }
 
 /// One --pair: the only two trains of these names, or all whose names differ in just this.
@@ -55,8 +70,9 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
                 fmt::format("--pair {}: no train of the {} file is called '{}'; there are {}", text, file, *name, listed(*all)));
     if (in_a.size() == 1 && in_b.size() == 1) return out.push_back(paired(in_a[0], in_b[0])), Result<void>();
     const std::size_t before = out.size();
+    const TrainIndex index(b);
     for (const auto* train : in_a)
-        if (const auto* other = renamed(b, *train, from, to)) out.push_back(paired(train, other));
+        if (const auto* other = renamed(index, *train, from, to)) out.push_back(paired(train, other));
     if (out.size() > before) return {};
     return bad_usage(
         fmt::format("--pair {}: {} trains of the first file and {} of the second are meant, and no two differ in this name "
@@ -67,16 +83,18 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
 /// Trains of one name; those that stand in one file only against silence.
 std::vector<PairedTrains> by_name(const Trains& a, const Trains& b) {
     std::vector<PairedTrains> out;
-    for (const auto& t : a) out.push_back(paired(&t, find(b, t.afferent, t.channel)));
+    const TrainIndex in_a(a), in_b(b);
+    for (const auto& t : a) out.push_back(paired(&t, in_b.find(t.afferent, t.channel)));
     for (const auto& t : b)
-        if (!find(a, t.afferent, t.channel)) out.push_back(paired(nullptr, &t));
+        if (!in_a.find(t.afferent, t.channel)) out.push_back(paired(nullptr, &t));
     return out;
 }
 
 /// The --pair that would bring the two together, if they differ in one name.
 std::string proposal(const Trains& a, const Trains& b) {
-    for (const auto& x : a)
-        for (const auto& y : b) {
+    constexpr std::size_t most_looked_at = 1000;  // of each file
+    for (const auto& x : std::span(a).first(std::min(a.size(), most_looked_at)))
+        for (const auto& y : std::span(b).first(std::min(b.size(), most_looked_at))) {
             if (x.channel == y.channel && !x.afferent.empty() && !y.afferent.empty())
                 return fmt::format("--pair {}={}", x.afferent, y.afferent);
             if (x.afferent == y.afferent && !x.channel.empty() && !y.channel.empty())

@@ -57,14 +57,17 @@ public:
 Result<std::vector<double>> spikes_of(TestBench& bench, const Asked& asked, Transient& t, const Transient::Each& each) {
     std::vector<double> out;
     bool stopped = false;
-    const auto done = t.run(asked.from.x, asked.from.settled, [&](double time, std::span<const double> x) {
-        if (!each(time, x)) return false;
-        if (time < t.time()) return true;  // within a step
-        if (asked.output)
-            if (const auto spike = asked.output->within(t); spike && *spike >= asked.times.start) out.push_back(*spike);
-        bench.capped = bench.most_iterations > 0 && t.work().iterations > bench.most_iterations;
-        return !bench.capped && !(stopped = bench.stopped(time / asked.times.stop));
-    });
+    const auto done = t.run(
+        asked.from.x, asked.from.settled,
+        [&](double time, std::span<const double> x) {
+            if (!each(time, x)) return false;
+            if (time < t.time()) return true;  // within a step
+            if (asked.output)
+                if (const auto spike = asked.output->within(t); spike && *spike >= asked.times.start) out.push_back(*spike);
+            bench.capped = bench.most_iterations > 0 && t.work().iterations > bench.most_iterations;
+            return !bench.capped && !(stopped = bench.stopped(time / asked.times.stop));
+        },
+        asked.from.charge);
     if (!done) return done.error();
     if (stopped) return interruption();
     if (bench.capped)

@@ -159,7 +159,7 @@ public:
     }
 };
 
-constexpr std::string_view source_values[] = {"m", "temp", "dtemp", "tc1", "tc2"};
+constexpr std::string_view source_values[] = {"m", "temp", "dtemp"};
 
 template <class D>
 std::unique_ptr<Device> with(std::unique_ptr<D> device, std::vector<int> unknowns) {

@@ -15,7 +15,7 @@ constexpr double far_off = 20, hopeless = 2;  // allowed units: of a first itera
 
 }  // namespace
 
-Result<void> Transient::begin(std::vector<double> x, bool settled) {
+Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
     plan_.longest = std::min(plan_.longest, system_.pace());
     const auto count = x.size();
     for (auto* v : {&scale_, &allowed_, &history_, &rate_, &error_, &turn_, &fastest_}) v->assign(count, 0);
@@ -32,6 +32,7 @@ Result<void> Transient::begin(std::vector<double> x, bool settled) {
     past_.accept();
     pace_.h = plan_.longest, bent_ = false;
     equations_.at(0, past_[0].x, rate_, first.q);
+    for (std::size_t n = 0; n < charge.size(); ++n) first.q[n] += charge[n];
     start_over();
     allow();
     if (!std::exchange(ordered_, true)) equations_.settle(past_[0].x, 1e3 / plan_.longest);
@@ -229,8 +230,8 @@ void Transient::restore(const TransientState& s) {
     allow();
 }
 
-Result<void> Transient::run(std::vector<double> x, bool settled, const Each& each) {
-    auto done = begin(std::move(x), settled);
+Result<void> Transient::run(std::vector<double> x, bool settled, const Each& each, std::span<const double> charge) {
+    auto done = begin(std::move(x), settled, charge);
     bool more = done && each(time(), this->x());
     while (more && time() < plan_.stop) {
         const auto stepped = step(plan_.stop);

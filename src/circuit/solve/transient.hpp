@@ -86,16 +86,17 @@ public:
 
     /// See begin(); calls each(t, x) from t = 0 on until it returns false or the end is reached: at every step, and between them where a
     /// straight line would be off by more than a few times the allowed error. An error says when no step was short enough, and where.
-    Result<void> run(std::vector<double> x, bool settled, const Each& each);
+    Result<void> run(std::vector<double> x, bool settled, const Each& each, std::span<const double> charge = {});
     const TransientWork& work() const { return work_; }
     const TransientPlan& plan() const { return plan_; }
     bool charged(std::size_t unknown) const { return charged_[unknown] != 0; }  ///< whether it holds a charge, so that its error counts
     /// Once it has begun; null: there is no list of its elimination.
     const Elimination* elimination() const { return equations_.elimination(); }
 
-    /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them. The matrix's order of
+    /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them. `charge` is added to
+    /// the charges at x (of ic= on elements; empty: nothing). The matrix's order of
     /// elimination is that of the first x handed in, so that steps after restore() are those that would have come.
-    Result<void> begin(std::vector<double> x, bool settled = true);
+    Result<void> begin(std::vector<double> x, bool settled = true, std::span<const double> charge = {});
     /// One step, not beyond `until`. False: it would go beyond, or its length depends on what comes there.
     Result<bool> step(double until);
     double time() const { return past_[0].t; }
