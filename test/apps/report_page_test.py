@@ -889,6 +889,99 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#failed tbody tr")), 120 - summary["all"]["passed"])
             self.assertEqual(browser.get_log("browser"), [])
 
+    def browse(self, path, width=1400):
+        profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.addCleanup(profile.cleanup)
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium")
+        for flag in [*FLAGS, "--user-data-dir=" + profile.name]:
+            options.add_argument(flag)
+        browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        self.addCleanup(browser.quit)
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 2 if width < 600 else 1, "mobile": False})
+        browser.get(path.as_uri())
+        return browser
+
+    def page_of(self, name, sweep, change=None):
+        """The page of a sweep, its results changed before it is made."""
+        file, results, path = OUT / f"{name}.toml", OUT / f"{name}.sqlite", OUT / f"{name}.html"
+        file.write_text(sweep)
+        results.unlink(missing_ok=True)
+        subprocess.run([CORPUSCLE, "sweep", str(file), "--out", str(results), "--quiet"], check=True, cwd=ROOT)
+        if change:
+            with contextlib.closing(sqlite3.connect(results)) as there, there:
+                change(there)
+        subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--report", str(path), "--quiet"], check=True)
+        return path
+
+    def test_a_plain_grid_shows_every_axis_as_lines_and_a_heat_map_and_nothing_of_chance(self):
+        path = self.page_of("grid", GRID)
+        browser = self.browse(path)
+        self.assertEqual(browser.get_log("browser"), [])
+        matters = browser.find_element(By.ID, "matters").text
+        for axis in ("press.F_max", "sa1.f_B"):
+            self.assertEqual(matters.count(axis), 2, matters)
+        captions = [one.text for one in browser.find_elements(By.CSS_SELECTOR, "#figures figcaption")]
+        self.assertEqual(len(captions), 3, captions)
+        self.assertTrue(captions[0].startswith("spikes over press.F_max"), captions)
+        self.assertTrue(captions[1].startswith("spikes over sa1.f_B"), captions)
+        self.assertEqual(browser.execute_script("return charts.map((chart) => [chart.numRows(), chart.numColumns() - 1])"), [[4, 3], [3, 4]])
+        text = browser.find_element(By.TAG_NAME, "body").text
+        for chance in ("95 %", "±", "normal", "chips", "sigma"):
+            self.assertNotIn(chance, text)
+        colours = browser.execute_script("""
+            const canvas = document.querySelector(".heat canvas"), context = canvas.getContext("2d"), found = new Set();
+            for (let i = 0; i < 4; ++i) for (let j = 0; j < 3; ++j) {
+                const x = HEAT.left + (i + 0.5) / 4 * (canvas.clientWidth - HEAT.left - HEAT.right), y = HEAT.top + (j + 0.5) / 3 * (260 - HEAT.top - HEAT.bottom);
+                found.add(context.getImageData(x * devicePixelRatio, y * devicePixelRatio, 1, 1).data.join());
+            }
+            return found.size""")
+        self.assertGreaterEqual(colours, len({round(v) for row in data_of(path)["grids"][0]["pairs"][0]["means"] for v in row}))
+
+    def test_no_text_of_a_results_file_becomes_a_script(self):
+        payload = '"><img src=x onerror="document.title=1"><script>document.title=1</script>'
+
+        def poison(there):
+            there.execute("UPDATE columns SET unit = ?", (payload,))
+            there.execute("UPDATE columns SET sentence = ?", (payload,))
+            there.execute("UPDATE about SET value = ? WHERE key = 'title'", (payload,))
+            there.execute("UPDATE units SET why = ?, ended = 'lost' WHERE unit = 3", (payload,))
+
+        for name, sweep in (("poisoned", GRID), ("poisoned_chips", SWEEP)):
+            browser = self.browse(self.page_of(name, sweep, poison))
+            self.assertEqual(browser.get_log("browser"), [])
+            self.assertNotEqual(browser.title, "1")
+            self.assertEqual(browser.find_elements(By.CSS_SELECTOR, "img"), [])
+            self.assertEqual(browser.execute_script("return [...document.querySelectorAll('body script')].every((one) => one.id || !one.textContent.includes('document.title=1'))"), True)
+
+    def test_it_fits_a_narrow_window_and_its_subscripts_are_whole(self):
+        for name, sweep in (("narrow_grid", GRID), ("narrow_chips", SWEEP)):
+            browser = self.browse(self.page_of(name, sweep), 390)
+            self.assertLessEqual(browser.execute_script("return document.documentElement.scrollWidth"), 390)
+            sideways = browser.execute_script("return [...document.querySelectorAll('.scroll')].filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.textContent.slice(0, 60))")
+            self.assertEqual(sideways, [])
+        gaps = browser.execute_script("""
+            return [...document.querySelectorAll("figcaption sub")].map((sub) => {
+                const range = document.createRange();
+                range.selectNode(sub.previousSibling);
+                const before = [...range.getClientRects()].at(-1), own = sub.getBoundingClientRect();
+                return own.top < before.bottom ? own.left - before.right : 1e9;
+            })""")
+        self.assertGreater(len(gaps), 0)
+        self.assertLess(max(map(abs, gaps)), 2)
+
+
+GRID = """
+afferent = "sa1"
+force = "press"
+measures = ["spikes", "peak_rate"]
+[[vary]]
+what = "press.F_max"
+list = ["1N", "2N", "3N", "4N"]
+[[vary]]
+what = "sa1.f_B"
+list = ["20Hz", "40Hz", "80Hz"]
+"""
 
 SWEEP = """
 netlist = "circuits/bias.cir"

@@ -55,7 +55,10 @@ Result<void> Transient::settle() {
         way = equations_.iterate(now.x, allowed_);
     }
     allowed_ = allowed;
-    if (way != StepEquations::Way::arrived) return too_short(at_once);
+    if (way != StepEquations::Way::arrived) {
+        past_.next() = std::move(now);
+        return too_short(at_once);
+    }
     past_.clear();
     past_.next() = std::move(now);
     past_.accept();
