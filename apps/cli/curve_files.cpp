@@ -82,8 +82,9 @@ Result<void> CurveFiles::end() {
 Result<void> CurveFiles::finish() {
     for (auto& file : files_)
         if (auto ok = file.commit(); !ok) return ok;
+    const bool written = !files_.empty();
     files_.clear();
-    return {};
+    return written ? sync_directory_of(words_.out) : Result<void>();
 }
 
 Result<std::string> CurveFiles::finish_early(bool interrupted) {

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "circuit/analyses.hpp"
+#include "force_words.hpp"
 #include "help.hpp"
 #include "model/spread.hpp"
 #include "signal/version.hpp"
@@ -49,6 +50,7 @@ set: a .param, an array, any number of a device. 'corpuscle list' shows them all
 
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
+  corpuscle respond press --json                           one document, with the time of every spike
   corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
   corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
   corpuscle respond press --afferent sa1,sa1-circuit --corner ss --temp 85 --supply 0.65V
@@ -199,8 +201,10 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     add_common(verb, common);
     verb.callback([&w, report] {
         w.report = report->count() > 0;
+        if (w.report_file.empty() || w.report_file.ends_with(".html")) return;
         // "--report press": the word is no page, so it is one of the forces.
-        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) w.forces.push_back(std::exchange(w.report_file, ""));
+        if (!is_force(w.report_file)) throw CLI::ValidationError(page_name_needed(w.report_file));
+        w.forces.push_back(std::exchange(w.report_file, ""));
     });
 }
 
@@ -232,6 +236,9 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
     verb.add_option("NAME", w.names, "which studies (default: all)");
     verb.add_option("--report", w.report_file, "write a page to look at: figures to zoom into, what was printed beside what was made")
         ->type_name("FILE.html");
+    verb.callback([&w] {
+        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
+    });
     verb.add_option("--markdown", w.markdown_file, "write all numbers as text")->type_name("FILE.md");
     add_common(verb, common);
 }
@@ -239,7 +246,7 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
 void add_run(CLI::App& app, RunWords& w, Common& common) {
     auto& verb = *app.add_subcommand("run", "the analyses written in a netlist -> .raw, CSV, printed measures");
     std::string known;
-    for (const auto& a : circuit::analyses) known += fmt::format("\n  {:72} {}", a.usage, a.sentence);
+    for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.sentence);
     verb.footer(
         "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include, .lib, .options ... and "
         "what\n"

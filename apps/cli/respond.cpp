@@ -245,6 +245,28 @@ std::size_t netlists(const Job& job) {
     return all;
 }
 
+/// The spikes of every unit, for the document on standard output.
+class SpikeTimes final : public Listener {
+    nlohmann::ordered_json units_ = nlohmann::ordered_json::array();
+    std::size_t first_ = 0;
+
+public:
+    Result<void> begin(const Input& input) override {
+        first_ = units_.size();
+        for (std::size_t u = 0; u < input.units(); ++u)
+            units_.push_back({{"afferent", input.afferent_of(u).name},
+                              {"channel", input.channel_name(input.channel_of(u))},
+                              {"times_s", nlohmann::ordered_json::array()}});
+        return {};
+    }
+    Result<void> block(const Input& input, const Answered& answered) override {
+        for (const auto& s : answered.spikes)
+            units_[first_ + s.unit - input.first_unit]["times_s"].push_back(input.source.clock().time(s.step, s.offset));
+        return {};
+    }
+    const nlohmann::ordered_json& document() const { return units_; }
+};
+
 /// Files of which there is one an input, an afferent or a channel.
 std::vector<std::string> later_names(const Job& job, const RespondWords& w) {
     std::vector<std::string> all;
@@ -277,6 +299,8 @@ Result<void> run(const RespondWords& w, const Common& common) {
     Summary summary;
     std::vector<Listener*> listeners = {&summary};
     outputs.listen(listeners);
+    SpikeTimes times;
+    if (common.json) listeners.push_back(&times);
     Result<Work> work = [&] {
         Progress progress(common.quiet);
         job->options.keep_on = [&](double share) { return progress.at(share), !interrupted(); };
@@ -291,8 +315,9 @@ Result<void> run(const RespondWords& w, const Common& common) {
     answer["files"] = outputs.names();
     const auto document = json_text(answer) + "\n";
     if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command, costs); !ok) return ok;
+    if (common.json) answer["spikes"] = times.document();
     if (common.json)
-        fmt::print("{}", document);
+        fmt::print("{}\n", json_text(answer));
     else if (!common.quiet)
         show(inputs_table(summary) + copies_line(job->population) + rate_table(summary) + versions_table(summary.comparisons()) +
              outputs.told());

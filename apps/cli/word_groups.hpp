@@ -9,6 +9,9 @@ class App;
 
 namespace corpuscle {
 
+/// The error of a page whose name is none.
+std::string page_name_needed(const std::string& name);
+
 void add_netlist_words(CLI::App&, NetlistWords&);
 void add_skin_words(CLI::App&, RespondWords&);
 

@@ -5,6 +5,7 @@
 
 #include "io/address_events.hpp"
 #include "io/trains.hpp"
+#include "io/utf8.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -44,7 +45,8 @@ std::vector<NamedTrain> Trains::in_order() && {
     return out;
 }
 
-std::string csv_field(const std::string& name) {
+std::string csv_field(const std::string& text) {
+    const auto name = utf8_text(text);
     if (name.find_first_of(",;\t\"\r\n") == name.npos && trimmed(name).size() == name.size() && !name.starts_with('#') &&
         !name.starts_with('%'))
         return name;

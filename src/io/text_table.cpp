@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "io/dialect.hpp"
+#include "io/utf8.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
 
@@ -222,7 +223,10 @@ bool names_time(std::string_view name) {
     return word == "time" || word == "timestamp" || word == "t" || word == "times" || word == "timestamps" || word == "time stamp";
 }
 
-Column parse_heading(std::string_view field) {
+Column parse_heading(std::string_view written) {
+    auto text = utf8_text(written);
+    for (std::size_t at = 0; (at = text.find("\"\"", at)) != text.npos; ++at) text.erase(at, 1);  // a quote within quotes
+    const std::string_view field = text;
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})
         if (const auto at = field.rfind(open); at != std::string_view::npos && field.ends_with(close) && at > 0)
             return {std::string(trimmed(field.substr(0, at))), std::string(trimmed(field.substr(at + 1, field.size() - at - 2)))};
