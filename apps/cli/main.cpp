@@ -59,8 +59,9 @@ times S is newtons. Its clock is its time column (name it with --time), or --rat
 
 constexpr const char* compare_examples =
     R"(A is the reference: a spike of A without a match in B is missing, one of B without a match in A is extra. Files are
-spikes.csv or spikes.npz of 'corpuscle respond', or any CSV with a header that has a column time_s and, to tell trains
-apart, a column unit (or afferent, channel). Trains that are called the same are compared. A NAME is that of an afferent
+spikes.csv or spikes.npz of 'corpuscle respond', any CSV or JSON lines with a column time_s and, to tell trains apart, a
+column unit (or afferent, channel, cluster ...; --time and --unit name others), or a lone list of times in seconds (.txt,
+.npy). Trains that are called the same are compared, and so are two lone ones. A NAME is that of an afferent
 or unit, that of a channel, or both: sa1,fz.
 
 Examples:
@@ -166,6 +167,8 @@ void add_compare(CLI::App& app, CompareWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("A-NAME=B-NAME");
     verb.add_flag("--by-order", w.by_order, "whatever they are called: the first train of A with the first of B, and so on");
+    verb.add_option("--time", w.time, "the column of times, by name or number, where it is called otherwise")->type_name("COLUMN");
+    verb.add_option("--unit", w.unit, "the column that tells trains apart, by name or number")->type_name("COLUMN");
     verb.add_option("--window", w.window, "spikes closer than this may match")->capture_default_str()->type_name("TIME");
     verb.add_option("--cost", w.cost, "of the Victor-Purpura distance: of moving a spike, per second")
         ->capture_default_str()
