@@ -66,8 +66,9 @@ times S is newtons. Its clock is its time column (name it with --time), or --rat
 
 constexpr const char* compare_examples =
     R"(A is the reference: a spike of A without a match in B is missing, one of B without a match in A is extra. Files are
-spikes.csv or spikes.npz of 'corpuscle respond', or any CSV with a header that has a column time_s and, to tell trains
-apart, a column unit (or afferent, channel). Trains that are called the same are compared. A NAME is that of an afferent
+spikes.csv or spikes.npz of 'corpuscle respond', any CSV or JSON lines with a column time_s and, to tell trains apart, a
+column unit (or afferent, channel, cluster ...; --time and --unit name others), or a lone list of times in seconds (.txt,
+.npy). Trains that are called the same are compared, and so are two lone ones. A NAME is that of an afferent
 or unit, that of a channel, or both: sa1,fz.
 
 Examples:
@@ -140,48 +141,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
                   "single precision: up to twice as fast, but spikes move (doc/lanes.md says how far); no currents and membranes are kept");
     verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz; of a skin 1 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
-    verb.add_option("--channel,-c", w.channels,
-                    "which channels of a recording: names, or numbers and ranges (2-5) that count all columns but the time")
-        ->allow_extra_args(false)
-        ->type_name("CHANNEL")
-        ->group("Recordings");
-    verb.add_option("--dataset", w.dataset, "which array of a file that holds several (HDF5, NPZ), by its path or name")
-        ->type_name("NAME")
-        ->group("Recordings");
-    verb.add_option("--time", w.time, "a recording's time column by name or number, or 'none'")->type_name("COLUMN")->group("Recordings");
-    verb.add_option("--time-unit", w.time_unit, "what the time column is in, if its header does not say: s, ms, us")
-        ->type_name("UNIT")
-        ->group("Recordings");
-    verb.add_option("--unit", w.unit, "what a recording holds: N, mN, gf, kgf, or raw (then say --scale)")
-        ->type_name("UNIT")
-        ->group("Recordings");
-    verb.add_option("--scale", w.scale, "what is read, times S, is newtons")->type_name("S")->group("Recordings");
-    verb.add_flag("--abs", w.absolute, "take the absolute value of what is read")->group("Recordings");
-    verb.add_option("--offset", w.offset, "what is read where there is no force; taken off before --scale")
-        ->type_name("X")
-        ->group("Recordings");
-    verb.add_option("--range", w.range, "what can be read at all; readings outside are bad")->type_name("LO..HI")->group("Recordings");
-    verb.add_option("--bad-fields", w.bad_fields,
-                    "what becomes of fields that are no numbers, and of readings out of --range: error (else of fields), drop the row, "
-                    "interpolate (else of readings)")
-        ->check(CLI::IsMember({"error", "drop", "interpolate"}))
-        ->type_name("WHAT")
-        ->group("Recordings");
-    verb.add_option("--despike", w.despike,
-                    "readings further than this from the median of the 25 about them are bad; auto: 6 standard deviations")
-        ->type_name("LIMIT")
-        ->group("Recordings");
-    verb.add_option("--notch", w.notch, "filter out mains hum: 50Hz, and 4 Hz about it (repeat for others)")
-        ->allow_extra_args(false)
-        ->type_name("FREQUENCY")
-        ->group("Recordings");
-    verb.add_option("--lowpass", w.lowpass, "filter out what is faster (Butterworth, second order)")
-        ->type_name("FREQUENCY")
-        ->group("Recordings");
-    verb.add_option("--layout", w.layout, "a table that names the sensors and says where they sit: channel,name,x_mm,y_mm")
-        ->type_name("FILE")
-        ->group("Recordings");
-    verb.add_option("--resample", w.resample, "interpolate a recording to this rate")->type_name("FREQUENCY")->group("Recordings");
+    add_recording_words(verb, w);
     verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, of copies, copies.csv into this directory")
         ->type_name("DIR")
         ->group("Output");
@@ -216,6 +176,8 @@ void add_compare(CLI::App& app, CompareWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("A-NAME=B-NAME");
     verb.add_flag("--by-order", w.by_order, "whatever they are called: the first train of A with the first of B, and so on");
+    verb.add_option("--time", w.time, "the column of times, by name or number, where it is called otherwise")->type_name("COLUMN");
+    verb.add_option("--unit", w.unit, "the column that tells trains apart, by name or number")->type_name("COLUMN");
     verb.add_option("--window", w.window, "spikes closer than this may match")->capture_default_str()->type_name("TIME");
     verb.add_option("--cost", w.cost, "of the Victor-Purpura distance: of moving a spike, per second")
         ->capture_default_str()

@@ -267,7 +267,9 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         int status;
         const char* said;
     } cases[] = {
-        {"respond bad.csv --out answer", 1, "bad.csv:4:6: column 'fz': 'oops' where a number should be"},
+        {"respond bad.csv --out answer", 1,
+         "bad.csv:4:6: column 'fz': 'oops' where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves its "
+         "row out"},
         {"respond nm.csv --out answer", 1,
          "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons, --unit N if the header is "
          "wrong, or --channel if it is another column that holds the force"},
@@ -303,7 +305,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"compare", 2, "compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'"},
         {"compare bad.csv", 2, "compare bad.csv: with what? Name a second file, or two trains of this one: --pair sa1=fa1"},
         {"compare bad.csv none.csv", 1,
-         "bad.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel; there are 'time_s', 'fz_N'"},
+         "bad.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel, or named with --unit; there "
+         "are 'time_s', 'fz_N'"},
         {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be longer than nothing"},
         {"compare bad.csv none.csv --cost=-1", 2, "--cost -1: must be 0 or more"},
         {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be made: Not a directory"},
