@@ -89,7 +89,7 @@ Result<std::unique_ptr<ByteSource>> bytes_of(const StreamWords& w) {
     const auto [end, status] = std::from_chars(w.in.data() + 4, w.in.data() + w.in.size(), port);
     if (status != std::errc{} || end != w.in.data() + w.in.size() || port < 0 || port > 65535)
         return bad_usage(fmt::format("--in {}: write tcp:PORT, such as tcp:7000; --listen says on which address", w.in));
-    return listen_on(w.listen, port, w.clients);
+    return listen_on(w.listen, port, {.clients = w.clients});
 }
 
 Result<SkinPlan> plan_of(const StreamWords& w, std::size_t channels, std::span<const Channel> places, std::span<const Wish> wishes) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 #include <optional>
+#include <semaphore>
 #include <thread>
 
 #include "io/output.hpp"
@@ -23,7 +24,9 @@ class FileOutlet final : public EventOutlet {
     Writing write_;
     std::function<Result<void>()> commit_;
     std::atomic<bool> ending_ = false, failed_ = false;
-    std::optional<Error> error_;  // the thread's, to be read when failed_
+    std::optional<Error> error_;                    // the thread's, to be read when failed_
+    std::counting_semaphore<> hurry_{0}, room_{0};  // the ring is full; some of it was written, or nothing more will be
+    std::atomic<bool> is_awaited_ = false;
     std::thread thread_;
 
     void write_on() {
@@ -32,12 +35,14 @@ class FileOutlet final : public EventOutlet {
             for (auto piece = ring_.next(); !piece.empty(); piece = ring_.next()) {
                 if (auto ok = write_(piece); !ok) {
                     error_ = ok.error();
-                    return failed_.store(true, std::memory_order_release);
+                    failed_.store(true, std::memory_order_release);
+                    return room_.release();
                 }
                 ring_.took(piece.size());
+                if (is_awaited_.exchange(false)) room_.release();
             }
             if (last) return;
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            (void)hurry_.try_acquire_for(std::chrono::milliseconds(2));
         }
     }
 
@@ -57,7 +62,17 @@ public:
     ~FileOutlet() override { join(); }
     std::string sentence() const override { return name_; }
     Result<void> flush() override { return state(); }
-    Result<void> finish() override {
+    bool is_file() const override { return true; }
+    Result<bool> wait_for_room(std::size_t bytes, int ms) override {
+        is_awaited_ = true;
+        if (!ring_.has_room(bytes)) {
+            hurry_.release();
+            (void)room_.try_acquire_for(std::chrono::milliseconds(ms));
+        }
+        if (auto ok = state(); !ok) return ok.error();
+        return ring_.has_room(bytes);
+    }
+    Result<void> finish(const EventPatience&) override {
         join();
         lose_all();
         if (auto ok = state(); !ok) return ok;
