@@ -133,48 +133,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
                   "single precision: up to twice as fast, but spikes move (doc/lanes.md says how far); no currents and membranes are kept");
     verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz; of a skin 1 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
-    verb.add_option("--channel,-c", w.channels,
-                    "which channels of a recording: names, or numbers and ranges (2-5) that count all columns but the time")
-        ->allow_extra_args(false)
-        ->type_name("CHANNEL")
-        ->group("Recordings");
-    verb.add_option("--dataset", w.dataset, "which array of a file that holds several (HDF5, NPZ), by its path or name")
-        ->type_name("NAME")
-        ->group("Recordings");
-    verb.add_option("--time", w.time, "a recording's time column by name or number, or 'none'")->type_name("COLUMN")->group("Recordings");
-    verb.add_option("--time-unit", w.time_unit, "what the time column is in, if its header does not say: s, ms, us")
-        ->type_name("UNIT")
-        ->group("Recordings");
-    verb.add_option("--unit", w.unit, "what a recording holds: N, mN, gf, kgf, or raw (then say --scale)")
-        ->type_name("UNIT")
-        ->group("Recordings");
-    verb.add_option("--scale", w.scale, "what is read, times S, is newtons")->type_name("S")->group("Recordings");
-    verb.add_flag("--abs", w.absolute, "take the absolute value of what is read")->group("Recordings");
-    verb.add_option("--offset", w.offset, "what is read where there is no force; taken off before --scale")
-        ->type_name("X")
-        ->group("Recordings");
-    verb.add_option("--range", w.range, "what can be read at all; readings outside are bad")->type_name("LO..HI")->group("Recordings");
-    verb.add_option("--bad-fields", w.bad_fields,
-                    "what becomes of fields that are no numbers, and of readings out of --range: error (else of fields), drop the row, "
-                    "interpolate (else of readings)")
-        ->check(CLI::IsMember({"error", "drop", "interpolate"}))
-        ->type_name("WHAT")
-        ->group("Recordings");
-    verb.add_option("--despike", w.despike,
-                    "readings further than this from the median of the 25 about them are bad; auto: 6 standard deviations")
-        ->type_name("LIMIT")
-        ->group("Recordings");
-    verb.add_option("--notch", w.notch, "filter out mains hum: 50Hz, and 4 Hz about it (repeat for others)")
-        ->allow_extra_args(false)
-        ->type_name("FREQUENCY")
-        ->group("Recordings");
-    verb.add_option("--lowpass", w.lowpass, "filter out what is faster (Butterworth, second order)")
-        ->type_name("FREQUENCY")
-        ->group("Recordings");
-    verb.add_option("--layout", w.layout, "a table that names the sensors and says where they sit: channel,name,x_mm,y_mm")
-        ->type_name("FILE")
-        ->group("Recordings");
-    verb.add_option("--resample", w.resample, "interpolate a recording to this rate")->type_name("FREQUENCY")->group("Recordings");
+    add_recording_words(verb, w);
     verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, of copies, copies.csv into this directory")
         ->type_name("DIR")
         ->group("Output");

@@ -19,15 +19,21 @@ struct NetlistWords {
     std::vector<std::string> traces;
 };
 
-struct RespondWords {
-    NetlistWords netlists;
-    std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise,
-        bin;
-    std::vector<std::string> notch;
+/// How a recording is to be read; recording_options() makes the reader's options of it.
+struct RecordingWords {
+    std::vector<std::string> channels, notch;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
     std::string layout;
+    std::optional<std::uint32_t> skip;  ///< lines
+    bool absolute = false;
+};
+
+struct RespondWords : RecordingWords {
+    NetlistWords netlists;
+    std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads;
+    std::optional<std::string> noise, bin;
     std::string method = "exact";
-    bool sampled = false, absolute = false, traces = false, vectors = false, report = false, npz = false, wav = false;
+    bool sampled = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
     std::string population, contact, events, checkpoint;  ///< of a skin; "": not said
     std::uint64_t seed = 0;
@@ -38,6 +44,7 @@ struct RespondWords {
 
 struct CompareWords {
     std::vector<std::string> files, pairs;
+    std::optional<std::string> time, unit;  ///< columns of tables of spikes
     bool by_order = false;
     std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };

@@ -10,6 +10,8 @@ class App;
 namespace corpuscle {
 
 void add_netlist_words(CLI::App&, NetlistWords&);
+/// How a recording is to be read, but for --rate, which means other things besides.
+void add_recording_words(CLI::App&, RecordingWords&);
 void add_skin_words(CLI::App&, RespondWords&);
 
 }  // namespace corpuscle
