@@ -32,11 +32,12 @@ int fail(const Error& error) {
 }
 
 void catch_interrupt() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        std::signal(signal, [](int) {
-            if (stop) std::_Exit(130);
-            stop = 1;
-        });
+    struct sigaction action = {};  // without SA_RESTART: a read that waits ends, too
+    action.sa_handler = [](int) {
+        if (stop) std::_Exit(130);
+        stop = 1;
+    };
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early (| head) is an error of writing, told as such
 }
 

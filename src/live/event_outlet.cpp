@@ -12,13 +12,11 @@
 #include <cstring>
 
 #include "live/file_outlet.hpp"
-#include "live/network.hpp"
 #include "live/steady_clock.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr std::int64_t patience = 1'000'000'000;  // ns, for a reader that takes nothing when all has ended
 constexpr int between_looks_ms = 100;
 
 enum class Wrote { all, some, gone };
@@ -40,14 +38,14 @@ void wait_to_write(int fd, int ms) {
     ::poll(&wait, 1, ms);
 }
 
-/// To the end, as long as something is taken within the patience.
+/// To the end, as long as something is taken soon enough.
 Wrote write_out(ByteRing& ring, int fd, bool socket, const EventPatience& how_long) {
     for (auto since = steady_now();;) {
         const auto before = ring.all_taken();
         const auto wrote = write_some(ring, fd, socket);
         if (wrote != Wrote::some) return wrote;
         if (ring.all_taken() != before || (how_long.is_endless && !how_long.stop())) since = steady_now();
-        if (steady_now() - since > patience) return wrote;
+        if (steady_now() - since > how_long.longest) return wrote;
         wait_to_write(fd, between_looks_ms);
     }
 }
@@ -187,9 +185,13 @@ Result<std::unique_ptr<EventOutlet>> event_client(const std::string& endpoint, c
     if (!at) return at.error();
     auto to = resolve(*at);
     if (!to) return to.error();
-    auto fd = connected_socket(*to, 5000);
+    return event_client(std::move(*to), format, ring);
+}
+
+Result<std::unique_ptr<EventOutlet>> event_client(ResolvedEndpoint to, const EventFormat& format, std::size_t ring) {
+    auto fd = connected_socket(to, 5000);
     if (!fd) return fd.error();
-    return std::unique_ptr<EventOutlet>(std::make_unique<ClientOutlet>(format, ring, std::move(*to), std::move(*fd)));
+    return std::unique_ptr<EventOutlet>(std::make_unique<ClientOutlet>(format, ring, std::move(to), std::move(*fd)));
 }
 
 }  // namespace corpuscle

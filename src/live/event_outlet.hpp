@@ -9,13 +9,15 @@
 #include "io/events.hpp"
 #include "live/byte_ring.hpp"
 #include "live/descriptor.hpp"
+#include "live/network.hpp"
 
 namespace corpuscle {
 
 /// How long a reader is waited for at the end that takes nothing.
 struct EventPatience {
-    bool is_endless = false;                            ///< until stopped; else a second
-    std::function<bool()> stop = [] { return false; };  ///< asked at least ten times a second; when stopped, a second is left
+    std::int64_t longest = 1'000'000'000;               ///< ns
+    bool is_endless = false;                            ///< that counts from when it is stopped
+    std::function<bool()> stop = [] { return false; };  ///< asked at least ten times a second
 };
 
 class EventOutlet {
@@ -59,7 +61,9 @@ std::unique_ptr<EventOutlet> pipe_outlet(Descriptor own, int fd, std::string nam
 /// A file, which grows as PATH.part and has its name when it is whole; a named pipe is written as it is.
 Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const EventFormat&, std::size_t ring);
 
-/// Somebody who listens; when he has gone he is tried again every second, and what comes meanwhile is left out and counted.
+/// A reader who listens; once gone it is tried again every second, and what comes meanwhile is left out and counted. The name service is
+/// asked once, before this returns: it might not answer later.
 Result<std::unique_ptr<EventOutlet>> event_client(const std::string& endpoint, const EventFormat&, std::size_t ring);
+Result<std::unique_ptr<EventOutlet>> event_client(ResolvedEndpoint, const EventFormat&, std::size_t ring);
 
 }  // namespace corpuscle

@@ -5,10 +5,11 @@
 #include <sys/stat.h>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <cstring>
 #include <functional>
+#include <mutex>
 #include <optional>
-#include <semaphore>
 #include <thread>
 
 #include "io/output.hpp"
@@ -24,10 +25,18 @@ class FileOutlet final : public EventOutlet {
     Writing write_;
     std::function<Result<void>()> commit_;
     std::atomic<bool> ending_ = false, failed_ = false;
-    std::optional<Error> error_;                    // the thread's, to be read when failed_
-    std::counting_semaphore<> hurry_{0}, room_{0};  // the ring is full; some of it was written, or nothing more will be
+    std::optional<Error> error_;  // the thread's, to be read when failed_
+    // Only where the ring is full: the writer is not to sleep on, and the one that puts sleeps until there is room.
+    std::mutex full_;
+    std::condition_variable hurry_, room_;
     std::atomic<bool> is_awaited_ = false;
     std::thread thread_;
+
+    void tell_of_room() {
+        const std::lock_guard lock(full_);
+        is_awaited_ = false;
+        room_.notify_one();
+    }
 
     void write_on() {
         for (;;) {
@@ -36,13 +45,14 @@ class FileOutlet final : public EventOutlet {
                 if (auto ok = write_(piece); !ok) {
                     error_ = ok.error();
                     failed_.store(true, std::memory_order_release);
-                    return room_.release();
+                    return tell_of_room();
                 }
                 ring_.took(piece.size());
-                if (is_awaited_.exchange(false)) room_.release();
+                if (is_awaited_) tell_of_room();
             }
             if (last) return;
-            (void)hurry_.try_acquire_for(std::chrono::milliseconds(2));
+            std::unique_lock lock(full_);
+            hurry_.wait_for(lock, std::chrono::milliseconds(2), [this] { return is_awaited_.load(); });
         }
     }
 
@@ -64,10 +74,12 @@ public:
     Result<void> flush() override { return state(); }
     bool is_file() const override { return true; }
     Result<bool> wait_for_room(std::size_t bytes, int ms) override {
-        is_awaited_ = true;
-        if (!ring_.has_room(bytes)) {
-            hurry_.release();
-            (void)room_.try_acquire_for(std::chrono::milliseconds(ms));
+        std::unique_lock lock(full_);
+        const auto is_settled = [&] { return ring_.has_room(bytes) || failed_; };
+        if (!is_settled()) {
+            is_awaited_ = true;
+            hurry_.notify_one();
+            room_.wait_for(lock, std::chrono::milliseconds(ms), is_settled);
         }
         if (auto ok = state(); !ok) return ok.error();
         return ring_.has_room(bytes);

@@ -16,7 +16,7 @@ std::string contents_of(const FrameLayout& layout, std::size_t numbers) {
                                             : fmt::format("a {} and {}", layout.stamp == FrameStamp::count ? "count" : "time", values);
 }
 
-std::string wanted(const FrameLayout& layout, std::string_view population) {
+std::string wanted_frame(const FrameLayout& layout, std::string_view population) {
     return fmt::format("'{}' has {}, and a frame is {}", population, counted_noun(layout.sites, "site"), contents_of(layout, layout.sites));
 }
 
@@ -27,15 +27,17 @@ std::string text_of(const FrameMisfit& misfit, const FrameLayout& layout, std::s
     switch (misfit.why) {
         case FrameMisfit::width:
             return fmt::format("frame {} has {}; {}", misfit.frame,
-                               misfit.found < stamps ? "nothing" : contents_of(layout, misfit.found - stamps), wanted(layout, population));
+                               misfit.found < stamps ? "nothing" : contents_of(layout, misfit.found - stamps),
+                               wanted_frame(layout, population));
         case FrameMisfit::stamp:
             return fmt::format("frame {} does not begin with {}; {}", misfit.frame,
                                layout.stamp == FrameStamp::count ? "its count, a whole number" : "its time in seconds",
-                               wanted(layout, population));
+                               wanted_frame(layout, population));
         case FrameMisfit::endless:
-            return fmt::format("frame {} is a line longer than any frame; {}", misfit.frame, wanted(layout, population));
+            return fmt::format("frame {} is a line longer than any frame; {}", misfit.frame, wanted_frame(layout, population));
         case FrameMisfit::datagram:
-            return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", misfit.found, wanted(layout, population), layout.bytes());
+            return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", misfit.found, wanted_frame(layout, population),
+                               layout.bytes());
     }
     return {};
 }

@@ -32,7 +32,7 @@ Result<std::vector<SocketAddress>> addresses_of(const Endpoint& at, int socket_t
     return all;
 }
 
-const sockaddr* generic(const SocketAddress& address) { return reinterpret_cast<const sockaddr*>(&address.bytes); }
+const sockaddr* as_sockaddr(const SocketAddress& address) { return reinterpret_cast<const sockaddr*>(&address.bytes); }
 
 Error at_endpoint(std::string_view what, const Endpoint& at, int why) {
     return bad_input(fmt::format("{} {}: {}", what, at.text(), std::strerror(why)));
@@ -100,17 +100,17 @@ Result<Descriptor> listening_socket(Endpoint& at) {
     return bound_socket(at, SOCK_STREAM, [](int fd, const SocketAddress& a) {
         const int yes = 1;
         ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-        return ::bind(fd, generic(a), a.size) == 0 && ::listen(fd, 128) == 0;
+        return ::bind(fd, as_sockaddr(a), a.size) == 0 && ::listen(fd, 128) == 0;
     });
 }
 
 Result<Descriptor> datagram_socket(Endpoint& at) {
-    return bound_socket(at, SOCK_DGRAM, [](int fd, const SocketAddress& a) { return ::bind(fd, generic(a), a.size) == 0; });
+    return bound_socket(at, SOCK_DGRAM, [](int fd, const SocketAddress& a) { return ::bind(fd, as_sockaddr(a), a.size) == 0; });
 }
 
 Descriptor begin_connection(const SocketAddress& to) {
     Descriptor fd(::socket(to.bytes.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (fd && (::connect(fd.get(), generic(to), to.size) == 0 || errno == EINPROGRESS)) return fd;
+    if (fd && (::connect(fd.get(), as_sockaddr(to), to.size) == 0 || errno == EINPROGRESS)) return fd;
     return {};
 }
 

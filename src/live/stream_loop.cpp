@@ -36,7 +36,7 @@ Result<void> StreamLoop::run() {
     if (ended && ways_.stop()) ended = answer_rest();
     if (ended) ended = answer_gathered();
     if (ended && !ways_.goes_on) ended = put(skin_.last());
-    const auto finished = outlet_.finish({!frames_.is_live(), ways_.stop});
+    const auto finished = outlet_.finish({patience_ends_ == FrameSource::never ? second : 0, !frames_.is_live(), ways_.stop});
     return ended ? finished : ended;
 }
 
@@ -131,12 +131,10 @@ Result<void> StreamLoop::put(std::span<const Spike> spikes) {
 
 /// Waits for a reader who may be waited for; false: there is no room. Once stopped, a reader that takes nothing has one more second.
 Result<bool> StreamLoop::make_room(std::size_t bytes) {
-    while (waits_for_reader()) {
+    while (waits_for_reader() && steady_now() < patience_ends_) {
         const auto room = outlet_.wait_for_room(bytes, 100);
         if (!room || *room) return room;
-        if (outlet_.is_file() || !ways_.stop()) continue;
-        if (patience_ends_ == FrameSource::never) patience_ends_ = steady_now() + second;
-        if (steady_now() > patience_ends_) break;
+        if (!outlet_.is_file() && ways_.stop() && patience_ends_ == FrameSource::never) patience_ends_ = steady_now() + second;
     }
     return false;
 }

@@ -23,8 +23,8 @@ Result<void> check_all_used(const SkinPlan& plan, std::span<const Wish> wishes, 
     for (const auto& c : plan.classes) names.push_back(c.name);
     for (const auto& w : wishes)
         if (!w.used)
-            return bad_usage(fmt::format("{}: no '{}' takes part{}; what can be set: {}", w.text(), w.of, did_you_mean(w.of, names),
-                                         fmt::join(names, ", ")));
+            return bad_usage(
+                fmt::format("{}: no '{}' takes part{} ({} can be set)", w.text(), w.of, did_you_mean(w.of, names), fmt::join(names, ", ")));
     return {};
 }
 
