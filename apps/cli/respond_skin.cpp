@@ -10,6 +10,7 @@
 #include "recording_words.hpp"
 #include "signal/stimuli.hpp"
 #include "signal/text.hpp"
+#include "skin/class_settings.hpp"
 #include "skin_outputs.hpp"
 #include "study/skin_checkpoint.hpp"
 #include "study/skin_ranks.hpp"
@@ -75,21 +76,6 @@ void add_touch(std::vector<Wish>& wishes, const NamedTouch& touch) {
     };
     add("contact", touch.settings);
     add(touch.force, touch.force_settings);
-}
-
-/// A parameter of a class: "sa1.f_B=25Hz".
-Result<void> set_classes(SkinPlan& plan, std::span<const Wish> wishes) {
-    for (auto& c : plan.classes) {
-        std::vector<Row> rows;
-        for (const auto& p : *c.afferent.parameters) rows.push_back(p.row);
-        const auto settings = settings_for(c.name, rows, wishes);
-        if (!settings) return settings.error();
-        for (const auto& s : *settings)
-            for (std::size_t k = 0; k < rows.size(); ++k)
-                if (rows[k].name == s.name) c.afferent.values[k] = s.value;
-        if (auto wrong = refusal(c.afferent)) return *wrong;
-    }
-    return {};
 }
 
 Result<void> check_skin_wishes(const SkinJob& job) {

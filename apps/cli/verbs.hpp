@@ -99,17 +99,16 @@ struct SweepCalibrateWords {
     bool apart = false;
 };
 
-struct StreamWords {
-    std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real", layout;
-    std::vector<std::string> settings, channels;
-    std::optional<std::string> rate, scale, offset, unit;
-    std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M";
+struct StreamWords : RecordingWords {
+    std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real";
+    std::vector<std::string> settings;
+    std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M", idle = "10s";
     std::string out = "-", to, format = "lines", save, resume;
     std::size_t count = 1;     ///< channels
     std::size_t together = 1;  ///< frames
     std::int64_t clients = 0;  ///< 0: without end
     long baud = 115200;
-    bool sampled = false, spin = false;
+    bool sampled = false, spin = false, allow_drops = false;
 };
 
 struct ListWords {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <span>
+#include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "measure/distance.hpp"
 
@@ -21,22 +22,43 @@ std::string listed(const Trains& trains) {
     return fmt::format("{}{}", fmt::join(names, "; "), names.size() < trains.size() ? " ..." : "");
 }
 
-/// Trains by their two names, and by the one that is shown; of several the first.
+/// The trains of a file by their names.
 class TrainIndex {
-    std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_names_;
-    std::unordered_map<std::string, const NamedTrain*> by_name_;
+    std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_name_;
+    std::unordered_map<std::string, const NamedTrain*> by_shown_name_;
+    std::map<std::string_view, std::vector<const NamedTrain*>> by_afferent_;
+
+    const NamedTrain* only_of(const std::string& afferent) const {
+        const auto found = by_afferent_.find(afferent);
+        return found != by_afferent_.end() && found->second.size() == 1 ? found->second.front() : nullptr;
+    }
 
 public:
     explicit TrainIndex(const Trains& trains) {
-        for (const auto& t : trains) by_names_.try_emplace({t.afferent, t.channel}, &t), by_name_.try_emplace(t.name(), &t);
+        for (const auto& t : trains)
+            by_name_.try_emplace({t.afferent, t.channel}, &t), by_shown_name_.try_emplace(t.name(), &t), by_afferent_[t.afferent].push_back(&t);
     }
-    const NamedTrain* find(const std::string& afferent, const std::string& channel) const {
-        const auto at = by_names_.find({afferent, channel});
-        return at == by_names_.end() ? nullptr : at->second;
+
+    const NamedTrain* of_name(std::string_view afferent, std::string_view channel) const {
+        const auto found = by_name_.find({afferent, channel});
+        return found == by_name_.end() ? nullptr : found->second;
     }
-    const NamedTrain* called(const std::string& name) const {
-        const auto at = by_name_.find(name);
-        return at == by_name_.end() ? nullptr : at->second;
+    const NamedTrain* of_shown_name(const std::string& name) const {
+        const auto found = by_shown_name_.find(name);
+        return found == by_shown_name_.end() ? nullptr : found->second;
+    }
+
+    /// The train of the same name; where one of the two files does not tell channels (address events), the only train of this afferent.
+    /// "sa1#1" without a channel is the first of "sa1".
+    const NamedTrain* alike(const NamedTrain& wanted) const {
+        if (const auto* found = of_name(wanted.afferent, wanted.channel)) return found;
+        if (wanted.afferent.empty()) return nullptr;
+        if (wanted.channel.empty()) {
+            const auto* found = only_of(wanted.afferent);
+            return found || !wanted.afferent.ends_with("#1") ? found : only_of(wanted.afferent.substr(0, wanted.afferent.size() - 2));
+        }
+        const auto* found = of_name(wanted.afferent, "");
+        return found ? found : of_name(wanted.afferent + "#1", "");
     }
 };
 
@@ -53,9 +75,9 @@ std::vector<const NamedTrain*> called(const Trains& trains, const std::string& n
 
 /// What in B answers a train of A that goes by `from`, when that is `to` there: the same train with the name changed.
 const NamedTrain* renamed(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
-    if (const auto* t = train.name() == from ? b.called(to) : nullptr) return t;
-    const auto* found = train.afferent == from ? b.find(to, train.channel) : nullptr;
-    return found || train.channel != from ? found : b.find(train.afferent, to);
+    if (const auto* found = train.name() == from ? b.of_shown_name(to) : nullptr) return found;
+    const auto* found = train.afferent == from ? b.of_name(to, train.channel) : nullptr;
+    return found || train.channel != from ? found : b.of_name(train.afferent, to);
 }
 
 /// One --pair: the only two trains of these names, or all whose names differ in just this.
@@ -80,21 +102,25 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
                     text, in_a.size(), in_b.size(), in_a[0]->name(), in_b[0]->name()));
 }
 
-/// Trains of one name; those that stand in one file only against silence.
+/// Trains of one name; those that stand in one file only against silence. A pair is one both ways: "sa1" of a file without channels is
+/// none of several channels of another.
 std::vector<PairedTrains> by_name(const Trains& a, const Trains& b) {
-    std::vector<PairedTrains> out;
     const TrainIndex in_a(a), in_b(b);
-    for (const auto& t : a) out.push_back(paired(&t, in_b.find(t.afferent, t.channel)));
+    const auto partner = [](const NamedTrain& t, const TrainIndex& own, const TrainIndex& other) {
+        const auto* found = other.alike(t);
+        return found && own.alike(*found) == &t ? found : nullptr;
+    };
+    std::vector<PairedTrains> out;
+    for (const auto& t : a) out.push_back(paired(&t, partner(t, in_a, in_b)));
     for (const auto& t : b)
-        if (!in_a.find(t.afferent, t.channel)) out.push_back(paired(nullptr, &t));
+        if (!partner(t, in_b, in_a)) out.push_back(paired(nullptr, &t));
     return out;
 }
 
 /// The --pair that would bring the two together, if they differ in one name.
 std::string proposal(const Trains& a, const Trains& b) {
-    constexpr std::size_t most_looked_at = 1000;  // of each file
-    for (const auto& x : std::span(a).first(std::min(a.size(), most_looked_at)))
-        for (const auto& y : std::span(b).first(std::min(b.size(), most_looked_at))) {
+    for (const auto& x : a)
+        for (const auto& y : b) {
             if (x.channel == y.channel && !x.afferent.empty() && !y.afferent.empty())
                 return fmt::format("--pair {}={}", x.afferent, y.afferent);
             if (x.afferent == y.afferent && !x.channel.empty() && !y.channel.empty())

@@ -34,6 +34,16 @@ TEST(PairTrains, TakesThoseOfOneNameAndSilenceForTheOthers) {
     EXPECT_EQ(pairs({{"7", ""}}, {{"sa1", "x"}}), "7=sa1,x") << "the only two there are";
 }
 
+TEST(PairTrains, AFileWithoutChannelsMeetsOneThatHasThemIfOnlyOneTrainCanBeMeant) {
+    EXPECT_EQ(pairs({{"sa1#1", ""}, {"sa1#2", ""}}, {{"sa1#2", "palm"}, {"sa1#1", "thumb"}}), "sa1#1=sa1#1,thumb sa1#2=sa1#2,palm");
+    EXPECT_EQ(pairs({{"fa1#1", "palm"}, {"sa1#1", "palm"}}, {{"sa1#1", ""}}), "fa1#1,palm= sa1#1,palm=sa1#1");
+    EXPECT_EQ(pairs({{"fa1#1", ""}, {"sa1#1", ""}}, {{"fa1", "press"}, {"sa1", "press"}}), "fa1#1=fa1,press sa1#1=sa1,press")
+        << "address events of one channel";
+    EXPECT_EQ(pairs({{"fa1", "press"}, {"sa1", "press"}}, {{"fa1#1", ""}, {"sa1#1", ""}}), "fa1,press=fa1#1 sa1,press=sa1#1");
+    EXPECT_EQ(pairs({{"sa1", ""}, {"fa1", "x"}}, {{"fa1", "x"}, {"sa1", "x"}, {"sa1", "y"}}), "sa1= fa1,x=fa1,x =sa1,x =sa1,y");
+    EXPECT_EQ(pairs({{"sa1#1", ""}, {"fa1", "x"}}, {{"fa1", "x"}, {"sa1", "x"}, {"sa1", "y"}}), "sa1#1= fa1,x=fa1,x =sa1,x =sa1,y");
+}
+
 TEST(PairTrains, ANameChangesOnEveryChannelOrForEveryAfferent) {
     const Names two = {{"sa1", "x"}, {"sa1", "y"}}, kim = {{"sa1-kim", "x"}, {"sa1-kim", "y"}};
     EXPECT_EQ(pairs(two, kim, {.pairs = {"sa1=sa1-kim"}}), "sa1,x=sa1-kim,x sa1,y=sa1-kim,y");
