@@ -5,11 +5,13 @@ Makes reports with the program, opens them in headless Chromium, uses them as a 
 show with the data they carry. Leaves OUTDIR/press.png and OUTDIR/press-zoomed.png to look at.
 """
 import base64
+import contextlib
 import json
 import math
 import pathlib
 import re
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
