@@ -263,17 +263,18 @@ std::string grid_points(const SweepTable& from, const SweepSummary& s) {
     return fmt::format("\nPoint by point{}:\n{}", means ? ", means" : "", table(rows));
 }
 
-/// The quantiles that were asked for, with their intervals.
+/// The quantiles that were asked for, with their intervals; a grid's have none.
 std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
     Rows rows = {{"quantile"}};
     for (std::size_t m = 0; m < from.measures.size(); ++m) {
         const Writing shown(from.measures[m].unit, s.all.measures[m]);
-        rows[0].push_back(named(from.measures[m], shown.unit())), rows[0].push_back("95 %");
+        rows[0].push_back(named(from.measures[m], shown.unit()));
+        if (!from.is_grid) rows[0].push_back("95 %");
         for (std::size_t q = 0; q < s.question.quantiles.size(); ++q) {
             if (m == 0) rows.push_back({fmt::format("{:g} %", 100 * s.question.quantiles[q])});
             const auto& all = s.all.measures[m].quantiles;
             rows[q + 1].push_back(q < all.size() ? shown(all[q].value) : "-");
-            rows[q + 1].push_back(q < all.size() ? shown.interval(all[q]) : "-");
+            if (!from.is_grid) rows[q + 1].push_back(q < all.size() ? shown.interval(all[q]) : "-");
         }
     }
     return "\n" + table(rows);

@@ -77,8 +77,13 @@ public:
     Result<void> check() {
         if (heads_.empty()) return {};  // the run itself says which there are
         for (const auto& c : circuit_.commands)
-            if (c.name == "print" || c.name == "plot")
+            if (c.name == "print" || c.name == "plot") {
                 if (auto ok = columns(c); !ok) return ok;
+            } else if (c.name == "probe") {
+                for (std::size_t k = 0; k < c.words.size(); ++k)
+                    if (is_left_out(circuit_, c, c.words[k]))
+                        remarks_.push_back(error_at(c, k, fmt::format(".probe: '{}' is not told here and is left out", c.words[k])));
+            }
         Measures measures(circuit_);
         for (const auto& head : heads_)
             if (auto ok = measures.begin(head.command->name, head.plot); !ok) return ok;
@@ -100,6 +105,8 @@ private:
         for (std::size_t k = named ? 1 : 0; k < c.words.size(); ++k)
             if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
                 remarks_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
+            else if (c.words[k] == "all")
+                continue;
             else if (auto wrong = missing(c, k, named))
                 return *wrong;
         return {};

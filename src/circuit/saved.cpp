@@ -4,10 +4,17 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "circuit/devices.hpp"
+
 namespace corpuscle::circuit {
 namespace {
 
 bool asks_to_save(const Command& c) { return c.name == "save" || c.name == "probe"; }
+
+/// "all", and of .probe also "alli" and "allv".
+bool asks_for_all(const Command& c, const std::string& word) {
+    return word == "all" || (c.name == "probe" && (word == "alli" || word == "allv"));
+}
 
 /// Of "i(x1.m1)" the element; -1: it is none whose current is told so.
 int device_in(const UnknownNames& names, const Circuit& circuit, std::string_view word) {
@@ -17,6 +24,16 @@ int device_in(const UnknownNames& names, const Circuit& circuit, std::string_vie
 }
 
 }  // namespace
+
+bool is_left_out(const Circuit& circuit, const Command& c, std::string_view word) {
+    if (c.name != "probe" || asks_for_all(c, std::string(word))) return false;
+    const auto open = word.find('(');
+    if (open != std::string_view::npos && open != 1) return true;  // vd(r2), p(x1)
+    if (!word.starts_with("i(") || !word.ends_with(')')) return false;
+    const int k = circuit.element(word.substr(2, word.size() - 3));
+    return k >= 0 && !has_branch(circuit.elements[static_cast<std::size_t>(k)]) &&
+           !has_own_current(circuit.elements[static_cast<std::size_t>(k)]);
+}
 
 double Saved::current_into(const Device& d, std::span<const double> v) {
     const auto n = v.size();
@@ -40,10 +57,11 @@ Result<std::vector<Saved>> saved_of(const System& system) {
         all = all || c.words.empty();
         for (std::size_t k = 0; k < c.words.size(); ++k) {
             const auto& word = c.words[k];
-            if (word == "all") {
+            if (asks_for_all(c, word)) {
                 all = true;
                 continue;
             }
+            if (is_left_out(system.circuit(), c, word)) continue;
             const auto name = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
             if (!seen.insert(name).second) continue;
             if (const int device = device_in(names, system.circuit(), name); device >= 0) {

@@ -25,7 +25,7 @@ void warn(std::vector<Error>& out, const Circuit& c, Holds&& holds, Sentence&& s
     out.push_back(bad_input(fmt::format("{}: {}{}", first->name, sentence(*first), others), first->place));
 }
 
-bool has(const Element& e, std::string_view name) { return e.values.contains(name); }
+bool says(const Element& e, std::string_view name) { return e.values.contains(name); }
 
 void sizes(std::vector<Error>& out, const Circuit& c) {
     const auto too_long = [](const Element& e, std::string_view name) { return value_or(e.values, name, 0) > longest_gate; };
@@ -39,32 +39,32 @@ void sizes(std::vector<Error>& out, const Circuit& c) {
         });
     for (const std::string_view name : {"w", "l"})
         warn(
-            out, c, [&](const Element& e) { return e.letter == 'm' && !has(e, name); },
+            out, c, [&](const Element& e) { return e.letter == 'm' && !says(e, name); },
             [&](const Element&) {
                 const UicmInstance usual;
                 return fmt::format("{}= is not given; it is {}", name, format_quantity(name == "w" ? usual.W : usual.L, "m"));
             });
 }
 
-bool any(const Circuit& c, std::string_view command) {
+bool has_command(const Circuit& c, std::string_view command) {
     return std::any_of(c.commands.begin(), c.commands.end(), [&](const Command& one) { return one.name == command; });
 }
 
-void starts(std::vector<Error>& out, const Circuit& c) {
+void initial_conditions(std::vector<Error>& out, const Circuit& c) {
     const bool without_uic = std::any_of(c.commands.begin(), c.commands.end(), [](const Command& one) {
         return one.name == "tran" && (one.words.empty() || one.words.back() != "uic");
     });
     if (without_uic)
         warn(
-            out, c, [](const Element& e) { return has(e, "ic") && e.letter != 'd'; },
+            out, c, [](const Element& e) { return says(e, "ic") && e.letter != 'd'; },
             [](const Element&) {
                 return "ic= counts with 'uic' at the end of the .tran line alone; .ic v(node)=... holds a node without it";
             });
     warn(
-        out, c, [](const Element& e) { return has(e, "ic") && e.letter == 'd'; },
+        out, c, [](const Element& e) { return says(e, "ic") && e.letter == 'd'; },
         [](const Element&) { return "ic= of a diode is not used; a capacitor across it may have one, or .ic v(node)=... with uic"; });
     warn(
-        out, c, [](const Element& e) { return has(e, "off"); },
+        out, c, [](const Element& e) { return says(e, "off"); },
         [](const Element&) { return "off is not used; .nodeset v(node)=... says where a search begins"; });
 }
 
@@ -94,7 +94,7 @@ void pulses(std::vector<Error>& out, const Circuit& c) {
         });
 }
 
-void times(std::vector<Error>& out, const Circuit& c) {
+void transient_times_of(std::vector<Error>& out, const Circuit& c) {
     for (const auto& one : c.commands) {
         if (one.name != "tran" || one.words.size() < 2) continue;
         const auto step = whole_number(one.words[0]), stop = whole_number(one.words[1]);
@@ -108,8 +108,8 @@ void times(std::vector<Error>& out, const Circuit& c) {
 
 std::vector<Error> warnings_of(const Circuit& c) {
     std::vector<Error> out;
-    sizes(out, c), drives(out, c), pulses(out, c), times(out, c);
-    if (any(c, "tran")) starts(out, c);
+    sizes(out, c), drives(out, c), pulses(out, c), transient_times_of(out, c);
+    if (has_command(c, "tran")) initial_conditions(out, c);
     return out;
 }
 

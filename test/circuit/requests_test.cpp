@@ -144,6 +144,17 @@ TEST(Curves, ThatAreNotThereAreRefusedBeforeAnyAnalysis) {
     EXPECT_NE(warnings_in(c + ".print ac v(b)\n").find(".print: the netlist has no .ac, so nothing is printed"), std::string::npos);
 }
 
+TEST(Curves, AreAllPrintedForAllAndProbedAsNgspiceWritesIt) {
+    const std::string c = "v1 a 0 1\nr1 a b 1k\nc1 b 0 1u\n.op\n";
+    const auto found = outcome_of(c + ".print op all\n");
+    ASSERT_TRUE(found) << found.error().text();
+    for (const auto* name : {"v(a)", "v(b)", "i(v1)"}) EXPECT_NE(found->analyses[0].printed.find(name), std::string::npos);
+    EXPECT_EQ(outcome_of(c + ".probe v(b) i(r1)\n")->saved, (std::vector<std::string>{"v(b)", "i(r1)"}));
+    EXPECT_TRUE(outcome_of(c + ".probe alli\n")->saved.empty());
+    EXPECT_NE(warnings_in(c + ".probe vd(r1) i(c1) v(b)\n").find(".probe: 'vd(r1)' is not told here"), std::string::npos);
+    EXPECT_NE(refusal_of(c + ".probe i(c9)\n").find(".probe: there is no i(c9)"), std::string::npos);
+}
+
 TEST(Curves, OfEveryAnalysisArePrinted) {
     const std::string c = "v1 a 0 dc 1 ac 1\nr1 a b 1k\nr2 b 0 1k\n";
     for (const auto* line : {".noise v(b) v1 dec 1 1 10\n.print noise onoise_spectrum", ".ac dec 1 1 10\n.print ac vdb(b) vp(b)",

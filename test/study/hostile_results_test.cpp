@@ -43,6 +43,47 @@ std::string refusal_of(const std::string& path) {
     return results ? "" : results.error().text();
 }
 
+/// What the first version that wrote such files put there.
+constexpr const char* first_format = R"tables(
+CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, sentence TEXT NOT NULL,
+                     words TEXT NOT NULL, at_least REAL, at_most REAL, stored TEXT NOT NULL);
+CREATE TABLE spikes(unit INTEGER NOT NULL, train INTEGER NOT NULL, times BLOB NOT NULL, PRIMARY KEY(unit, train)) WITHOUT ROWID;
+CREATE TABLE traces(unit INTEGER NOT NULL, trace INTEGER NOT NULL, samples BLOB NOT NULL, PRIMARY KEY(unit, trace)) WITHOUT ROWID;
+CREATE TABLE units(unit INTEGER PRIMARY KEY, ended TEXT NOT NULL, steps INTEGER NOT NULL, iterations INTEGER NOT NULL,
+                   alone INTEGER NOT NULL, why TEXT NOT NULL, "temp" REAL, "v(q)" REAL);
+INSERT INTO about VALUES('facts', '["title","results format"]'), ('title', 'old'), ('results format', '1'), ('units', '2'),
+    ('trains', '["out"]'), ('traces', '[]'), ('trace_times', '[]');
+INSERT INTO columns VALUES(0, 'axis', 'temp', 'C', '', '[]', NULL, NULL, 'temp'), (1, 'measure', 'v(q)', 'V', '', '[]', 0.3, NULL, 'v(q)');
+INSERT INTO units VALUES(0, 'done', 1, 2, 0, '', 27, 0.35), (1, 'lost', 1, 2, 0, 'no rest', 85, NULL);
+INSERT INTO spikes VALUES(0, 0, X'000000000000F03F');
+PRAGMA application_id = 1400333680;
+)tables";
+
+std::string written(const Folder& folder, const std::string& statements) {
+    const auto path = folder / "old.sqlite";
+    sqlite3* file = nullptr;
+    EXPECT_EQ(sqlite3_open(path.c_str(), &file), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(file, statements.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(file);
+    sqlite3_close(file);
+    return path;
+}
+
+TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
+    const Folder folder;
+    const auto results = sure(SweepResults::look(written(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
+    EXPECT_EQ(results.finished(), 2);
+    std::string text;
+    ASSERT_TRUE(dump_results(results, [&](const std::string& more) { return text += more, true; }));
+    EXPECT_EQ(text, "unit,ended,steps,iterations,alone,why,temp,v(q),spikes of out\n0,done,1,2,0,,27,0.35,1\n1,lost,1,2,0,no rest,85,,\n");
+    const Folder later;
+    const auto refused = SweepResults::look(written(later, std::string(first_format) + "PRAGMA user_version = 2;"));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use that one"),
+              std::string::npos)
+        << refused.error().text();
+}
+
 TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
     const struct {
         const char *statements, *said;
@@ -75,7 +116,7 @@ TEST(HostileResults, OfUnitsThatTheSweepDoesNotHaveAreRefused) {
 TEST(HostileResults, RunNothingThatTheirSchemaHolds) {
     const Folder folder;
     const auto path = changed_results(folder,
-                                      "DELETE FROM units WHERE unit > 50;"
+                                      "DELETE FROM units WHERE unit > 50; DELETE FROM spikes; DELETE FROM traces;"
                                       "CREATE TRIGGER t AFTER INSERT ON units BEGIN UPDATE units SET ended = 'lost'; END");
     const PlainSweep sweep(100);
     auto results = sure(SweepResults::open(path, sweep));

@@ -10,7 +10,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double any = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 struct OptionRow {
     std::string_view name;
@@ -18,11 +18,18 @@ struct OptionRow {
     double min, max;
     std::string_view example;
 };
-constexpr OptionRow rows[] = {
-    {"reltol", false, 1e-15, 0.5, "1e-6"}, {"vntol", false, 1e-300, any, "1n"}, {"abstol", false, 1e-300, any, "1e-16"},
-    {"gmin", false, 0, 1, "1e-15"},        {"itl1", false, 1, 1e6, "500"},      {"temp", false, -273.15, 1000, "27"},
-    {"tnom", false, -273.15, 1000, "27"},  {"maxord", false, -any, any, "4"},   {"spikecheck", false, 0, 1, "0"},
-    {"accuracy", true, 0, 0, "fine"},      {"method", true, 0, 0, "gear"},
+constexpr OptionRow option_rows[] = {
+    {"reltol", false, 1e-15, 0.5, "1e-6"},
+    {"vntol", false, 1e-300, unlimited, "1n"},
+    {"abstol", false, 1e-300, unlimited, "1e-16"},
+    {"gmin", false, 0, 1, "1e-15"},
+    {"itl1", false, 1, 1e6, "500"},
+    {"temp", false, -273.15, 1000, "27"},
+    {"tnom", false, -273.15, 1000, "27"},
+    {"maxord", false, -unlimited, unlimited, "4"},
+    {"spikecheck", false, 0, 1, "0"},
+    {"accuracy", true, 0, 0, "fine"},
+    {"method", true, 0, 0, "gear"},
 };
 
 /// Options of other simulators that steer their iterations, their memory or what they print: the circuit's equations are the same.
@@ -50,13 +57,13 @@ bool among(const Names& names, std::string_view name) {
 
 std::optional<Error> wrong_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
                                   const Place& place) {
-    const auto* row = std::find_if(std::begin(rows), std::end(rows), [&](const OptionRow& r) { return r.name == name; });
-    if (row == std::end(rows)) {
+    const auto* row = std::find_if(std::begin(option_rows), std::end(option_rows), [&](const OptionRow& r) { return r.name == name; });
+    if (row == std::end(option_rows)) {
         if (among(without_effect, name)) return {};
         if (among(not_read, name))
             return bad_input(fmt::format(".options {}: it changes the circuit and is not read here; say it at the elements", name), place);
         std::vector<std::string_view> known;
-        for (const auto& r : rows) known.push_back(r.name);
+        for (const auto& r : option_rows) known.push_back(r.name);
         const auto hint = did_you_mean(name, known);
         return bad_input(fmt::format("unknown option '{}'{}", name,
                                      hint.empty() ? "; there are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "

@@ -12,6 +12,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_columns = 1900;                 // of a table of SQLite's: 2000
 constexpr std::size_t most_words = std::size_t{4} << 20;   // bytes: names of all values of all axes that vary by word
+constexpr std::size_t most_times = std::size_t{32} << 20;  // bytes: times of a trace's samples
 constexpr std::int64_t most_units = 1'000'000'000'000;     // as a plan may have
 constexpr std::size_t most_about = std::size_t{96} << 20;  // bytes of all facts
 
@@ -201,6 +202,10 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
         auto about = read_about(file, path);
         if (!about) return about.error();
         out.about = std::move(*about);
+        for (const auto& [key, most] :
+             {std::pair{"facts", most_words}, {"trains", most_words}, {"traces", most_words}, {"trace_times", most_times}})
+            if (out.about.at(key).size() > most)
+                return changed(path, fmt::format("'{}' of its table about is larger than {} MB", key, most >> 20));
         out.units = std::stoll(out.about.at("units"));
         out.facts = Json::parse(out.about.at("facts")).get<std::vector<std::string>>();
         out.trains = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();

@@ -31,10 +31,10 @@ std::string reason(sqlite3* file) {
     return cause ? std::strerror(cause) : sqlite3_errmsg(file);
 }
 
-/// Too large for the file system, for a quota, or for `ulimit -f`.
+/// The file system, or a quota of it.
 bool is_full(sqlite3* file) {
     const int cause = cause_of(file);
-    return sqlite3_errcode(file) == SQLITE_FULL || cause == ENOSPC || cause == EDQUOT || cause == EFBIG;
+    return sqlite3_errcode(file) == SQLITE_FULL || cause == ENOSPC || cause == EDQUOT;
 }
 
 }  // namespace
@@ -42,6 +42,10 @@ bool is_full(sqlite3* file) {
 Error failed(sqlite3* file, const std::string& path) {
     const auto say = [&](const std::string& sentence) { return bad_input(sentence, {path}); };
     if (!file) return say("there is no memory to open it");
+    if (cause_of(file) == EFBIG)
+        return say(
+            "is as large as a file may become here ('ulimit -f'); all that was written before is kept: raise that limit and give the "
+            "same command again");
     if (is_full(file)) return say("the disk is full; all that was written before is kept: make room there and give the same command again");
     switch (sqlite3_errcode(file) & 0xff) {
         case SQLITE_NOTADB:

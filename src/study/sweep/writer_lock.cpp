@@ -112,7 +112,7 @@ void WriterLock::note(std::int64_t finished, std::int64_t to_do) const {
 }
 
 std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results) {
-    const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) return {};
     auto whole = all_of_it(F_RDLCK);
     const bool free = ::fcntl(file, F_OFD_GETLK, &whole) == 0 && whole.l_type == F_UNLCK;
