@@ -57,7 +57,7 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
     WriterLock lock;
     const auto path = lock_path(results);
     for (;;) {
-        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file < 0)
             return bad_input(fmt::format("cannot be written: there is no making a file beside it ({}); give a place that can be written "
                                          "to with --out",
