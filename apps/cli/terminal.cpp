@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <numeric>
 #include <sstream>
 
 #include "printable.hpp"
@@ -34,6 +35,20 @@ std::size_t width(const std::string& text) {
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
+/// The words of a heading, and the parts of those with a hyphen: "Victor-", "Purpura".
+std::vector<std::string> pieces_of(const std::string& heading) {
+    std::vector<std::string> out;
+    std::istringstream words(heading);
+    for (std::string word; words >> word;) {
+        const auto hyphen = word.find('-', 2);
+        if (hyphen != word.npos && hyphen + 2 < word.size())
+            out.push_back(word.substr(0, hyphen + 1)), out.push_back(word.substr(hyphen + 1));
+        else
+            out.push_back(word);
+    }
+    return out;
+}
+
 /// The header of a table too wide for a terminal on several lines, a word on each where the column is narrow; gives how many.
 std::size_t narrow_header(std::vector<std::vector<std::string>>& rows) {
     if (rows.size() < 2) return 1;
@@ -48,18 +63,43 @@ std::size_t narrow_header(std::vector<std::vector<std::string>>& rows) {
     std::vector<std::vector<std::string>> lines;
     for (std::size_t c = 0; c < rows[0].size(); ++c) {
         std::vector<std::string> parts;
-        std::istringstream words(rows[0][c]);
-        for (std::string word; words >> word;)
-            if (!parts.empty() && width(parts.back()) + 1 + width(word) <= widths[c])
-                parts.back() += " " + word;
+        for (const auto& word : pieces_of(rows[0][c])) {
+            const bool joined = !parts.empty() && parts.back().ends_with('-');
+            if (!parts.empty() && width(parts.back()) + (joined ? 0 : 1) + width(word) <= widths[c])
+                parts.back() += (joined ? "" : " ") + word;
             else
                 parts.push_back(word);
+        }
         while (lines.size() < parts.size()) lines.emplace_back(rows[0].size());
         for (std::size_t k = 0; k < parts.size(); ++k) lines[k][c] = parts[k];
     }
     rows.erase(rows.begin());
     rows.insert(rows.begin(), lines.begin(), lines.end());
     return std::max<std::size_t>(lines.size(), 1);
+}
+
+/// The columns of a table in blocks that fit a terminal, one below the other; each begins with the words that name its rows.
+std::vector<std::vector<std::size_t>> blocks_of(const std::vector<std::size_t>& widths, const std::vector<bool>& numeric) {
+    const auto all_of = [](std::size_t from, std::size_t to) {
+        std::vector<std::size_t> out(to - from);
+        std::iota(out.begin(), out.end(), from);
+        return out;
+    };
+    const auto sum = [&](std::size_t from, std::size_t to) {
+        return std::accumulate(widths.begin() + static_cast<std::ptrdiff_t>(from), widths.begin() + static_cast<std::ptrdiff_t>(to),
+                               std::size_t{0}, [](std::size_t all, std::size_t w) { return all + w + 2; });
+    };
+    const auto names = static_cast<std::size_t>(std::find(numeric.begin(), numeric.end(), true) - numeric.begin());
+    if (sum(0, widths.size()) <= widest_table + 2 || sum(0, names) > widest_table / 2) return {all_of(0, widths.size())};
+    std::vector<std::vector<std::size_t>> blocks;
+    for (std::size_t c = names; c < widths.size();) {
+        auto end = c + 1;
+        while (end < widths.size() && sum(0, names) + sum(c, end + 1) <= widest_table + 2) ++end;
+        auto block = all_of(0, names);
+        for (; c < end; ++c) block.push_back(c);
+        blocks.push_back(std::move(block));
+    }
+    return blocks;
 }
 
 /// "out/x.csv" -> "x.csv"; "1/4" and "5mV/K" are no files.
@@ -135,14 +175,18 @@ std::string table(const std::vector<std::vector<std::string>>& given) {
             if (r >= headers && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
         }
     std::string text;
-    for (const auto& row : rows) {
-        std::string line;
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            const std::string pad(widths[c] - width(row[c]), ' ');
-            line += (c ? "  " : "") + (numeric[c] ? pad + row[c] : row[c] + pad);
+    for (const auto& block : blocks_of(widths, numeric)) {
+        text += text.empty() ? "" : "\n";
+        for (const auto& row : rows) {
+            std::string line;
+            for (const auto c : block) {
+                if (c >= row.size()) continue;
+                const std::string pad(widths[c] - width(row[c]), ' ');
+                line += (c ? "  " : "") + (numeric[c] ? pad + row[c] : row[c] + pad);
+            }
+            line.erase(line.find_last_not_of(' ') + 1);
+            text += line + "\n";
         }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
     }
     return text;
 }

@@ -118,11 +118,12 @@ Result<void> OutputCheck::directory(const std::string& path, std::span<const std
                                     const std::function<bool(const std::string&)>& is_listed, bool (*is_output)(std::string_view),
                                     Signature page) {
     for (const auto& name : names) {
+        if (auto ok = enter(path + "/" + name); !ok) return ok;
+        if (const auto standing = replaceable(path + "/" + name); !standing) return standing.error();
+    }
+    for (const auto& name : names) {
         const auto output = path + "/" + name;
-        if (auto ok = enter(output); !ok) return ok;
-        const auto standing = replaceable(output);
-        if (!standing) return standing.error();
-        if (!is_foreign(*standing) || overwrite_ || is_listed(name)) continue;
+        if (!is_foreign(standing_at(output)) || overwrite_ || is_listed(name)) continue;
         if (name.ends_with(".html") && page(beginning_of(output))) continue;
         return bad_input(
             "no earlier run of corpuscle wrote this file (no summary.json beside it lists it); name another directory with --out, or "
