@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "printable.hpp"
 #include "signal/quantity.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -52,7 +53,7 @@ std::string document(const CompareOptions& options, const std::vector<Difference
         out["pairs"].push_back(std::move(row));
     }
     out["total"] = document_of(total);
-    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(out) + "\n";
 }
 
 std::vector<std::string> line_of(const Difference& d, const std::string& a, const std::string& b) {
@@ -105,7 +106,7 @@ Result<void> run(const CompareWords& w, const Common& common) {
     if (common.json)
         fmt::print("{}", document(*options, all, total));
     else if (!common.quiet)
-        fmt::print("{}", text(*options, all, total));
+        show(text(*options, all, total));
     return {};
 }
 

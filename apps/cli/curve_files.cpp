@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
+#include "own_files.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle {
@@ -92,11 +93,26 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
     return remark;
 }
 
+std::string CurveFiles::path_of(std::size_t count, std::size_t k) const {
+    auto path = words_.out;
+    if (count > 1) path.insert(path.size() - 4, fmt::format("-{}", k + 1));
+    return path;
+}
+
+Result<void> CurveFiles::check(std::size_t analyses) const {
+    auto check = check_;
+    if (words_.out.empty()) return {};
+    const auto count = csv_ ? analyses : 1;
+    for (std::size_t k = 0; k < count; ++k)
+        if (auto ok = check.growing_file(path_of(count, k), csv_ ? is_own_table : is_own_raw); !ok) return ok;
+    return {};
+}
+
 /// File k of `count`, made at its first use with `head` in it.
 Result<OutputFile*> CurveFiles::open(std::size_t count, std::size_t k, const std::string& head) {
     if (k < files_.size()) return &files_[k];
-    auto path = words_.out;
-    if (count > 1) path.insert(path.size() - 4, fmt::format("-{}", k + 1));
+    const auto path = path_of(count, k);
+    if (auto ok = check_.growing_file(path, csv_ ? is_own_table : is_own_raw); !ok) return ok.error();
     auto file = OutputFile::growing(path);
     if (!file) return file.error();
     files_.push_back(std::move(*file));

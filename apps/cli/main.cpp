@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <sstream>
+#include <system_error>
 
 #include "circuit/analyses.hpp"
+#include "help.hpp"
 #include "model/spread.hpp"
 #include "signal/version.hpp"
 #include "stream_verbs.hpp"
@@ -243,7 +248,9 @@ int main(int argc, char** argv) {
     ExportWords export_words;
     ListWords list_words;
 
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is an error of writing
     CLI::App app(about, "corpuscle");
+    app.formatter(std::make_shared<Help>());
     app.set_version_flag("--version", fmt::format("corpuscle {}", version));
     app.footer(first_steps);
     app.require_subcommand(1);
@@ -257,15 +264,7 @@ int main(int argc, char** argv) {
     StreamVerb live;
     live.add_to(app, common);
     add_list(app, list_words, common);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e);
-        fmt::print(stderr, "corpuscle: {}\n", e.what());
-        fmt::print(stderr, "Run 'corpuscle --help' or 'corpuscle VERB --help' for what can be said.\n");
-        return 2;
-    }
-    try {
+    const auto run_verb = [&] {
         return app.got_subcommand("list")      ? list(list_words, common)
                : app.got_subcommand("run")     ? run(run_words, common)
                : app.got_subcommand("export")  ? export_to(export_words, common)
@@ -274,7 +273,30 @@ int main(int argc, char** argv) {
                : app.got_subcommand("stream")  ? live.run(common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);
-    } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory
+    };
+    int status = 0;
+    try {
+        auto words = with_help_first({argv + 1, argv + argc});
+        if (const auto error = unknown_verb(app, words); !error.empty()) return fail(bad_usage(error));
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(std::move(words));
+        status = run_verb();
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() != 0) {
+            tell(e.what());
+            tell("'corpuscle --help' and 'corpuscle VERB --help' list the options");
+            return 2;
+        }
+        std::ostringstream text;
+        app.exit(e, text, text);
+        std::fwrite(text.str().data(), 1, text.str().size(), stdout);
+    } catch (const std::system_error&) {  // standard output: a closed pipe, a full disk
+        if (interrupted()) return fail({Code::interrupted, "interrupted"});
+        const auto done = finish_output();
+        return fail(done ? bad_input("standard output cannot be written to the end") : done.error());
+    } catch (const std::exception& e) {  // no memory
         return fail(bad_input(e.what()));
     }
+    const auto done = finish_output();
+    return status == 0 && !done ? fail(done.error()) : status;
 }

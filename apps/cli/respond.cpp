@@ -12,6 +12,7 @@
 #include "force_words.hpp"
 #include "netlist_words.hpp"
 #include "outputs.hpp"
+#include "printable.hpp"
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
@@ -180,10 +181,10 @@ std::string cell(const RateRow& row, std::size_t m) {
 std::string inputs_table(const Summary& summary) {
     std::string text;
     for (const auto& i : summary.inputs())
-        text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", i.name,
+        text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", printable(i.name),
                             i.channels.size() == 1 ? "" : fmt::format("{} channels, ", i.channels.size()), i.samples,
                             format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
-                            i.least, i.greatest);
+                            i.least + 0.0, i.greatest + 0.0);  // no -0
     return text;
 }
 
@@ -219,19 +220,19 @@ std::string rate_table(const Summary& summary) {
 /// Warnings are printed always, remarks unless it is to be quiet.
 void print_remarks(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
-        for (const auto& r : quiet ? std::vector<std::string>{} : s->remarks()) fmt::print(stderr, "corpuscle: {}: {}\n", s->name(), r);
-    for (const auto& w : job.warnings) fmt::print(stderr, "corpuscle: warning: {}\n", w);
+        for (const auto& r : quiet ? std::vector<std::string>{} : s->remarks()) tell(fmt::format("{}: {}", s->name(), r));
+    for (const auto& w : job.warnings) tell_warning(w);
 }
 
 void warn(Job& job, std::string sentence) {
-    fmt::print(stderr, "corpuscle: warning: {}\n", sentence);
+    tell_warning(sentence);
     job.warnings.push_back(std::move(sentence));
 }
 
 /// What was found of the recordings while they were read.
 void print_quality(Job& job, const Summary& summary, bool quiet) {
     for (const auto& i : summary.inputs()) {
-        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.sentences) fmt::print(stderr, "corpuscle: {}: {}\n", i.name, s);
+        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.sentences) tell(fmt::format("{}: {}", i.name, s));
         for (const auto& s : i.quality.warnings) warn(job, fmt::format("{}: {}", i.name, s));
     }
 }
@@ -244,11 +245,31 @@ std::size_t netlists(const Job& job) {
     return all;
 }
 
+/// Files of which there is one an input, an afferent or a channel.
+std::vector<std::string> later_names(const Job& job, const RespondWords& w) {
+    std::vector<std::string> all;
+    std::size_t channels = 0;
+    for (std::size_t k = 0; k < job.sources.size(); ++k) {
+        const auto number = k == 0 ? "" : fmt::format("-{}", k + 1);
+        if (w.traces) all.push_back(fmt::format("traces{}.csv", number));
+        if (w.wav) all.push_back(fmt::format("spikes{}.wav", number));
+        channels += job.sources[k]->channels().size();
+    }
+    for (const auto& a : job.copies) {
+        if (!w.vectors || a.converter.empty()) continue;
+        all.push_back(fmt::format("rom-{}.csv", a.name));
+        for (std::size_t c = 1; c <= channels; ++c)
+            all.push_back(fmt::format("vectors-{}{}.csv", a.name, c == 1 ? "" : fmt::format("-{}", c)));
+    }
+    return all;
+}
+
 Result<void> run(const RespondWords& w, const Common& common) {
     auto job = prepare(w, common.quiet);
     if (!job) return job.error();
     Outputs outputs;
-    if (auto ok = outputs.open(w, job->population); !ok) return ok;
+    OutputCheck check(common.overwrite);
+    if (auto ok = outputs.open(w, job->population, later_names(*job, w), check); !ok) return ok;
     print_remarks(*job, common.quiet);
 
     Pool pool(w.threads);
@@ -268,13 +289,13 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (job->population.copies > 0) answer["copies"] = document_of(job->population);
     const auto costs = answer.value("costs", nlohmann::ordered_json::array());
     answer["files"] = outputs.names();
-    const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes
+    const auto document = json_text(answer) + "\n";
     if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command, costs); !ok) return ok;
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)
-        fmt::print("{}{}{}{}{}", inputs_table(summary), copies_line(job->population), rate_table(summary),
-                   versions_table(summary.comparisons()), outputs.told());
+        show(inputs_table(summary) + copies_line(job->population) + rate_table(summary) + versions_table(summary.comparisons()) +
+             outputs.told());
     if (!work->lost.empty()) {
         auto error = work->lost[0];
         error.sentence = fmt::format("{} of {} netlists on their channels did not converge; the first: {}", work->lost.size(),

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "force_words.hpp"
+#include "printable.hpp"
 #include "recording_words.hpp"
 #include "signal/stimuli.hpp"
 #include "signal/text.hpp"
@@ -186,7 +187,8 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
     if (!skin) return skin.error();
     SkinSummary summary;
     SkinOutputs outputs;
-    if (auto ok = outputs.open(w, summary); !ok) return ok;
+    OutputCheck check(common.overwrite);
+    if (auto ok = outputs.open(w, summary, check); !ok) return ok;
     Pool pool(self.ranks ? std::max(1U, w.threads) : w.threads);
     std::unique_ptr<SkinCheckpoint> checkpoint;
     if (!w.checkpoint.empty()) {
@@ -195,8 +197,8 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
         if (!opened) return opened.error();
         checkpoint = std::move(*opened);
         if (checkpoint->step() > 0 && !common.quiet)
-            fmt::print(stderr, "corpuscle: goes on after {:.3f} s, from {}\n",
-                       job.source->clock().T() * static_cast<double>(checkpoint->step()), w.checkpoint);
+            tell(fmt::format("goes on after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->step()),
+                             w.checkpoint));
     }
     std::vector<SkinListener*> listeners = {&summary};
     outputs.listen(listeners);
@@ -214,16 +216,15 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
     tell_of_force(job);
     auto answer = summary.document(job.told);
     answer["files"] = outputs.names();
-    const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const auto document = json_text(answer) + "\n";
     if (auto ok = outputs.commit(summary, job.told, document, common.command); !ok) return ok;
     if (checkpoint) checkpoint->done();
-    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.told.remarks)
-        fmt::print(stderr, "corpuscle: {}: {}\n", job.name, r);
-    for (const auto& warning : job.told.warnings) fmt::print(stderr, "corpuscle: warning: {}\n", warning);
+    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.told.remarks) tell(fmt::format("{}: {}", job.name, r));
+    for (const auto& warning : job.told.warnings) tell_warning(warning);
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)
-        fmt::print("{}{}", table(summary.table()), outputs.told());
+        show(table(summary.table()) + outputs.told());
     return {};
 }
 

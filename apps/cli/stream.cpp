@@ -7,8 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "io/output_check.hpp"
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
+#include "own_files.hpp"
+#include "printable.hpp"
+#include "signal/input_files.hpp"
 #include "skin/class_settings.hpp"
 #include "stream_input.hpp"
 #include "stream_told.hpp"
@@ -115,8 +119,11 @@ class LiveRun {
         return save_stream(words_.save, state);
     }
 
-    void print(const std::string& text) { fmt::print(stderr, "{}corpuscle: {}\n", std::exchange(drawn_, false) ? "\r\033[K" : "", text); }
-    void warn(const std::string& text) { print(fmt::format("warning: {}: {}", name_of_input(words_.in), text)); }
+    void clear_status() {
+        if (std::exchange(drawn_, false)) fmt::print(stderr, "\r\033[K");
+    }
+    void print(const std::string& text) { clear_status(), tell(text); }
+    void warn(const std::string& text) { clear_status(), tell_warning(fmt::format("{}: {}", name_of_input(words_.in), text)); }
 
     /// How a recording was read, and where the rate is too low.
     void print_remarks() {
@@ -135,7 +142,7 @@ class LiveRun {
         const auto quality = source_->quality();
         for (const auto& s : common_.quiet ? std::vector<std::string>{} : quality.sentences)
             print(fmt::format("{}: {}", source_->name(), s));
-        for (const auto& s : quality.warnings) print(fmt::format("warning: {}: {}", source_->name(), s));
+        for (const auto& s : quality.warnings) clear_status(), tell_warning(fmt::format("{}: {}", source_->name(), s));
     }
 
     std::string misfit_text(const FrameMisfit& misfit) const { return text_of(misfit, layout_, words_.population); }
@@ -173,10 +180,10 @@ class LiveRun {
         drawn_ = true;
     }
 
-    void tell() {
-        if (std::exchange(drawn_, false)) fmt::print(stderr, "\r\033[K");
-        if (common_.json) fmt::print("{}\n", stream_document(facts()).dump(1));
-        if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", stream_summary(facts()));
+    void tell_end() {
+        clear_status();
+        if (common_.json) fmt::print("{}\n", json_text(stream_document(facts())));
+        if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", printable_lines(stream_summary(facts())));
     }
 
     Result<void> open(const StreamNumbers& n, std::span<const Wish> wishes) {
@@ -185,7 +192,18 @@ class LiveRun {
         if (source_) others.push_back(source_->name());
         if (auto ok = check_all_used(skin_->innervation().plan, wishes, others); !ok)
             return bad_usage(fmt::format("--set {}", ok.error().sentence));
+        if (auto ok = check_outputs(); !ok) return ok;
         return open_outlet(n);
+    }
+
+    /// The state that is taken up may be replaced by the one that is kept, and by nothing else.
+    Result<void> check_outputs() const {
+        OutputCheck outputs(common_.overwrite);
+        remember_input("-");
+        if (!words_.save.empty())
+            if (auto ok = outputs.file(words_.save, is_own_state); !ok) return ok;
+        if (!words_.resume.empty()) remember_input(words_.resume);
+        return words_.out == "-" ? Result<void>() : outputs.growing_file(words_.out, is_own_events);
     }
 
     const Error stopped{Code::interrupted, "interrupted"};
@@ -212,7 +230,7 @@ public:
         if (is_wire(words_.in) && words_.in != "-") print(frames_->sentence());
         auto ended = loop_->run();
         print_quality();
-        tell();
+        tell_end();
         if (auto ok = put_by(); ended && !ok) return ok;
         if (ended && interrupted()) return stopped;
         if (ended) ended = check_frames();

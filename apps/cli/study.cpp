@@ -7,8 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "io/output.hpp"
+#include "io/output_check.hpp"
+#include "own_files.hpp"
 #include "report/study_page.hpp"
 #include "signal/field.hpp"
+#include "study/stale.hpp"
 #include "study/studies.hpp"
 #include "study/study_document.hpp"
 #include "terminal.hpp"
@@ -80,6 +83,12 @@ Result<void> write(const std::string& path, const std::string& text) {
 Result<void> run(const StudyWords& words, const Common& common) {
     const auto all = chosen(words.names.empty() ? std::vector<std::string>{"all"} : words.names);
     if (!all) return all.error();
+    OutputCheck outputs(common.overwrite);
+    const std::pair<const std::string&, OutputCheck::Signature> files[] = {{words.report_file, is_own_page},
+                                                                           {words.markdown_file, is_own_markdown}};
+    for (const auto& [path, ours] : files)
+        if (!path.empty())
+            if (auto ok = outputs.file(path, ours); !ok) return ok;
     const auto outcomes = [&] {
         Progress progress(common.quiet);
         return run_studies(*all, {[&](double share) { return progress.at(share), !interrupted(); }, recordings()});
@@ -94,7 +103,7 @@ Result<void> run(const StudyWords& words, const Common& common) {
         for (std::size_t k = 0; k < all->size(); ++k) document.push_back(document_of(*(*all)[k], (*outcomes)[k]));
         fmt::print("{}\n", document.dump(1));
     } else if (!common.quiet) {
-        for (std::size_t k = 0; k < all->size(); ++k) fmt::print("{}{}", k ? "\n" : "", text_of(*(*all)[k], (*outcomes)[k]));
+        for (std::size_t k = 0; k < all->size(); ++k) show((k ? "\n" : "") + text_of(*(*all)[k], (*outcomes)[k]));
     }
     return {};
 }

@@ -1,6 +1,9 @@
 #include "sweep_verbs.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
+#include "signal/version.hpp"
 
 namespace corpuscle {
 namespace {
@@ -129,8 +132,10 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common
 }  // namespace
 
 void add_common(CLI::App& verb, Common& common) {
+    verb.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
     verb.add_flag("--quiet,-q", common.quiet, "print no table, no progress and no remarks; warnings stay");
+    verb.add_flag("--overwrite", common.overwrite, "replace output files that no earlier run wrote; files that are read are never replaced");
 }
 
 void SweepVerbs::add_to(CLI::App& app, Common& common) {

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+
+#include "printable.hpp"
+#include "signal/input_files.hpp"
 
 namespace corpuscle {
 namespace {
@@ -26,18 +31,28 @@ std::size_t width(const std::string& text) {
 
 }  // namespace
 
+void tell(const std::string& sentence) { fmt::print(stderr, "corpuscle: {}\n", printable(sentence)); }
+void tell_warning(const std::string& sentence) { tell("warning: " + sentence); }
+void show(const std::string& text) { fmt::print("{}", printable_lines(text)); }
+
+Result<void> finish_output() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return {};
+    return bad_input(fmt::format("standard output cannot be written to the end: {}", std::strerror(errno)));
+}
+
 int fail(const Error& error) {
-    fmt::print(stderr, "corpuscle: {}\n", error.text());
+    tell(error.text());
     return static_cast<int>(error.code);
 }
 
 void catch_interrupt() {
-    struct sigaction action = {};  // without SA_RESTART: a read that waits ends, too
+    struct sigaction action = {};  // without SA_RESTART: a call that waits ends
     action.sa_handler = [](int) {
         if (stop) std::_Exit(130);
         stop = 1;
     };
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
+    set_interruption(interrupted);
     std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early (| head) is an error of writing, told as such
 }
 
@@ -50,7 +65,10 @@ std::string time_text(double seconds) {
                       : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
 }
 
-std::string table(const std::vector<std::vector<std::string>>& rows) {
+std::string table(const std::vector<std::vector<std::string>>& given) {
+    auto rows = given;
+    for (auto& row : rows)
+        for (auto& cell : row) cell = printable(cell);
     std::vector<std::size_t> widths;
     std::vector<bool> numeric;
     for (std::size_t r = 0; r < rows.size(); ++r)

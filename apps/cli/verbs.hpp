@@ -10,6 +10,7 @@ namespace corpuscle {
 
 struct Common {
     bool json = false, quiet = false;
+    bool overwrite = false;   ///< replace files that no earlier run wrote
     std::string command;  ///< as it was typed, for the report
 };
 

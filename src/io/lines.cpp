@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "signal/input_files.hpp"
+
 namespace corpuscle {
 
 Result<Lines> Lines::open(const std::string& path) {
@@ -14,7 +16,7 @@ Result<Lines> Lines::open(const std::string& path) {
     if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
     Lines lines;
     lines.path_ = path;
-    lines.file_.reset(std::fopen(path.c_str(), "rb"));
+    lines.file_.reset(open_input(path));
     if (!lines.file_) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     if (const auto size = std::filesystem::file_size(path, status); !status) lines.size_ = static_cast<double>(size);
     return lines;
@@ -28,14 +30,13 @@ Result<bool> Lines::fill() {
     filled_ -= std::exchange(at_, 0);
     if (filled_ > longest) return bad_input(fmt::format("a line of more than {} MB", longest >> 20), {path_, number_ + 1});
     if (buffer_.size() < filled_ + block + behind) buffer_.resize(filled_ + block + behind);
-    const std::size_t got = std::fread(buffer_.data() + filled_, 1, block, file_.get());
+    const auto read = read_input(file_.get(), {buffer_.data() + filled_, block}, path_);
+    if (!read) return Error{read.error().code, read.error().sentence, {path_, number_ + 1}};
+    const auto got = *read;
     filled_ += got;
     std::memset(buffer_.data() + filled_, 0, behind);
     read_ += static_cast<double>(got);
-    if (got < block) {
-        ended_ = true;
-        if (std::ferror(file_.get())) return bad_input(fmt::format("cannot be read: {}", std::strerror(errno)), {path_, number_ + 1});
-    }
+    if (got < block) ended_ = true;
     return got > 0;
 }
 

@@ -28,7 +28,7 @@ public:
     OutputFile& operator=(OutputFile&& other) noexcept;
     ~OutputFile();  ///< removes what was not committed
 
-    /// Makes the directories above it, too.
+    /// Makes the directories above it, too. A device or a named pipe is written in place.
     static Result<OutputFile> create(const std::string& path);
     /// One that can be read while it grows: every write() is on disk at once, and a killed program leaves it, as path.part. The next that
     /// writes this path takes that over; while one does, another is refused.
@@ -38,7 +38,7 @@ public:
     /// Over what stands there; of one that grows.
     Result<void> rewrite(std::size_t at, std::string_view text);
     std::size_t size() const { return size_; }  ///< what was written
-    /// Puts the file in its place; refuses if a byte could not be written.
+    /// Puts the file in its place once it is on the disk; refuses if a byte could not be written.
     Result<void> commit();
     const std::string& path() const { return path_; }
     /// For a library that writes into a file that is open.

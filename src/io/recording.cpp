@@ -13,6 +13,7 @@
 #include "io/row_clock.hpp"
 #include "io/verdict.hpp"
 #include "signal/afferent.hpp"
+#include "signal/input_files.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -252,6 +253,7 @@ Result<std::unique_ptr<Source>> open_recording(const std::string& path, const Re
     if (options.unit && options.scale && *options.unit != "raw") return bad_usage("--unit and --scale both say what is read: give one");
     auto table = format_of(path).open(path, options.table);
     if (!table) return table.error();
+    remember_input(path);
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);
     if (auto ok = recording->open(); !ok) return ok.error();
     return std::unique_ptr<Source>(std::move(recording));

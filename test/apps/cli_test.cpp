@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "circuit/carried.hpp"
+#include "support/child_process.hpp"
 #include "support/places.hpp"
 #include "support/program.hpp"
 
@@ -391,6 +392,7 @@ TEST(Program, SummarySaysWhatWasRun) {
 }
 
 TEST(Program, ProgressWithTimeLeftIsDrawnToATerminalAndNowhereElse) {
+    if (!test::has_terminals()) GTEST_SKIP() << test::no_terminals;
     const Folder folder;
     const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // some seconds
     const auto drawn = folder / "drawn";
@@ -437,7 +439,7 @@ TEST(Program, CtrlCAndItsKinEndItCleanly) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Folder folder;
         const auto answer = folder / "new/deep/answer";
-        const pid_t child = ::fork();
+        const pid_t child = test::fork_child();
         if (child == 0) {
             if (!std::freopen("/dev/null", "w", stderr)) std::_Exit(98);
             ::execl(test::program().c_str(), "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
@@ -448,7 +450,7 @@ TEST(Program, CtrlCAndItsKinEndItCleanly) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         EXPECT_TRUE(std::filesystem::exists(answer)) << "it is at work";
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        ::kill(child, signal);
+        test::signal_child(child, signal);
         int status = 0;
         ::waitpid(child, &status, 0);
         EXPECT_TRUE(WIFEXITED(status));

@@ -158,7 +158,7 @@ TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
     const Folder folder;
     int far = -1, near = -1;
     char name[128];
-    if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << "no pseudo terminal here";
+    if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << test::no_terminals;
     ::fcntl(far, F_SETFD, FD_CLOEXEC), ::fcntl(near, F_SETFD, FD_CLOEXEC);
     Child whole(folder, with({"--quiet"}));
     whole.send(some_lines(500)), whole.close_in();
