@@ -123,7 +123,7 @@ class LiveRun {
         if (std::exchange(drawn_, false)) fmt::print(stderr, "\r\033[K");
     }
     void print(const std::string& text) { clear_status(), tell(text); }
-    void warn(const std::string& text) { print(fmt::format("warning: {}: {}", name_of_input(words_.in), text)); }
+    void warn(const std::string& text) { clear_status(), tell_warning(fmt::format("{}: {}", name_of_input(words_.in), text)); }
 
     /// How a recording was read, and where the rate is too low.
     void print_remarks() {
@@ -142,7 +142,7 @@ class LiveRun {
         const auto quality = source_->quality();
         for (const auto& s : common_.quiet ? std::vector<std::string>{} : quality.sentences)
             print(fmt::format("{}: {}", source_->name(), s));
-        for (const auto& s : quality.warnings) print(fmt::format("warning: {}: {}", source_->name(), s));
+        for (const auto& s : quality.warnings) clear_status(), tell_warning(fmt::format("{}: {}", source_->name(), s));
     }
 
     std::string misfit_text(const FrameMisfit& misfit) const { return text_of(misfit, layout_, words_.population); }
