@@ -266,10 +266,21 @@ void add_export(CLI::App& app, ExportWords& w, Common& common) {
 
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
-    verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
+    verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites");
     verb.add_option("WHAT", w.what,
                     "afferents, sensors, transducers, converters, transductions, neurons, stimuli, measures, formats, or names of any");
+    verb.add_flag("--sites", w.sites,
+                  "of a population (hand, 'grid 4x4', own.toml): its sites in the order of a frame, as CSV: name, x_mm, y_mm, region");
     add_common(verb, common);
+}
+
+/// The options that were given to the verb.
+std::vector<TypedOption> typed_options(const CLI::App& app) {
+    std::vector<TypedOption> out;
+    for (const auto* verb : app.get_subcommands())
+        for (const auto* option : verb->get_options())
+            if (option->count() > 0) out.push_back({option->get_name(), option->results()});
+    return out;
 }
 
 }  // namespace
@@ -306,6 +317,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "Run 'corpuscle --help' or 'corpuscle VERB --help' for what can be said.\n");
         return 2;
     }
+    common.typed = typed_options(app);
     try {
         return app.got_subcommand("list")      ? list(list_words, common)
                : app.got_subcommand("run")     ? run(run_words, common)
@@ -315,6 +327,8 @@ int main(int argc, char** argv) {
                : app.got_subcommand("stream")  ? live.run(common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);
+    } catch (const std::bad_alloc&) {
+        return fail(bad_input("there is not enough memory for this; take fewer afferents, sites or samples at a time"));
     } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory
         return fail(bad_input(e.what()));
     }

@@ -7,6 +7,7 @@
 #include "signal/text.hpp"
 #include "study/skin_bins_file.hpp"
 #include "study/skin_events_file.hpp"
+#include "study/skin_npz_file.hpp"
 #include "study/skin_spikes_file.hpp"
 #include "study/skin_units_file.hpp"
 #include "study/stale.hpp"
@@ -42,6 +43,8 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
         w.events.empty() ? add<SkinSpikesFile>("spikes.csv") : add<SkinEventsFile>(fmt::format("spikes{}", format->extension), w.events);
     if (!ok) return ok;
     if (ok = add<SkinUnitsFile>("units.csv", std::cref(summary)); !ok) return ok;
+    if (w.npz)
+        if (ok = add<SkinNpzFile>("spikes.npz"); !ok) return ok;
     if (*bin)
         if (ok = add<SkinBinsFile>("psth.csv", **bin); !ok) return ok;
     auto file = OutputFile::create(directory_ + "/summary.json");
@@ -51,7 +54,8 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
 }
 
 Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary) {
-    for (const auto& [word, said] : {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}})
+    for (const auto& [word, said] : {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()},
+                                     std::pair{"--npz", w.npz}})
         if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
     directory_ = w.out;
     if (!w.out.empty())

@@ -9,12 +9,15 @@
 
 #include "io/recording.hpp"
 #include "live/live_population.hpp"
+#include "live/placed_frames.hpp"
 #include "live/stream_state.hpp"
 #include "model/population.hpp"
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
+#include "skin/site_map.hpp"
 #include "stream_told.hpp"
+#include "study/skin_run.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -117,9 +120,9 @@ class LiveRun {
         const auto plan = plan_of(words_, channels.size(), channels, wishes);
         if (!plan) return plan.error();
         if (auto ok = open_skin(*plan, (*source)->clock()); !ok) return ok;
-        if (skin_->sites() != channels.size())
-            return bad_input(fmt::format("{} has {} channels, {} has {} sites", words_.in, channels.size(), plan->name, skin_->sites()));
-        frames_ = frames_of(std::move(*source), words_.pace == "real");
+        auto sites = sites_of(*plan, **source);
+        if (!sites) return sites.error();
+        frames_ = placed_frames(frames_of(std::move(*source), words_.pace == "real"), std::move(*sites), skin_->sites());
         return {};
     }
 
@@ -131,9 +134,16 @@ class LiveRun {
         if (auto ok = open_skin(*plan, *clock); !ok) return ok;
         auto bytes = bytes_of(words_);
         if (!bytes) return bytes.error();
+        std::vector<std::uint32_t> sites;  // of each number of a frame; none: all, in order
+        if (!words_.layout.empty()) {
+            auto map = read_site_map(words_.layout, plan->sites);
+            if (!map) return map.error();
+            sites = std::move(*map);
+        }
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
-        frames_ = frames_of(std::move(*bytes), layout_of(words_, n, skin_->sites(), *clock), in_frames(n.hold), in_frames(n.longest),
-                            words_.together);
+        frames_ = frames_of(std::move(*bytes), layout_of(words_, n, sites.empty() ? skin_->sites() : sites.size(), *clock),
+                            in_frames(n.hold), in_frames(n.longest), words_.together);
+        if (!sites.empty()) frames_ = placed_frames(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
 

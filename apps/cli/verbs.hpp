@@ -8,9 +8,16 @@
 
 namespace corpuscle {
 
+/// An option as it was typed, by its long name.
+struct TypedOption {
+    std::string name;
+    std::vector<std::string> values;
+};
+
 struct Common {
     bool json = false, quiet = false;
-    std::string command;  ///< as it was typed, for the report
+    std::string command;                  ///< as it was typed, for the report
+    std::vector<TypedOption> typed = {};  ///< the verb's options, in the order of --help
 };
 
 /// What is set of every netlist that takes part, and shown of it.
@@ -106,6 +113,7 @@ struct StreamWords {
 
 struct ListWords {
     std::vector<std::string> what;
+    bool sites = false;  ///< of populations
 };
 
 int respond(const RespondWords&, const Common&);
