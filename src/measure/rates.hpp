@@ -50,8 +50,9 @@ struct FirstRate : Deaf {
 struct LastRate : Deaf {
     static constexpr Measure row{"last_rate", "last", "Hz", 1, "last instantaneous frequency between two spikes of the phase"};
     double last = no_value;
+    Pauses pauses;
     void interval(double from, double to, bool inside) {
-        if (inside) last = firing_rate_between(from, to);
+        if (inside) last = pauses.add(to - from) ? no_value : rate_between(from, to);
     }
     double value(const Stretch&) const { return last; }
 };

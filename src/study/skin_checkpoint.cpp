@@ -134,8 +134,13 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
     return made;
 }
 
+/// Spikes without a checkpoint that counts them are of no use.
 SkinCheckpoint::~SkinCheckpoint() {
-    if (spikes_) std::fclose(spikes_);
+    if (!spikes_) return;
+    std::error_code ignored;
+    if (!fs::exists(file_, ignored) && is_file_of_name(::fileno(spikes_), spikes_file_) && begins_with(spikes_file_, spikes_header))
+        fs::remove(spikes_file_, ignored);
+    std::fclose(spikes_);
 }
 
 /// FILE is a checkpoint of a version that can be read, or is not there.

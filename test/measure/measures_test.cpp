@@ -75,6 +75,10 @@ TEST(Measures, HaveNoAdaptationAndNoVariationWherePausesAreLongerThanPresses) {
         EXPECT_TRUE(std::isnan(measured(name, alone, {-10, 1000}))) << name << ": a spike alone, then presses";
     }
     EXPECT_NEAR(measured("peak_rate", presses(13, 9), all), measured("peak_rate", presses(1, 0), all), 1e-6) << "within a press";
+    auto after = presses(1, 0);
+    EXPECT_FALSE(std::isnan(measured("last_rate", after, all)));
+    after.push_back(after.back() + 7);
+    EXPECT_TRUE(std::isnan(measured("last_rate", after, all))) << "over a pause";
 }
 
 TEST(Measures, AnIntervalOfMoreThanTenSecondsIsNoFrequency) {

@@ -130,6 +130,23 @@ TEST(NerveLimit, RatesAboveAKilohertzAreAWarningAndTheRemedyEndsIt) {
     EXPECT_NE(skin.err.find("of 290 sa1 afferents: spikes come at up to "), std::string::npos) << skin.err;
 }
 
+TEST(Rates, OfASingleSpikeAreBlank) {
+    const Folder folder;
+    const auto rates = nlohmann::json::parse(run(folder, "respond press --afferent sa1 --json").out)["rates"];
+    const auto& retraction = rates[3];
+    ASSERT_EQ(retraction["spikes"], 1);
+    EXPECT_TRUE(retraction["mean_rate_Hz"].is_null());
+    EXPECT_TRUE(retraction["peak_rate_Hz"].is_null());
+    EXPECT_EQ(rates[0]["mean_rate_Hz"], 0.0) << "no spike in the rest";
+    const auto table = run(folder, "respond press --afferent sa1").out;
+    EXPECT_TRUE(std::regex_search(table, std::regex("retraction +1 +- +- +- +-"))) << table;
+    for (const auto& row :
+         nlohmann::json::parse(run(folder, "respond press --population 'grid 2x2' --set press.F_max=900mN --json").out)["rates"])
+        if (row["spikes"] == 1) {
+            EXPECT_TRUE(row["busiest_Hz"].is_null() && row["rate_of_active_Hz"].is_null() && row["rate_while_touched_Hz"].is_null()) << row;
+        }
+}
+
 TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheShortestThatGoes) {
     const Folder folder;
     for (const char* population : {"", "--population fingertip"}) {

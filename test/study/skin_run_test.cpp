@@ -187,6 +187,13 @@ TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
     EXPECT_TRUE(std::filesystem::exists(folder / "spikes.csv")) << "an output of the checkpoint's name stays";
 }
 
+TEST(SkinRun, ARunThatFailsBeforeItsFirstCheckpointLeavesNothingBehind) {
+    const Folder folder;
+    folder.write("touch.csv", "time_s,f_N\n0,1\n0.001,1\n0.002,1\n0.003,here\n");
+    EXPECT_EQ(test::run(folder, "respond touch.csv --population fingertip --rate 1kHz --checkpoint kept --out out").status, 1);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"touch.csv"}));
+}
+
 TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) {
     const Folder folder;
     const auto recording = [&](double force) {
