@@ -240,10 +240,21 @@ void add_export(CLI::App& app, ExportWords& w, Common& common) {
 
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
-    verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
+    verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites");
     verb.add_option("WHAT", w.what,
                     "afferents, sensors, transducers, converters, transductions, neurons, stimuli, measures, formats, or names of any");
+    verb.add_flag("--sites", w.sites,
+                  "of a population (hand, 'grid 4x4', own.toml): its sites in the order of a frame, as CSV: name, x_mm, y_mm, region");
     add_common(verb, common);
+}
+
+/// The options that were given to the verb.
+std::vector<TypedOption> typed_options(const CLI::App& app) {
+    std::vector<TypedOption> out;
+    for (const auto* verb : app.get_subcommands())
+        for (const auto* option : verb->get_options())
+            if (option->count() > 0) out.push_back({option->get_name(), option->results()});
+    return out;
 }
 
 }  // namespace
@@ -290,6 +301,7 @@ int main(int argc, char** argv) {
         if (const auto error = unknown_verb(app, words); !error.empty()) return fail(bad_usage(error));
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
         app.parse(std::move(words));
+        common.typed = typed_options(app);
         status = run_verb();
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) {
@@ -304,7 +316,9 @@ int main(int argc, char** argv) {
         if (interrupted()) return fail({Code::interrupted, "interrupted"});
         const auto done = finish_output();
         return fail(done ? bad_input("standard output cannot be written to the end") : done.error());
-    } catch (const std::exception& e) {  // no memory
+    } catch (const std::bad_alloc&) {
+        return fail(bad_input("there is not enough memory for this; take fewer afferents, sites or samples at a time"));
+    } catch (const std::exception& e) {
         return fail(bad_input(e.what()));
     }
     const auto done = finish_output();

@@ -17,6 +17,8 @@
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
 #include "study/afferents.hpp"
+#include "study/nerve_limit.hpp"
+#include "study/silence.hpp"
 #include "study/summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -237,6 +239,19 @@ void print_quality(Job& job, const Summary& summary, bool quiet) {
     }
 }
 
+/// Rates that no nerve has, of each afferent on the channel where it is fastest.
+void warn_of_rates(Job& job, const Summary& summary) {
+    constexpr auto peak = place_of_measure<PeakRate>;
+    for (const auto& plan : job.afferents) {
+        const RateRow* fastest = nullptr;
+        double rate = nerve_limit;
+        for (const auto& row : summary.rows())
+            if (const double r = row.over.empty() ? row.values[peak] : row.over[peak].greatest; row.afferent == plan.name && r > rate)
+                fastest = &row, rate = r;
+        if (fastest) warn(job, fmt::format("{}: on {} {}", plan.name, fastest->channel, rate_sentence(rate, plan, plan.name)));
+    }
+}
+
 /// Netlists on their channels.
 std::size_t netlists(const Job& job) {
     std::size_t all = 0;
@@ -297,7 +312,8 @@ Result<void> run(const RespondWords& w, const Common& common) {
     Pool pool(w.threads);
     job->options.pool = &pool;
     Summary summary;
-    std::vector<Listener*> listeners = {&summary};
+    Silence silence;
+    std::vector<Listener*> listeners = {&summary, &silence};
     outputs.listen(listeners);
     SpikeTimes times;
     if (common.json) listeners.push_back(&times);
@@ -309,8 +325,15 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (!work) return work.error();
     print_quality(*job, summary, common.quiet);
     for (const auto& warning : work_warnings(*work)) warn(*job, warning);
+    warn_of_rates(*job, summary);
+    const auto silent = silence.found(job->copies, job->options);
+    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) fmt::print(stderr, "corpuscle: {}\n", sentence_of(s));
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     if (job->population.copies > 0) answer["copies"] = document_of(job->population);
+    for (const auto& s : silent)
+        answer["silent"].push_back({{"afferent", s.name},
+                                    {"force_max_N", s.force},
+                                    {"factor_to_fire", s.factor ? nlohmann::ordered_json(*s.factor) : nlohmann::ordered_json(nullptr)}});
     const auto costs = answer.value("costs", nlohmann::ordered_json::array());
     answer["files"] = outputs.names();
     const auto document = json_text(answer) + "\n";

@@ -775,6 +775,16 @@ class OnASkin(Page):
         self.browser.find_element(By.ID, "time").send_keys(Keys.ARROW_RIGHT)
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped + 1)
 
+    def test_it_begins_at_the_start(self):
+        self.assertEqual(self.js("return corpuscle.frame"), 0)
+        self.assertEqual(self.browser.find_element(By.ID, "time").get_attribute("value"), "0")
+
+    def test_rates_are_of_the_units_that_fire_and_in_hertz(self):
+        active = {row["afferent"]: row["active"] for row in self.data["summary"]["rates"] if row["region"] == "all" and row["phase"] == "all"}
+        self.assertEqual(self.js("return corpuscle.skin.classes.map((one) => one.active)"), [active[one["name"]] for one in self.classes])
+        title = self.browser.find_element(By.CSS_SELECTOR, "[data-panel=population] .panel-title").text
+        self.assertRegex(title, r"^mean rate of the units that fire, in bins of .*Hz")
+
     def test_rasters_hold_every_spike(self):
         spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["units"]) for one in self.classes}
         self.assertEqual(sum(spikes.values()), self.over["spikes"]["count"])
@@ -802,6 +812,11 @@ class OnASkin(Page):
         self.browser.save_screenshot(str(OUT / "skin.png"))
         self.browser.set_window_size(700, 900)
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.documentElement.scrollWidth <= innerWidth"))
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        try:
+            WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.documentElement.scrollWidth <= 390"))
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
         self.browser.set_window_size(1200, 900)
 
 
