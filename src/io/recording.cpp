@@ -178,6 +178,7 @@ public:
         : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)) {}
 
     Result<void> open() {
+        remarks_ = table_->remarks();
         const auto time = choose_time(*table_, options_.time, path_);
         if (!time) return time.error();
         if (*time == table_->time_column() || !table_->time_column()) remarks_ = table_->remarks();
