@@ -105,7 +105,7 @@ public:
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return roles_.time; }
     bool time_is_guessed() const override { return roles_.time_is_guessed; }
-    std::vector<std::string> remarks() const override { return roles_.remarks; }
+    std::vector<std::string> column_remarks() const override { return roles_.remarks; }
     double done() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
     Place place(std::size_t row) const override {

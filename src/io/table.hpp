@@ -47,8 +47,8 @@ public:
     /// Reads up to `rows` rows of the columns `wanted` into out[i]; fewer than asked for only at the end.
     virtual Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) = 0;
     virtual Result<void> rewind() = 0;
-    /// What was concluded from the file that its reader should know.
-    virtual std::vector<std::string> remarks() const { return {}; }
+    /// How columns were taken without being named: one as the time, one left out.
+    virtual std::vector<std::string> column_remarks() const { return {}; }
     /// If the rows of several trials may stand one under another: what makes a file of one of them. Else "".
     virtual std::string one_trial() const { return {}; }
     /// How much of the file has been read, 0 to 1.

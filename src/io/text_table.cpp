@@ -184,7 +184,7 @@ public:
     std::optional<std::size_t> time_column() const override { return time_; }
     bool time_is_guessed() const override { return time_ && (!form_.named || form_.roles.time_is_guessed); }
     std::optional<double> rate() const override { return form_.rate; }
-    std::vector<std::string> remarks() const override {
+    std::vector<std::string> column_remarks() const override {
         auto all = form_.roles.remarks;
         if (time_ && columns_[*time_].stamps && form_.first_stamp) {
             const auto& s = *form_.first_stamp;
