@@ -73,7 +73,8 @@ struct Program {
         std::vector<char*> arguments;
         for (auto& w : words) arguments.push_back(w.data());
         arguments.push_back(nullptr);
-        if ((pid = ::fork()) == 0) {
+        if ((pid = ::fork()) < 0) fmt::print(stderr, "no process can be started\n"), std::exit(1);
+        if (pid == 0) {
             bind_to(core, core);
             ::dup2(pipes[0][0], 0), ::dup2(pipes[1][1], 1), ::dup2(pipes[2][1], 2);
             ::execv(arguments[0], arguments.data());

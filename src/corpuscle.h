@@ -24,6 +24,9 @@ typedef void (*corpuscle_sink)(void* user, const corpuscle_spike* spike);
 /* "hand", "fingertip", "grid 8x8", a population file; or afferents by name ("sa1,fa1"), each on all of `channels`. NULL: the text in
  * `error`, which may be NULL, says why. */
 corpuscle_skin* corpuscle_create(const char* population, double rate_hz, size_t channels, char* error, size_t error_size);
+/* The same with `count` settings of its classes, such as "sa1.f_B=25Hz". */
+corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, size_t channels, const char* const* settings, size_t count,
+                                      char* error, size_t error_size);
 void corpuscle_destroy(corpuscle_skin* skin); /* NULL is nothing */
 
 size_t corpuscle_sites(const corpuscle_skin* skin);                         /* forces of a frame */

@@ -50,9 +50,10 @@ public:
         double x = 0, y = 0;
     };
 
-    /// "hand", "fingertip", "grid 8x8", a population file; or afferents by name ("sa1,fa1"), each on all of so many channels. Throws
-    /// Refused, and so do the rest.
-    explicit LiveSkin(const std::string& population, double rate = 1e3, std::size_t channels = 1);
+    /// "hand", "fingertip", "grid 8x8", a population file; or afferents by name ("sa1,fa1"), each on all of so many channels; with settings
+    /// of its classes such as "sa1.f_B=25Hz". Throws Refused, and so do the rest.
+    explicit LiveSkin(const std::string& population, double rate = 1e3, std::size_t channels = 1,
+                      const std::vector<std::string>& settings = {});
     LiveSkin(LiveSkin&&) noexcept;
     LiveSkin& operator=(LiveSkin&&) noexcept;
     ~LiveSkin();

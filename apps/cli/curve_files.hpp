@@ -7,6 +7,7 @@
 #include "circuit/run.hpp"
 #include "circuit/variants.hpp"
 #include "io/output.hpp"
+#include "io/output_check.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {
@@ -16,6 +17,7 @@ namespace corpuscle {
 class CurveFiles final : public circuit::CurveSink {
     using Clock = std::chrono::steady_clock;
     const RunWords& words_;
+    OutputCheck check_;
     bool several_, csv_;
     std::deque<OutputFile> files_;  // where each is stays the same
     std::string title_, label_;
@@ -26,15 +28,20 @@ class CurveFiles final : public circuit::CurveSink {
     std::size_t points_ = 0, count_at_ = 0;
     double time_ = 0, written_to_ = 0;  // of the newest point; of the last that is in the file
     Clock::time_point written_;
-    bool streamed_ = false;  // there is one
+    bool streamed_ = false;   // a transient has come beyond its first point
+    bool has_whole_ = false;  // some analysis was whole
 
     Result<void> write_out();
     Result<void> table(const circuit::Plot&, std::size_t count);
+    std::string path_of(std::size_t count, std::size_t k) const;
     Result<OutputFile*> open(std::size_t count, std::size_t k, const std::string& head);
 
 public:
-    CurveFiles(const RunWords& words, bool several) : words_(words), several_(several), csv_(words.out.ends_with(".csv")) {}
+    CurveFiles(const RunWords& words, bool several, bool overwrite)
+        : words_(words), check_(overwrite), several_(several), csv_(words.out.ends_with(".csv")) {}
 
+    /// Whether the files of a netlist with so many analyses may be written; before it runs.
+    Result<void> check(std::size_t analyses) const;
     void next(const circuit::Variant&);
     Result<void> whole(std::span<const circuit::Plot>) override;
     Result<void> begin(const circuit::Plot& head) override;

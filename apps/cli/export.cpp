@@ -1,27 +1,22 @@
 // corpuscle export: a netlist as another simulator's.
 
 #include <fmt/format.h>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "circuit/carried.hpp"
 #include "circuit/export/ngspice.hpp"
-#include "io/output.hpp"
+#include "io/output_check.hpp"
+#include "own_files.hpp"
+#include "printable.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
 namespace {
 
 using namespace circuit;
 using Json = nlohmann::ordered_json;
-
-Result<void> write_file(const std::string& path, const std::string& text) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    if (auto ok = file->write(text); !ok) return ok;
-    return file->commit();
-}
 
 Json document_of(const NgspiceDeck& deck, const std::vector<Error>& remarks) {
     Json warnings = Json::array();
@@ -30,11 +25,11 @@ Json document_of(const NgspiceDeck& deck, const std::vector<Error>& remarks) {
 }
 
 Result<void> export_netlist(const ExportWords& words, const Common& common) {
-    std::error_code ignored;
-    if (!words.out.empty() && std::filesystem::equivalent(words.netlist, words.out, ignored))
-        return bad_usage(fmt::format("export -o {}: that is the netlist itself; name another file", words.out));
     const auto netlist = open_netlist(words.netlist);
     if (!netlist) return netlist.error();
+    OutputCheck outputs(common.overwrite);
+    if (!words.out.empty())
+        if (auto ok = outputs.file(words.out, is_own_deck); !ok) return ok;
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
     auto remarks = circuit->remarks;
@@ -42,10 +37,10 @@ Result<void> export_netlist(const ExportWords& words, const Common& common) {
     if (!deck) return deck.error();
     remarks.insert(remarks.end(), deck->left_out.begin(), deck->left_out.end());
     if (!words.out.empty())
-        if (auto ok = write_file(words.out, deck->text); !ok) return ok;
-    for (const auto& r : remarks) fmt::print(stderr, "corpuscle: warning: {}\n", r.text());
+        if (auto ok = write_whole(words.out, deck->text); !ok) return ok;
+    for (const auto& r : remarks) tell_warning(r.text());
     if (common.json)
-        fmt::print("{}\n", document_of(*deck, remarks).dump(1, ' ', false, Json::error_handler_t::replace));
+        fmt::print("{}\n", json_text(document_of(*deck, remarks)));
     else if (words.out.empty())
         fmt::print("{}", deck->text);
     return {};

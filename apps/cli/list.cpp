@@ -193,7 +193,7 @@ int list(const ListWords& words, const Common& common) {
         text += fmt::format("{}{}\n", text.empty() ? "" : "\n", s.name);
         for (const auto& e : s.entries) text += text_of(e);
     }
-    fmt::print("{}", text);
+    show(text);
     return 0;
 }
 

@@ -2,8 +2,14 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <sstream>
+#include <system_error>
 
 #include "circuit/analyses.hpp"
+#include "force_words.hpp"
+#include "help.hpp"
 #include "model/spread.hpp"
 #include "signal/version.hpp"
 #include "stream_verbs.hpp"
@@ -44,6 +50,7 @@ set: a .param, an array, any number of a device. 'corpuscle list' shows them all
 
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
+  corpuscle respond press --json                           one document, with the time of every spike
   corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
   corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
   corpuscle respond press --afferent sa1,sa1-circuit --corner ss --temp 85 --supply 0.65V
@@ -59,8 +66,9 @@ times S is newtons. Its clock is its time column (name it with --time), or --rat
 
 constexpr const char* compare_examples =
     R"(A is the reference: a spike of A without a match in B is missing, one of B without a match in A is extra. Files are
-spikes.csv or spikes.npz of 'corpuscle respond', or any CSV with a header that has a column time_s and, to tell trains
-apart, a column unit (or afferent, channel). Trains that are called the same are compared. A NAME is that of an afferent
+spikes.csv or spikes.npz of 'corpuscle respond', any CSV or JSON lines with a column time_s and, to tell trains apart, a
+column unit (or afferent, channel, cluster ...; --time and --unit name others), or a lone list of times in seconds (.txt,
+.npy). Trains that are called the same are compared, and so are two lone ones. A NAME is that of an afferent
 or unit, that of a channel, or both: sa1,fz.
 
 Examples:
@@ -133,48 +141,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
                   "single precision: up to twice as fast, but spikes move (doc/lanes.md says how far); no currents and membranes are kept");
     verb.add_option("--rate", w.rate, "of a stimulus (default 10 kHz; of a skin 1 kHz); of a recording: its rows are this evenly spaced")
         ->type_name("FREQUENCY");
-    verb.add_option("--channel,-c", w.channels,
-                    "which channels of a recording: names, or numbers and ranges (2-5) that count all columns but the time")
-        ->allow_extra_args(false)
-        ->type_name("CHANNEL")
-        ->group("Recordings");
-    verb.add_option("--dataset", w.dataset, "which array of a file that holds several (HDF5, NPZ), by its path or name")
-        ->type_name("NAME")
-        ->group("Recordings");
-    verb.add_option("--time", w.time, "a recording's time column by name or number, or 'none'")->type_name("COLUMN")->group("Recordings");
-    verb.add_option("--time-unit", w.time_unit, "what the time column is in, if its header does not say: s, ms, us")
-        ->type_name("UNIT")
-        ->group("Recordings");
-    verb.add_option("--unit", w.unit, "what a recording holds: N, mN, gf, kgf, or raw (then say --scale)")
-        ->type_name("UNIT")
-        ->group("Recordings");
-    verb.add_option("--scale", w.scale, "what is read, times S, is newtons")->type_name("S")->group("Recordings");
-    verb.add_flag("--abs", w.absolute, "take the absolute value of what is read")->group("Recordings");
-    verb.add_option("--offset", w.offset, "what is read where there is no force; taken off before --scale")
-        ->type_name("X")
-        ->group("Recordings");
-    verb.add_option("--range", w.range, "what can be read at all; readings outside are bad")->type_name("LO..HI")->group("Recordings");
-    verb.add_option("--bad-fields", w.bad_fields,
-                    "what becomes of fields that are no numbers, and of readings out of --range: error (else of fields), drop the row, "
-                    "interpolate (else of readings)")
-        ->check(CLI::IsMember({"error", "drop", "interpolate"}))
-        ->type_name("WHAT")
-        ->group("Recordings");
-    verb.add_option("--despike", w.despike,
-                    "readings further than this from the median of the 25 about them are bad; auto: 6 standard deviations")
-        ->type_name("LIMIT")
-        ->group("Recordings");
-    verb.add_option("--notch", w.notch, "filter out mains hum: 50Hz, and 4 Hz about it (repeat for others)")
-        ->allow_extra_args(false)
-        ->type_name("FREQUENCY")
-        ->group("Recordings");
-    verb.add_option("--lowpass", w.lowpass, "filter out what is faster (Butterworth, second order)")
-        ->type_name("FREQUENCY")
-        ->group("Recordings");
-    verb.add_option("--layout", w.layout, "a table that names the sensors and says where they sit: channel,name,x_mm,y_mm")
-        ->type_name("FILE")
-        ->group("Recordings");
-    verb.add_option("--resample", w.resample, "interpolate a recording to this rate")->type_name("FREQUENCY")->group("Recordings");
+    add_recording_words(verb, w);
     verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, of copies, copies.csv into this directory")
         ->type_name("DIR")
         ->group("Output");
@@ -194,8 +161,10 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     add_common(verb, common);
     verb.callback([&w, report] {
         w.report = report->count() > 0;
+        if (w.report_file.empty() || w.report_file.ends_with(".html")) return;
         // "--report press": the word is no page, so it is one of the forces.
-        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) w.forces.push_back(std::exchange(w.report_file, ""));
+        if (!is_force(w.report_file)) throw CLI::ValidationError(page_name_needed(w.report_file));
+        w.forces.push_back(std::exchange(w.report_file, ""));
     });
 }
 
@@ -207,6 +176,8 @@ void add_compare(CLI::App& app, CompareWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("A-NAME=B-NAME");
     verb.add_flag("--by-order", w.by_order, "whatever they are called: the first train of A with the first of B, and so on");
+    verb.add_option("--time", w.time, "the column of times, by name or number, where it is called otherwise")->type_name("COLUMN");
+    verb.add_option("--unit", w.unit, "the column that tells trains apart, by name or number")->type_name("COLUMN");
     verb.add_option("--window", w.window, "spikes closer than this may match")->capture_default_str()->type_name("TIME");
     verb.add_option("--cost", w.cost, "of the Victor-Purpura distance: of moving a spike, per second")
         ->capture_default_str()
@@ -227,6 +198,9 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
     verb.add_option("NAME", w.names, "which studies (default: all)");
     verb.add_option("--report", w.report_file, "write a page to look at: figures to zoom into, what was printed beside what was made")
         ->type_name("FILE.html");
+    verb.callback([&w] {
+        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
+    });
     verb.add_option("--markdown", w.markdown_file, "write all numbers as text")->type_name("FILE.md");
     add_common(verb, common);
 }
@@ -234,7 +208,7 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
 void add_run(CLI::App& app, RunWords& w, Common& common) {
     auto& verb = *app.add_subcommand("run", "the analyses written in a netlist -> .raw, CSV, printed measures");
     std::string known;
-    for (const auto& a : circuit::analyses) known += fmt::format("\n  {:72} {}", a.usage, a.sentence);
+    for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.sentence);
     verb.footer(
         "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include, .lib, .options ... and "
         "what\n"
@@ -295,7 +269,9 @@ int main(int argc, char** argv) {
     ExportWords export_words;
     ListWords list_words;
 
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is an error of writing
     CLI::App app(about, "corpuscle");
+    app.formatter(std::make_shared<Help>());
     app.set_version_flag("--version", fmt::format("corpuscle {}", version));
     app.footer(first_steps);
     app.require_subcommand(1);
@@ -309,16 +285,7 @@ int main(int argc, char** argv) {
     StreamVerb live;
     live.add_to(app, common);
     add_list(app, list_words, common);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e);
-        fmt::print(stderr, "corpuscle: {}\n", e.what());
-        fmt::print(stderr, "Run 'corpuscle --help' or 'corpuscle VERB --help' for what can be said.\n");
-        return 2;
-    }
-    common.typed = typed_options(app);
-    try {
+    const auto run_verb = [&] {
         return app.got_subcommand("list")      ? list(list_words, common)
                : app.got_subcommand("run")     ? run(run_words, common)
                : app.got_subcommand("export")  ? export_to(export_words, common)
@@ -327,9 +294,33 @@ int main(int argc, char** argv) {
                : app.got_subcommand("stream")  ? live.run(common)
                : app.got_subcommand("compare") ? compare(compare_words, common)
                                                : respond(respond_words, common);
+    };
+    int status = 0;
+    try {
+        auto words = with_help_first({argv + 1, argv + argc});
+        if (const auto error = unknown_verb(app, words); !error.empty()) return fail(bad_usage(error));
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(std::move(words));
+        common.typed = typed_options(app);
+        status = run_verb();
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() != 0) {
+            tell(e.what());
+            tell("'corpuscle --help' and 'corpuscle VERB --help' list the options");
+            return 2;
+        }
+        std::ostringstream text;
+        app.exit(e, text, text);
+        std::fwrite(text.str().data(), 1, text.str().size(), stdout);
+    } catch (const std::system_error&) {  // standard output: a closed pipe, a full disk
+        if (interrupted()) return fail({Code::interrupted, "interrupted"});
+        const auto done = finish_output();
+        return fail(done ? bad_input("standard output cannot be written to the end") : done.error());
     } catch (const std::bad_alloc&) {
         return fail(bad_input("there is not enough memory for this; take fewer afferents, sites or samples at a time"));
-    } catch (const std::exception& e) {  // a closed pipe, a full disk, no memory
+    } catch (const std::exception& e) {
         return fail(bad_input(e.what()));
     }
+    const auto done = finish_output();
+    return status == 0 && !done ? fail(done.error()) : status;
 }

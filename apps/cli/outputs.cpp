@@ -52,7 +52,20 @@ std::vector<std::string> Outputs::paths() const {
     return all;
 }
 
-Result<void> Outputs::open(const RespondWords& w, const Copies& population) {
+/// All that will be written, before any of it is.
+Result<void> Outputs::check(const RespondWords& w, const Copies& population, const std::optional<std::string>& page,
+                            std::vector<std::string> later, OutputCheck& outputs) {
+    const std::pair<const char*, bool> names[] = {{"spikes.csv", true},
+                                                  {"copies.csv", population.copies > 0},
+                                                  {"spikes.npz", w.npz},
+                                                  {"psth.csv", w.bin.has_value()},
+                                                  {"summary.json", true}};
+    for (const auto& [name, is_written] : names)
+        if (is_written) later.emplace_back(name);
+    return check_outputs(w.out, std::move(later), page, w.checkpoint, outputs);
+}
+
+Result<void> Outputs::open(const RespondWords& w, const Copies& population, std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> words[] = {
         {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
     for (const auto& [word, said] : words)
@@ -65,10 +78,12 @@ Result<void> Outputs::open(const RespondWords& w, const Copies& population) {
     if (!bin) return bin.error();
     if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
     directory_ = w.out;
+    const auto page_path = page_of(w);
+    if (auto ok = check(w, population, page_path, std::move(later), outputs); !ok) return ok;
     if (!w.out.empty())
         if (auto ok = open_directory(w, population, *bin); !ok) return ok;
-    if (!w.report) return {};
-    auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
+    if (!page_path) return {};
+    auto page = OutputFile::create(*page_path);
     if (!page) return page.error();
     report_file_ = std::move(*page);
     report_.emplace(Report::all_points, population, !w.in_float);

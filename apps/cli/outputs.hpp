@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/output_check.hpp"
 #include "report/report.hpp"
 #include "study/files.hpp"
 #include "verbs.hpp"
@@ -22,6 +23,8 @@ class Outputs {
     template <class F, class... A>
     Result<void> add(const char* name, A... how);
     Result<void> open_directory(const RespondWords&, const Copies&, std::optional<double> bin);
+    Result<void> check(const RespondWords&, const Copies&, const std::optional<std::string>& page, std::vector<std::string> later,
+                       OutputCheck&);
     std::vector<std::string> paths() const;
 
 public:
@@ -29,7 +32,8 @@ public:
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
     ~Outputs();
-    Result<void> open(const RespondWords&, const Copies&);
+    /// `later`: names in the directory that are made only while it runs.
+    Result<void> open(const RespondWords&, const Copies&, std::vector<std::string> later, OutputCheck&);
     void listen(std::vector<Listener*>&);
     /// What is written into the directory, by name.
     std::vector<std::string> names() const;

@@ -20,7 +20,7 @@ Result<std::pair<double, double>> range_of(const std::string& text) {
 }
 
 /// Words that are more than one number.
-Result<void> read_words(const RespondWords& w, RecordingOptions& options) {
+Result<void> read_words(const RecordingWords& w, RecordingOptions& options) {
     if (w.range) {
         const auto range = range_of(*w.range);
         if (!range) return range.error();
@@ -45,6 +45,14 @@ Result<void> read_words(const RespondWords& w, RecordingOptions& options) {
     return {};
 }
 
+/// Newtons per unit of what is read: "0.002", "10%", or with its unit, "2mN".
+Result<std::optional<double>> scale_of(const std::optional<std::string>& text) {
+    const auto plain = quantity(text, "", "--scale");
+    const auto force = plain ? plain : quantity(text, "N", "--scale");
+    if (force) return force;
+    return bad_usage(fmt::format("--scale '{}': write what is read times S is newtons as a number, or with its unit: 0.002, 2mN", *text));
+}
+
 }  // namespace
 
 Result<std::optional<double>> quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option) {
@@ -54,47 +62,50 @@ Result<std::optional<double>> quantity(const std::optional<std::string>& text, s
     return std::optional<double>(*value);
 }
 
-Result<RecordingOptions> recording_options(const RespondWords& w) {
-    RecordingOptions options{.table = {w.dataset}, .channels = w.channels, .time = w.time, .time_unit = w.time_unit, .unit = w.unit};
+Result<RecordingOptions> recording_options(const RecordingWords& w) {
+    RecordingOptions options;
+    options.table.dataset = w.dataset;
+    options.table.skip = w.skip.value_or(0);
+    options.channels = w.channels, options.time = w.time, options.time_unit = w.time_unit, options.unit = w.unit;
     options.absolute = w.absolute;
     options.layout = w.layout;
     std::optional<double> offset;
     for (const auto& [text, unit, option, to] : {std::tuple{&w.rate, "Hz", "--rate", &options.rate},
                                                  {&w.resample, "Hz", "--resample", &options.resample},
-                                                 {&w.scale, "", "--scale", &options.scale},
                                                  {&w.offset, "", "--offset", &offset},
                                                  {&w.lowpass, "Hz", "--lowpass", &options.lowpass}}) {
         const auto value = quantity(*text, unit, option);
         if (!value) return value.error();
         *to = *value;
     }
+    const auto scale = scale_of(w.scale);
+    if (!scale) return scale.error();
+    options.scale = *scale;
     options.offset = offset.value_or(0);
     if (auto ok = read_words(w, options); !ok) return ok.error();
     return options;
 }
 
+std::string_view recording_word(const RecordingWords& w) {
+    const std::pair<std::string_view, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()},
+                                                       {"--skip", w.skip.has_value()},           {"--time", w.time.has_value()},
+                                                       {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
+                                                       {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
+                                                       {"--resample", w.resample.has_value()},   {"--offset", w.offset.has_value()},
+                                                       {"--range", w.range.has_value()},         {"--bad-fields", w.bad_fields.has_value()},
+                                                       {"--despike", w.despike.has_value()},     {"--notch", !w.notch.empty()},
+                                                       {"--lowpass", w.lowpass.has_value()},     {"--layout", !w.layout.empty()}};
+    for (const auto& [word, given] : words)
+        if (given) return word;
+    return "";
+}
+
 Result<void> check_recording_words(const RespondWords& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},
-                                                  {"--dataset", w.dataset.has_value()},
-                                                  {"--time", w.time.has_value()},
-                                                  {"--time-unit", w.time_unit.has_value()},
-                                                  {"--unit", w.unit.has_value()},
-                                                  {"--scale", w.scale.has_value()},
-                                                  {"--abs", w.absolute},
-                                                  {"--resample", w.resample.has_value()},
-                                                  {"--offset", w.offset.has_value()},
-                                                  {"--range", w.range.has_value()},
-                                                  {"--bad-fields", w.bad_fields.has_value()},
-                                                  {"--despike", w.despike.has_value()},
-                                                  {"--notch", !w.notch.empty()},
-                                                  {"--lowpass", w.lowpass.has_value()},
-                                                  {"--layout", !w.layout.empty()}};
-    for (const auto& [word, said] : words)
-        if (said)
-            return bad_usage(fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word,
-                                         w.forces[0], w.forces[0]));
-    return {};
+    const auto word = recording_word(w);
+    if (word.empty()) return {};
+    return bad_usage(
+        fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word, w.forces[0], w.forces[0]));
 }
 
 }  // namespace corpuscle

@@ -13,9 +13,13 @@ namespace corpuscle {
 /// A quantity in SI, if it was said; errors name the option.
 Result<std::optional<double>> quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option);
 
-Result<RecordingOptions> recording_options(const RespondWords&);
+/// The reader's options, of whichever verb: respond and stream read a recording alike.
+Result<RecordingOptions> recording_options(const RecordingWords&);
 
-/// What is said of recordings must find one.
+/// The first of these options that was given, such as "--channel"; "" if none was (--rate does not count).
+std::string_view recording_word(const RecordingWords&);
+
+/// An option of recordings is refused where there are only stimuli.
 Result<void> check_recording_words(const RespondWords&);
 
 }  // namespace corpuscle

@@ -12,6 +12,7 @@
 #include "force_words.hpp"
 #include "netlist_words.hpp"
 #include "outputs.hpp"
+#include "printable.hpp"
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
@@ -182,10 +183,10 @@ std::string cell(const RateRow& row, std::size_t m) {
 std::string inputs_table(const Summary& summary) {
     std::string text;
     for (const auto& i : summary.inputs())
-        text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", i.name,
+        text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", printable(i.name),
                             i.channels.size() == 1 ? "" : fmt::format("{} channels, ", i.channels.size()), i.samples,
                             format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
-                            i.least, i.greatest);
+                            i.least + 0.0, i.greatest + 0.0);  // no -0
     return text;
 }
 
@@ -221,19 +222,19 @@ std::string rate_table(const Summary& summary) {
 /// Warnings are printed always, remarks unless it is to be quiet.
 void print_remarks(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
-        for (const auto& r : quiet ? std::vector<std::string>{} : s->remarks()) fmt::print(stderr, "corpuscle: {}: {}\n", s->name(), r);
-    for (const auto& w : job.warnings) fmt::print(stderr, "corpuscle: warning: {}\n", w);
+        for (const auto& r : quiet ? std::vector<std::string>{} : s->remarks()) tell(fmt::format("{}: {}", s->name(), r));
+    for (const auto& w : job.warnings) tell_warning(w);
 }
 
 void warn(Job& job, std::string sentence) {
-    fmt::print(stderr, "corpuscle: warning: {}\n", sentence);
+    tell_warning(sentence);
     job.warnings.push_back(std::move(sentence));
 }
 
 /// What was found of the recordings while they were read.
 void print_quality(Job& job, const Summary& summary, bool quiet) {
     for (const auto& i : summary.inputs()) {
-        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.sentences) fmt::print(stderr, "corpuscle: {}: {}\n", i.name, s);
+        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.sentences) tell(fmt::format("{}: {}", i.name, s));
         for (const auto& s : i.quality.warnings) warn(job, fmt::format("{}: {}", i.name, s));
     }
 }
@@ -259,11 +260,53 @@ std::size_t netlists(const Job& job) {
     return all;
 }
 
+/// The spikes of every unit, for the document on standard output.
+class SpikeTimes final : public Listener {
+    nlohmann::ordered_json units_ = nlohmann::ordered_json::array();
+    std::size_t first_ = 0;
+
+public:
+    Result<void> begin(const Input& input) override {
+        first_ = units_.size();
+        for (std::size_t u = 0; u < input.units(); ++u)
+            units_.push_back({{"afferent", input.afferent_of(u).name},
+                              {"channel", input.channel_name(input.channel_of(u))},
+                              {"times_s", nlohmann::ordered_json::array()}});
+        return {};
+    }
+    Result<void> block(const Input& input, const Answered& answered) override {
+        for (const auto& s : answered.spikes)
+            units_[first_ + s.unit - input.first_unit]["times_s"].push_back(input.source.clock().time(s.step, s.offset));
+        return {};
+    }
+    const nlohmann::ordered_json& document() const { return units_; }
+};
+
+/// Files of which there is one an input, an afferent or a channel.
+std::vector<std::string> later_names(const Job& job, const RespondWords& w) {
+    std::vector<std::string> all;
+    std::size_t channels = 0;
+    for (std::size_t k = 0; k < job.sources.size(); ++k) {
+        const auto number = k == 0 ? "" : fmt::format("-{}", k + 1);
+        if (w.traces) all.push_back(fmt::format("traces{}.csv", number));
+        if (w.wav) all.push_back(fmt::format("spikes{}.wav", number));
+        channels += job.sources[k]->channels().size();
+    }
+    for (const auto& a : job.copies) {
+        if (!w.vectors || a.converter.empty()) continue;
+        all.push_back(fmt::format("rom-{}.csv", a.name));
+        for (std::size_t c = 1; c <= channels; ++c)
+            all.push_back(fmt::format("vectors-{}{}.csv", a.name, c == 1 ? "" : fmt::format("-{}", c)));
+    }
+    return all;
+}
+
 Result<void> run(const RespondWords& w, const Common& common) {
     auto job = prepare(w, common.quiet);
     if (!job) return job.error();
     Outputs outputs;
-    if (auto ok = outputs.open(w, job->population); !ok) return ok;
+    OutputCheck check(common.overwrite);
+    if (auto ok = outputs.open(w, job->population, later_names(*job, w), check); !ok) return ok;
     print_remarks(*job, common.quiet);
 
     Pool pool(w.threads);
@@ -272,6 +315,8 @@ Result<void> run(const RespondWords& w, const Common& common) {
     Silence silence;
     std::vector<Listener*> listeners = {&summary, &silence};
     outputs.listen(listeners);
+    SpikeTimes times;
+    if (common.json) listeners.push_back(&times);
     Result<Work> work = [&] {
         Progress progress(common.quiet);
         job->options.keep_on = [&](double share) { return progress.at(share), !interrupted(); };
@@ -282,7 +327,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     for (const auto& warning : work_warnings(*work)) warn(*job, warning);
     warn_of_rates(*job, summary);
     const auto silent = silence.found(job->copies, job->options);
-    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) fmt::print(stderr, "corpuscle: {}\n", sentence_of(s));
+    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) tell(sentence_of(s));
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     if (job->population.copies > 0) answer["copies"] = document_of(job->population);
     for (const auto& s : silent)
@@ -291,13 +336,14 @@ Result<void> run(const RespondWords& w, const Common& common) {
                                     {"factor_to_fire", s.factor ? nlohmann::ordered_json(*s.factor) : nlohmann::ordered_json(nullptr)}});
     const auto costs = answer.value("costs", nlohmann::ordered_json::array());
     answer["files"] = outputs.names();
-    const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";  // a name may hold any bytes
+    const auto document = json_text(answer) + "\n";
     if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command, costs); !ok) return ok;
+    if (common.json) answer["spikes"] = times.document();
     if (common.json)
-        fmt::print("{}", document);
+        fmt::print("{}\n", json_text(answer));
     else if (!common.quiet)
-        fmt::print("{}{}{}{}{}", inputs_table(summary), copies_line(job->population), rate_table(summary),
-                   versions_table(summary.comparisons()), outputs.told());
+        show(inputs_table(summary) + copies_line(job->population) + rate_table(summary) + versions_table(summary.comparisons()) +
+             outputs.told());
     if (!work->lost.empty()) {
         auto error = work->lost[0];
         error.sentence = fmt::format("{} of {} netlists on their channels did not converge; the first: {}", work->lost.size(),

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "force_words.hpp"
+#include "printable.hpp"
 #include "recording_words.hpp"
 #include "signal/stimuli.hpp"
 #include "signal/text.hpp"
 #include "signal/version.hpp"
+#include "skin/class_settings.hpp"
 #include "skin/pressed.hpp"
 #include "skin_outputs.hpp"
 #include "study/nerve_limit.hpp"
@@ -92,21 +94,6 @@ void add_touch(std::vector<Wish>& wishes, const NamedTouch& touch) {
     };
     add("contact", touch.settings);
     add(touch.force, touch.force_settings);
-}
-
-/// A parameter of a class: "sa1.f_B=25Hz".
-Result<void> set_classes(SkinPlan& plan, std::span<const Wish> wishes) {
-    for (auto& c : plan.classes) {
-        std::vector<Row> rows;
-        for (const auto& p : *c.afferent.parameters) rows.push_back(p.row);
-        const auto settings = settings_for(c.name, rows, wishes);
-        if (!settings) return settings.error();
-        for (const auto& s : *settings)
-            for (std::size_t k = 0; k < rows.size(); ++k)
-                if (rows[k].name == s.name) c.afferent.values[k] = s.value;
-        if (auto wrong = refusal(c.afferent)) return *wrong;
-    }
-    return {};
 }
 
 Result<void> check_skin_wishes(const SkinJob& job) {
@@ -256,8 +243,8 @@ void tell_of_rates(SkinJob& job, const SkinSummary& summary) {
 }
 
 /// Options that change where or how the answer is written, and not the answer.
-constexpr std::string_view output_options[] = {"--checkpoint", "--out",   "--report", "--bin",  "--events",
-                                               "--npz",        "--force", "--quiet",  "--json", "--threads"};
+constexpr std::string_view output_options[] = {"--checkpoint", "--out",       "--report", "--bin",  "--events",
+                                               "--npz",        "--overwrite", "--quiet",  "--json", "--threads"};
 
 /// The checksum of a file's contents, if there is such a file.
 Result<void> add_contents(RunFingerprint& all, const std::string& what, const std::string& path) {
@@ -315,7 +302,8 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
     SkinSummary summary;
     SkinSilence silence;
     SkinOutputs outputs;
-    if (auto ok = outputs.open(w, summary); !ok) return ok;
+    OutputCheck check(common.overwrite);
+    if (auto ok = outputs.open(w, summary, check); !ok) return ok;
     Pool pool(self.ranks ? std::max(1U, w.threads) : w.threads);
     std::unique_ptr<SkinCheckpoint> checkpoint;
     if (!w.checkpoint.empty()) {
@@ -326,8 +314,8 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
         if (!opened) return opened.error();
         checkpoint = std::move(*opened);
         if (checkpoint->step() > 0 && !common.quiet)
-            fmt::print(stderr, "corpuscle: goes on after {:.3f} s, from {}\n",
-                       job.source->clock().T() * static_cast<double>(checkpoint->step()), w.checkpoint);
+            tell(fmt::format("goes on after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->step()),
+                             w.checkpoint));
     }
     std::vector<SkinListener*> listeners = {&summary, &silence};
     outputs.listen(listeners);
@@ -347,16 +335,15 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
     tell_of_rates(job, summary);
     auto answer = summary.document(job.told);
     answer["files"] = outputs.names();
-    const auto document = answer.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const auto document = json_text(answer) + "\n";
     if (auto ok = outputs.commit(summary, job.told, document, common.command); !ok) return ok;
     if (checkpoint) checkpoint->done();
-    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.told.remarks)
-        fmt::print(stderr, "corpuscle: {}: {}\n", job.name, r);
-    for (const auto& warning : job.told.warnings) fmt::print(stderr, "corpuscle: warning: {}\n", warning);
+    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.told.remarks) tell(fmt::format("{}: {}", job.name, r));
+    for (const auto& warning : job.told.warnings) tell_warning(warning);
     if (common.json)
         fmt::print("{}", document);
     else if (!common.quiet)
-        fmt::print("{}{}", table(summary.table()), outputs.told());
+        show(table(summary.table()) + outputs.told());
     return {};
 }
 

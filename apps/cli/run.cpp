@@ -14,6 +14,7 @@
 #include "circuit/variants.hpp"
 #include "curve_files.hpp"
 #include "netlist_words.hpp"
+#include "printable.hpp"
 #include "study/cost_document.hpp"
 #include "study/json_number.hpp"
 #include "terminal.hpp"
@@ -81,28 +82,28 @@ Json document_of(const Done& done) {
 
 void print_numbers(const RunOutcome& outcome) {
     for (const auto& [name, value] : outcome.numbers)
-        std::isnan(value) ? fmt::print("{:20} = failed\n", name) : fmt::print("{:20} = {:.6e}\n", name, value);
+        std::isnan(value) ? fmt::print("{:20} = failed\n", printable(name)) : fmt::print("{:20} = {:.6e}\n", printable(name), value);
     for (const auto& e : outcome.expectations)
-        fmt::print("{:20} = {:.6e}, expected {:g} within {:g}: {}\n", e.what, e.found, e.expected, e.tolerance,
+        fmt::print("{:20} = {:.6e}, expected {:g} within {:g}: {}\n", printable(e.what), e.found, e.expected, e.tolerance,
                    e.held ? "holds" : "does not hold");
 }
 
 void print(const Done& done) {
     for (const auto& a : done.outcome.analyses) {
         fmt::print("{}.{}: {} point{}\n", &a == &done.outcome.analyses[0] ? "" : "\n", a.command->name, a.points, a.points == 1 ? "" : "s");
-        fmt::print("{}{}", a.findings.table, a.printed);
+        show(a.findings.table + a.printed);
     }
     if (!done.outcome.numbers.empty() || !done.outcome.expectations.empty()) fmt::print("\n");
     print_numbers(done.outcome);
-    if (done.cost) fmt::print("\n{}", budget_text(*done.cost));
+    if (done.cost) show("\n" + budget_text(*done.cost));
 }
 
 /// Of many: a line each, its measures.
 void print_line(const Done& done) {
-    fmt::print("{}:", done.variant.label);
-    for (const auto& [name, value] : done.outcome.numbers) fmt::print("  {} = {:.6e}", name, value);
+    fmt::print("{}:", printable(done.variant.label));
+    for (const auto& [name, value] : done.outcome.numbers) fmt::print("  {} = {:.6e}", printable(name), value);
     fmt::print("{}\n", done.cost ? budget_line(*done.cost) : "");
-    for (const auto& a : done.outcome.analyses) fmt::print("{}", a.printed);
+    for (const auto& a : done.outcome.analyses) show(a.printed);
 }
 
 /// How a number is spread over the chips of a .mc.
@@ -133,7 +134,7 @@ public:
     Report(const Common& common, bool several, bool draws) : common_(common), several_(several), draws_(draws) {}
 
     void add(const Done& done) {
-        for (const auto& r : done.outcome.remarks) fmt::print(stderr, "corpuscle: warning: {}\n", r.text());
+        for (const auto& r : done.outcome.remarks) tell_warning(r.text());
         for (const auto& e : done.outcome.expectations)
             if (!e.held && !broken)
                 broken =
@@ -154,7 +155,7 @@ public:
         if (common_.json)
             put({{"step", label}, {"error", error.sentence}});
         else if (!common_.quiet)
-            fmt::print("{}:  {}\n", label, error.sentence);
+            show(fmt::format("{}:  {}\n", printable(label), printable(error.sentence)));
     }
     void finish() {
         if (common_.json) return several_ ? fmt::print("{}]\n", count_ == 0 ? "[" : "\n") : void();
@@ -166,7 +167,7 @@ public:
 
 private:
     void put(const Json& document) {
-        fmt::print("{}{}{}", !several_ ? "" : count_ == 0 ? "[\n" : ",\n", document.dump(1), several_ ? "" : "\n");
+        fmt::print("{}{}{}", !several_ ? "" : count_ == 0 ? "[\n" : ",\n", json_text(document), several_ ? "" : "\n");
         ++count_;
     }
     void spread(const std::vector<std::pair<std::string, double>>& numbers) {
@@ -196,6 +197,11 @@ public:
     }
 };
 
+std::size_t analyses_of(const Circuit& circuit) {
+    return static_cast<std::size_t>(
+        std::count_if(circuit.commands.begin(), circuit.commands.end(), [](const Command& c) { return analysis_of(c.name) != nullptr; }));
+}
+
 /// Makes the bench of a variant, if the last one's does not serve.
 Result<void> prepare(std::unique_ptr<TestBench>& bench, const Variant& variant, bool brief) {
     if (!bench || bench->circuit != variant.circuit) {
@@ -216,6 +222,8 @@ Result<void> run_all(Variants& variants, const RunWords& words, const Common& co
         auto variant = variants.at(k);
         if (!variant) return variant.error();
         if (auto ok = prepare(bench, *variant, k > 0 || variants.draws()); !ok) return ok;
+        if (k == 0)
+            if (auto ok = files.check(analyses_of(*variant->circuit)); !ok) return ok;
         Share variant_share(*variant->circuit);
         Gathered gathered;
         RunOrders orders;
@@ -258,7 +266,7 @@ void keep_what_there_is(CurveFiles& files) {
     if (!remark)
         fail(remark.error());
     else if (!remark->empty())
-        fmt::print(stderr, "corpuscle: warning: {}\n", *remark);
+        tell_warning(*remark);
 }
 
 /// "summer.N3B=8x4"
@@ -299,7 +307,7 @@ Result<void> run_netlist(const RunWords& words, const Common& common) {
     if (!variants) return variants.error();
     const bool several = variants->count() > 1;
     Report report(common, several, variants->draws());
-    CurveFiles files(words, several);
+    CurveFiles files(words, several, common.overwrite);
     const auto done = run_all(*variants, words, common, report, files);
     report.finish();
     if (!done) return keep_what_there_is(files), done;

@@ -28,7 +28,8 @@ Result<void> SkinOutputs::add(const std::string& name, const A&... how) {
     return {};
 }
 
-Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummary& summary) {
+Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummary& summary, const std::optional<std::string>& page,
+                                         OutputCheck& outputs) {
     const auto bin = quantity(w.bin, "s", "--bin");
     if (!bin) return bin.error();
     if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
@@ -39,8 +40,12 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
         for (const auto& f : formats) names.push_back(f.name);
         return bad_usage(fmt::format("--events {}: there are {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
     }
-    auto ok =
-        w.events.empty() ? add<SkinSpikesFile>("spikes.csv") : add<SkinEventsFile>(fmt::format("spikes{}", format->extension), w.events);
+    const auto spikes = w.events.empty() ? std::string("spikes.csv") : fmt::format("spikes{}", format->extension);
+    std::vector<std::string> names = {spikes, "units.csv", "summary.json"};
+    if (w.npz) names.emplace_back("spikes.npz");
+    if (*bin) names.emplace_back("psth.csv");
+    if (auto ok = check_outputs(w.out, std::move(names), page, w.checkpoint, outputs); !ok) return ok;
+    auto ok = w.events.empty() ? add<SkinSpikesFile>(spikes) : add<SkinEventsFile>(spikes, w.events);
     if (!ok) return ok;
     if (ok = add<SkinUnitsFile>("units.csv", std::cref(summary)); !ok) return ok;
     if (w.npz)
@@ -53,15 +58,18 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
     return {};
 }
 
-Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary) {
-    for (const auto& [word, said] : {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()},
-                                     std::pair{"--npz", w.npz}})
+Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary, OutputCheck& outputs) {
+    for (const auto& [word, said] :
+         {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}, std::pair{"--npz", w.npz}})
         if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
     directory_ = w.out;
+    const auto page_path = page_of(w);
     if (!w.out.empty())
-        if (auto ok = open_directory(w, summary); !ok) return ok;
-    if (!w.report) return {};
-    auto page = OutputFile::create(!w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html");
+        if (auto ok = open_directory(w, summary, page_path, outputs); !ok) return ok;
+    if (w.out.empty())
+        if (auto ok = check_outputs("", {}, page_path, w.checkpoint, outputs); !ok) return ok;
+    if (!page_path) return {};
+    auto page = OutputFile::create(*page_path);
     if (!page) return page.error();
     report_file_ = std::move(*page);
     report_.emplace();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/output_check.hpp"
 #include "report/skin_page.hpp"
 #include "study/skin_written.hpp"
 #include "verbs.hpp"
@@ -21,7 +22,7 @@ class SkinOutputs {
 
     template <class F, class... A>
     Result<void> add(const std::string& name, const A&... how);
-    Result<void> open_directory(const RespondWords&, const SkinSummary&);
+    Result<void> open_directory(const RespondWords&, const SkinSummary&, const std::optional<std::string>& page, OutputCheck&);
     std::vector<std::string> paths() const;
 
 public:
@@ -30,7 +31,7 @@ public:
     SkinOutputs& operator=(const SkinOutputs&) = delete;
     ~SkinOutputs();
     /// The summary counts what some of the files hold: it listens before them.
-    Result<void> open(const RespondWords&, const SkinSummary&);
+    Result<void> open(const RespondWords&, const SkinSummary&, OutputCheck&);
     void listen(std::vector<SkinListener*>&);
     std::vector<std::string> names() const;
     Result<void> commit(const SkinSummary&, const SkinTold&, const std::string& document, const std::string& command);

@@ -3,19 +3,20 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "io/recording.hpp"
+#include "io/output_check.hpp"
 #include "live/live_population.hpp"
 #include "live/placed_frames.hpp"
 #include "live/stream_state.hpp"
-#include "model/population.hpp"
-#include "recording_words.hpp"
-#include "signal/quantity.hpp"
-#include "signal/stimuli.hpp"
+#include "own_files.hpp"
+#include "printable.hpp"
+#include "signal/input_files.hpp"
+#include "skin/class_settings.hpp"
 #include "skin/site_map.hpp"
+#include "stream_input.hpp"
 #include "stream_told.hpp"
 #include "study/skin_run.hpp"
 #include "terminal.hpp"
@@ -24,79 +25,13 @@
 namespace corpuscle {
 namespace {
 
-/// A quantity that is always said.
-Result<double> said(const std::string& text, std::string_view unit, std::string_view option) {
-    const auto value = quantity(text, unit, option);
-    if (!value) return value.error();
-    return **value;
-}
-
-bool is_wire(const std::string& in) { return in == "-" || in.starts_with("tcp:") || in.starts_with("serial:"); }
-
-/// What a word of the command line says, in SI.
-struct StreamNumbers {
-    std::optional<double> rate, scale, offset;
-    double limit = 0, hold = 0, longest = 0, buffer = 0;
-};
-
-Result<StreamNumbers> numbers_of(const StreamWords& w) {
-    StreamNumbers n;
-    for (const auto& [text, unit, option, to] :
-         {std::tuple{&w.rate, "Hz", "--rate", &n.rate}, {&w.scale, "N", "--scale", &n.scale}, {&w.offset, "", "--offset", &n.offset}}) {
-        const auto value = quantity(*text, unit, option);
-        if (!value) return value.error();
-        *to = *value;
-    }
-    for (const auto& [text, unit, option, to] : {std::tuple{&w.limit, "N", "--limit", &n.limit},
-                                                 {&w.hold, "s", "--hold", &n.hold},
-                                                 {&w.longest, "s", "--longest-gap", &n.longest},
-                                                 {&w.buffer, "", "--buffer", &n.buffer}}) {
-        const auto value = said(*text, unit, option);
-        if (!value) return value.error();
-        if (!(*value >= 0)) return bad_usage(fmt::format("{} {}: it is to be positive", option, *text));
-        *to = *value;
-    }
-    if (!(n.buffer >= 1024 && n.buffer <= 1e10)) return bad_usage(fmt::format("--buffer {}: between 1k and 10G bytes", w.buffer));
-    return n;
-}
-
-Result<std::unique_ptr<Source>> source_of(const StreamWords& w, const StreamNumbers& n, std::span<const Wish> wishes) {
-    if (is_stimulus(w.in)) return make_stimulus(w.in, wishes, n.rate.value_or(1e3), 0);
-    RecordingOptions options;
-    options.channels = w.channels, options.rate = n.rate, options.unit = w.unit, options.scale = n.scale;
-    options.offset = n.offset.value_or(0), options.layout = w.layout;
-    return open_recording(w.in, options);
-}
-
-Result<Clock> clock_for(const StreamWords& w, const StreamNumbers& n) {
-    if (n.rate) return clock_of(*n.rate);
-    return bad_usage(fmt::format("--rate is to be said: how many frames a second come from {}", w.in == "-" ? "standard input" : w.in));
-}
-
-FrameLayout layout_of(const StreamWords& w, const StreamNumbers& n, std::size_t sites, const Clock& clock) {
-    FrameLayout layout;
-    layout.kind = w.frames == "csv"   ? FrameKind::csv
-                  : w.frames == "f32" ? FrameKind::f32
-                  : w.frames == "f64" ? FrameKind::f64
-                                      : FrameKind::i16;
-    layout.stamp = w.stamp == "none" ? FrameStamp::none : w.stamp == "count" ? FrameStamp::count : FrameStamp::time;
-    layout.sites = sites, layout.rate = clock.rate();
-    layout.scale = n.scale.value_or(1), layout.offset = n.offset.value_or(0), layout.limit = n.limit;
-    return layout;
-}
-
-Result<std::unique_ptr<ByteSource>> bytes_of(const StreamWords& w) {
-    if (w.in == "-") return standard_input();
-    if (w.in.starts_with("serial:")) return open_serial(w.in.substr(7), w.baud);
-    int port = 0;
-    const auto [end, status] = std::from_chars(w.in.data() + 4, w.in.data() + w.in.size(), port);
-    if (status != std::errc{} || end != w.in.data() + w.in.size() || port < 0 || port > 65535)
-        return bad_usage(fmt::format("--in {}: write tcp:PORT, such as tcp:7000; --listen says on which address", w.in));
-    return listen_on(w.listen, port, w.clients);
-}
-
-Result<SkinPlan> plan_of(const StreamWords& w, std::size_t channels, std::span<const Channel> places, std::span<const Wish> wishes) {
-    return is_afferents(w.population) ? plan_channels(w.population, channels, wishes) : plan_skin(w.population, places);
+Result<SkinPlan> plan_of(const StreamWords& w, std::span<const Channel> channels, std::span<const Wish> wishes) {
+    if (channels.empty()) return plan_live(w.population, w.count, wishes);
+    if (is_afferents(w.population)) return plan_channels(w.population, channels, wishes);
+    auto plan = plan_skin(w.population, channels);
+    if (!plan) return plan;
+    if (auto ok = set_classes(*plan, wishes); !ok) return ok.error();
+    return plan;
 }
 
 /// All that takes part in one stream.
@@ -105,6 +40,8 @@ class LiveRun {
     const Common& common_;
     std::unique_ptr<SkinStream> skin_;
     std::unique_ptr<FrameSource> frames_;
+    const Source* source_ = nullptr;  // of recorded frames; they own it
+    FrameLayout layout_;              // of others
     std::unique_ptr<EventFormat> format_;
     std::unique_ptr<EventOutlet> outlet_;
     std::unique_ptr<StreamLoop> loop_;
@@ -114,35 +51,38 @@ class LiveRun {
 
     /// The frames' source, and the skin for as many sites.
     Result<void> open_recorded(const StreamNumbers& n, std::span<const Wish> wishes) {
-        auto source = source_of(words_, n, wishes);
+        auto source = open_stream_source(words_, n, wishes);
         if (!source) return source.error();
         const auto channels = (*source)->channels();
-        const auto plan = plan_of(words_, channels.size(), channels, wishes);
+        const auto plan = plan_of(words_, channels, wishes);
         if (!plan) return plan.error();
         if (auto ok = open_skin(*plan, (*source)->clock()); !ok) return ok;
         auto sites = sites_of(*plan, **source);
         if (!sites) return sites.error();
+        source_ = source->get();
         frames_ = placed_frames(frames_of(std::move(*source), words_.pace == "real"), std::move(*sites), skin_->sites());
         return {};
     }
 
-    Result<void> open_wire(const StreamNumbers& n, std::span<const Wish> wishes) {
-        const auto clock = clock_for(words_, n);
+    Result<void> open_wired(const StreamNumbers& n, std::span<const Wish> wishes) {
+        const auto clock = wire_clock(words_, n);
         if (!clock) return clock.error();
-        const auto plan = plan_of(words_, words_.count, {}, wishes);
+        const auto plan = plan_of(words_, {}, wishes);
         if (!plan) return plan.error();
         if (auto ok = open_skin(*plan, *clock); !ok) return ok;
-        auto bytes = bytes_of(words_);
-        if (!bytes) return bytes.error();
         std::vector<std::uint32_t> sites;  // of each number of a frame; none: all, in order
         if (!words_.layout.empty()) {
             auto map = read_site_map(words_.layout, plan->sites);
             if (!map) return map.error();
             sites = std::move(*map);
         }
+        const auto layout = wire_layout(words_, n, sites.empty() ? skin_->sites() : sites.size(), *clock);
+        if (!layout) return layout.error();
+        auto bytes = open_wire(words_, n, *layout);
+        if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
-        frames_ = frames_of(std::move(*bytes), layout_of(words_, n, sites.empty() ? skin_->sites() : sites.size(), *clock),
-                            in_frames(n.hold), in_frames(n.longest), words_.together);
+        layout_ = *layout;
+        frames_ = frames_of(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.longest), words_.together);
         if (!sites.empty()) frames_ = placed_frames(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
@@ -189,6 +129,58 @@ class LiveRun {
         return save_stream(words_.save, state);
     }
 
+    void clear_status() {
+        if (std::exchange(drawn_, false)) fmt::print(stderr, "\r\033[K");
+    }
+    void print(const std::string& text) { clear_status(), tell(text); }
+    void warn(const std::string& text) { print(fmt::format("warning: {}: {}", name_of_input(words_.in), text)); }
+
+    /// How a recording was read, and where the rate is too low.
+    void print_remarks() {
+        const auto remarks = source_ && !common_.quiet ? source_->remarks() : std::vector<std::string>{};
+        for (const auto& r : remarks) print(fmt::format("{}: {}", source_->name(), r));
+        const double rate = skin_->clock().rate();
+        for (const auto& c : skin_->innervation().plan.classes)
+            if (rate < c.afferent.least_rate * (1 - 1e-9))
+                warn(fmt::format("frames come at {:g} Hz, but {} needs {:g} Hz or more; do not trust its spikes", rate, c.name,
+                                 c.afferent.least_rate));
+    }
+
+    /// How well what was read was recorded.
+    void print_quality() {
+        if (!source_) return;
+        const auto quality = source_->quality();
+        for (const auto& s : common_.quiet ? std::vector<std::string>{} : quality.sentences)
+            print(fmt::format("{}: {}", source_->name(), s));
+        for (const auto& s : quality.warnings) print(fmt::format("warning: {}: {}", source_->name(), s));
+    }
+
+    std::string misfit_text(const FrameMisfit& misfit) const { return text_of(misfit, layout_, words_.population); }
+
+    /// A stream that has answered no frame has done nothing.
+    Result<void> check_frames() const {
+        const auto counts = frames_->counts();
+        const auto from = name_of_input(words_.in);
+        if (counts.frames > 0) return {};
+        if (const auto misfit = frames_->first_misfit())
+            return bad_input(fmt::format("no frame could be read from {}: {}", from, misfit_text(*misfit)));
+        if (counts.halves > 0 && layout_.kind != FrameKind::csv)
+            return bad_input(fmt::format("no whole frame came from {}: {} bytes, and a frame of '{}' ({} sites) has {}", from,
+                                         counts.half_bytes, words_.population, layout_.sites, layout_.bytes()));
+        return bad_input(counts.halves > 0 ? fmt::format("no whole frame came from {}: a line without its end", from)
+                                           : fmt::format("no frame came from {}", from));
+    }
+
+    Result<void> check_drops() const {
+        const auto spikes = loop_->done().dropped + outlet_->lost(), datagrams = frames_->counts().senders.lost;
+        if (words_.allow_drops || spikes + datagrams == 0) return {};
+        std::string what;
+        if (spikes > 0) what = fmt::format("{} of {} spikes did not reach their reader", spikes, loop_->done().spikes);
+        if (datagrams > 0) what += fmt::format("{}{} datagrams were lost", what.empty() ? "" : ", and ", datagrams);
+        return bad_input(fmt::format("{}; --allow-drops makes this no error{}", what,
+                                     loop_->done().dropped > 0 ? ", a larger --buffer keeps more" : ""));
+    }
+
     /// To a terminal that takes it now; one that is stopped (Ctrl-S) must not stop us.
     void show() {
         pollfd terminal = {STDERR_FILENO, POLLOUT, 0};
@@ -198,18 +190,33 @@ class LiveRun {
         drawn_ = true;
     }
 
-    void tell() {
-        if (drawn_) fmt::print(stderr, "\r\033[K");
-        if (common_.json) fmt::print("{}\n", stream_document(facts()).dump(1));
-        if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", stream_summary(facts()));
+    void print_summary() {
+        clear_status();
+        if (common_.json) fmt::print("{}\n", json_text(stream_document(facts())));
+        if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", printable_lines(stream_summary(facts())));
     }
 
     Result<void> open(const StreamNumbers& n, std::span<const Wish> wishes) {
-        if (auto ok = is_wire(words_.in) ? open_wire(n, wishes) : open_recorded(n, wishes); !ok) return ok;
-        for (const auto& w : wishes)
-            if (!w.used) return bad_usage(fmt::format("--set {}: nothing here is called '{}'", w.text(), w.of));
+        if (auto ok = is_wire(words_.in) ? open_wired(n, wishes) : open_recorded(n, wishes); !ok) return ok;
+        std::vector<std::string_view> others;
+        if (source_) others.push_back(source_->name());
+        if (auto ok = check_all_used(skin_->innervation().plan, wishes, others); !ok)
+            return bad_usage(fmt::format("--set {}", ok.error().sentence));
+        if (auto ok = check_outputs(); !ok) return ok;
         return open_outlet(n);
     }
+
+    /// The state that is taken up may be replaced by the one that is kept, and by nothing else.
+    Result<void> check_outputs() const {
+        OutputCheck outputs(common_.overwrite);
+        remember_input("-");
+        if (!words_.save.empty())
+            if (auto ok = outputs.file(words_.save, is_own_state); !ok) return ok;
+        if (!words_.resume.empty()) remember_input(words_.resume);
+        return words_.out == "-" ? Result<void>() : outputs.growing_file(words_.out, is_own_events);
+    }
+
+    const Error stopped{Code::interrupted, "interrupted"};
 
 public:
     LiveRun(const StreamWords& words, const Common& common) : words_(words), common_(common) {}
@@ -221,19 +228,23 @@ public:
             if (!wish) return wish.error();
             wishes.push_back(std::move(*wish));
         }
-        const auto n = numbers_of(words_);
+        const auto n = stream_numbers(words_);
         if (!n) return n.error();
-        if (auto ok = open(*n, wishes); !ok) return ok;
+        if (auto ok = open(*n, wishes); !ok) return interrupted() ? stopped : ok;
+        print_remarks();
         StreamLoop::Ways ways{.stop = interrupted, .spin = words_.spin, .goes_on = !words_.save.empty()};
+        ways.misfit = [this](const FrameMisfit& misfit) { warn(misfit_text(misfit)); };
         if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.seen = [this] { show(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *outlet_, std::move(ways));
         if (auto ok = take_up(); !ok) return ok;
-        if (words_.in.starts_with("tcp:") || words_.in.starts_with("serial:")) fmt::print(stderr, "corpuscle: {}\n", frames_->sentence());
+        if (is_wire(words_.in) && words_.in != "-") print(frames_->sentence());
         auto ended = loop_->run();
-        tell();
+        print_quality();
+        print_summary();
         if (auto ok = put_by(); ended && !ok) return ok;
-        if (ended && interrupted()) return Error{Code::interrupted, "interrupted"};
-        return ended;
+        if (ended && interrupted()) return stopped;
+        if (ended) ended = check_frames();
+        return ended ? check_drops() : ended;
     }
 };
 

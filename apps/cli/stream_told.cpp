@@ -18,6 +18,14 @@ std::string quantiles(const Delays& d) {
                        time_of(d.quantile(0.999)), time_of(d.most()));
 }
 
+/// Whether frames came one by one as a clock made them, or in bulk: then the time from one to the next says nothing.
+bool is_paced(const StreamFacts& f) {
+    const auto& done = f.loop.done();
+    if (!f.frames.is_live() || done.rate() == 0) return false;
+    const bool in_bulk = done.came > 2 * static_cast<std::int64_t>(f.skin.together()) * done.reads;
+    return !in_bulk || done.rate() < 2 * f.skin.clock().rate();
+}
+
 /// What did not go as it should, a line each.
 std::string troubles(const StreamFacts& f) {
     const auto counts = f.frames.counts();
@@ -32,6 +40,11 @@ std::string troubles(const StreamFacts& f) {
         {counts.unreadable, counted(counts.unreadable, "frame") + " could not be read: the last force was held"},
         {counts.values, counted(counts.values, "force") + " no number, or beyond the limit: the site's last was held"},
         {counts.halves, counted(counts.halves, "half frame") + " when the sender went"},
+        {counts.senders.idle, counted(counts.senders.idle, "sender") + " silent for too long, with another one waiting: made way"},
+        {counts.senders.strangers, counted(counts.senders.strangers, "datagram") + " of senders whose turn it was not, left out"},
+        {counts.senders.lost, counted(counts.senders.lost, "datagram") + " lost: they came faster than they were answered"},
+        {static_cast<std::int64_t>(done.unread),
+         counted(static_cast<std::int64_t>(done.unread), "byte") + " of frames left unread when it was stopped"},
         {done.dropped, counted(done.dropped, "spike") + " left out: the reader was too slow, and the buffer full"},
         {f.outlet.lost(), counted(f.outlet.lost(), "spike") + " lost: their reader went, or took no more"},
         {f.skin.work().capped, fmt::format("{} with more spikes than the cap allows", counted(f.skin.work().capped, "step"))},
@@ -63,7 +76,7 @@ std::string stream_summary(const StreamFacts& f) {
     if (counts.producers != 1) text += fmt::format("  {} sent\n", counted(counts.producers, "client"));
     if (f.outlet.readers() != 1) text += fmt::format("  {}\n", counted(f.outlet.readers(), "connection") + " to the reader");
     if (done.delay.count() > 0) text += fmt::format("  from a frame to its spikes written: {}\n", quantiles(done.delay));
-    if (done.jitter.count() > 0)
+    if (is_paced(f))
         text += fmt::format("  frames came at {}; off {} from one to the next: {}\n", format_quantity(done.rate(), "Hz"),
                             format_quantity(T, "s"), quantiles(done.jitter));
     return text + troubles(f);
@@ -90,7 +103,11 @@ nlohmann::ordered_json stream_document(const StreamFacts& f) {
                               {"headers", counts.headers},
                               {"unreadable", counts.unreadable},
                               {"unreadable_forces", counts.values},
-                              {"halves", counts.halves}};
+                              {"halves", counts.halves},
+                              {"idle_senders", counts.senders.idle},
+                              {"datagrams_of_others", counts.senders.strangers},
+                              {"datagrams_lost", counts.senders.lost},
+                              {"bytes_unread", done.unread}};
     doc["events"] = {{"format", f.format.name()},
                      {"to", f.outlet.sentence()},
                      {"dropped", done.dropped},
@@ -98,8 +115,9 @@ nlohmann::ordered_json stream_document(const StreamFacts& f) {
                      {"readers", f.outlet.readers()}};
     doc["work"] = {{"afferent_steps", f.skin.work().afferent_steps}, {"at_rest", f.skin.work().at_rest}, {"capped", f.skin.work().capped}};
     doc["delay_s"] = in_seconds(done.delay);
-    doc["jitter_s"] = in_seconds(done.jitter);
-    doc["came_at_Hz"] = done.rate();
+    const bool paced = is_paced(f);
+    doc["jitter_s"] = paced ? in_seconds(done.jitter) : nullptr;
+    doc["came_at_Hz"] = paced ? nlohmann::ordered_json(done.rate()) : nullptr;
     return doc;
 }
 

@@ -6,13 +6,16 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "io/output.hpp"
+#include "io/output_check.hpp"
+#include "own_files.hpp"
 #include "report/study_page.hpp"
 #include "signal/field.hpp"
+#include "study/stale.hpp"
 #include "study/studies.hpp"
 #include "study/study_document.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
 namespace {
@@ -70,31 +73,30 @@ std::string recordings() {
     return set && *set ? set : "../shared/data";
 }
 
-Result<void> write(const std::string& path, const std::string& text) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    if (auto ok = file->write(text); !ok) return ok;
-    return file->commit();
-}
-
 Result<void> run(const StudyWords& words, const Common& common) {
     const auto all = chosen(words.names.empty() ? std::vector<std::string>{"all"} : words.names);
     if (!all) return all.error();
+    OutputCheck outputs(common.overwrite);
+    const std::pair<const std::string&, OutputCheck::Signature> files[] = {{words.report_file, is_own_page},
+                                                                           {words.markdown_file, is_own_markdown}};
+    for (const auto& [path, ours] : files)
+        if (!path.empty())
+            if (auto ok = outputs.file(path, ours); !ok) return ok;
     const auto outcomes = [&] {
         Progress progress(common.quiet);
         return run_studies(*all, {[&](double share) { return progress.at(share), !interrupted(); }, recordings()});
     }();
     if (!outcomes) return outcomes.error();
     if (!words.report_file.empty())
-        if (auto ok = write(words.report_file, study_page(*all, *outcomes, common.command)); !ok) return ok;
+        if (auto ok = write_whole(words.report_file, study_page(*all, *outcomes, common.command)); !ok) return ok;
     if (!words.markdown_file.empty())
-        if (auto ok = write(words.markdown_file, markdown_of(*all, *outcomes)); !ok) return ok;
+        if (auto ok = write_whole(words.markdown_file, markdown_of(*all, *outcomes)); !ok) return ok;
     if (common.json) {
         auto document = nlohmann::ordered_json::array();
         for (std::size_t k = 0; k < all->size(); ++k) document.push_back(document_of(*(*all)[k], (*outcomes)[k]));
         fmt::print("{}\n", document.dump(1));
     } else if (!common.quiet) {
-        for (std::size_t k = 0; k < all->size(); ++k) fmt::print("{}{}", k ? "\n" : "", text_of(*(*all)[k], (*outcomes)[k]));
+        for (std::size_t k = 0; k < all->size(); ++k) show((k ? "\n" : "") + text_of(*(*all)[k], (*outcomes)[k]));
     }
     return {};
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "printable.hpp"
 #include "study/sweep/dump.hpp"
 #include "study/sweep/rank_run.hpp"
 #include "study/sweep/writer_lock.hpp"
@@ -36,9 +37,9 @@ std::string results_path(const SweepWords& words, const Shard& shard) {
 
 void tell(const Common& common, const SweepState& state) {
     if (common.json)
-        fmt::print("{}\n", document_of(state).dump(1));
+        fmt::print("{}\n", json_text(document_of(state)));
     else if (!common.quiet)
-        fmt::print("{}", text_of(state));
+        show(text_of(state));
 }
 
 /// One of the processes that mpirun started, or all there is.
@@ -85,8 +86,8 @@ Result<void> lead_run(const Self& self, const Sweep& sweep, const SweepWords& wo
         return run_units(self, sweep, *results, run, common);
     }();
     if (const auto folded = results->fold(); !folded && !common.quiet)
-        fmt::print(stderr, "corpuscle: warning: {} is whole, but only together with the file {}-wal beside it: {}\n", results->path(),
-                   results->path(), folded.error().sentence);
+        tell_warning(fmt::format("{} is whole, but only together with the file {}-wal beside it: {}", results->path(), results->path(),
+                                 folded.error().sentence));
     if (!done) return with_advice(done.error(), *results);
     const auto state = state_of(*results, shard);
     if (!state) return state.error();
@@ -137,7 +138,7 @@ Result<void> take_all(SweepResults& out, const std::vector<SweepResults>& in, co
         if (interrupted()) return Error{Code::interrupted, "interrupted; the same command goes on"};
         const auto added = out.take(from);
         if (!added) return added.error();
-        if (!common.json && !common.quiet) fmt::print("{}: {} units, {} of them new\n", from.path(), from.finished(), *added);
+        if (!common.json && !common.quiet) show(fmt::format("{}: {} units, {} of them new\n", from.path(), from.finished(), *added));
     }
     return {};
 }

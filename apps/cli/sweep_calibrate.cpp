@@ -109,7 +109,7 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     if (common.json)
         fmt::print("{}\n", document_of(asked, *done).dump(1));
     else
-        fmt::print("{}", text_of(asked, *done));
+        show(text_of(asked, *done));
     return {};
 }
 

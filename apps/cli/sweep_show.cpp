@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/output.hpp"
+#include "io/output_check.hpp"
+#include "printable.hpp"
 #include "report/sweep_page.hpp"
+#include "signal/input_files.hpp"
+#include "study/stale.hpp"
 #include "study/sweep/sweep_document.hpp"
 #include "sweep_tables.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
 namespace {
@@ -28,18 +32,15 @@ Result<SweepQuestion> question_of(const SweepShowWords& words) {
     return out;
 }
 
-Result<void> write_page(const std::string& path, const std::string& text) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    if (auto ok = file->write(text); !ok) return ok;
-    return file->commit();
-}
-
 Result<void> run(const SweepShowWords& words, const Common& common) {
     const auto question = question_of(words);
     if (!question) return question.error();
     const auto results = SweepResults::look(words.results);
     if (!results) return results.error();
+    remember_input(words.results);
+    OutputCheck outputs(common.overwrite);
+    if (!words.report_file.empty())
+        if (auto ok = outputs.file(words.report_file, is_own_page); !ok) return ok;
     const auto table = read_table(*results, words.measures);
     if (!table) return table.error();
     std::optional<Drawn> drawn;
@@ -55,12 +56,12 @@ Result<void> run(const SweepShowWords& words, const Common& common) {
     if (!words.report_file.empty()) {
         const auto page = sweep_page(*results, *table, *summary, title, common.command);
         if (!page) return page.error();
-        if (auto ok = write_page(words.report_file, *page); !ok) return ok;
+        if (auto ok = write_whole(words.report_file, *page); !ok) return ok;
     }
     if (common.json)
-        fmt::print("{}\n", document_of(*table, *summary, title).dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        fmt::print("{}\n", json_text(document_of(*table, *summary, title)));
     else if (!common.quiet)
-        fmt::print("{}", sweep_tables(*table, *summary, title, !words.quantiles.empty()));
+        show(sweep_tables(*table, *summary, title, !words.quantiles.empty()));
     return {};
 }
 

@@ -3,14 +3,24 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "printable.hpp"
+#include "signal/input_files.hpp"
 
 namespace corpuscle {
 namespace {
 
 volatile std::sig_atomic_t stop = 0;
+
+constexpr std::size_t widest_table = 100;  // columns, before its header takes several lines
 
 /// A number, or a mean with its deviation: "9.4 +- 1.1".
 bool is_number(std::string_view cell) {
@@ -24,19 +34,81 @@ std::size_t width(const std::string& text) {
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
+/// The header of a table too wide for a terminal on several lines, a word on each where the column is narrow; gives how many.
+std::size_t narrow_header(std::vector<std::vector<std::string>>& rows) {
+    if (rows.size() < 2) return 1;
+    std::vector<std::size_t> widths(rows[0].size());
+    std::size_t all = 0;
+    for (std::size_t c = 0; c < rows[0].size(); ++c) {
+        for (std::size_t r = 1; r < rows.size(); ++r)
+            if (c < rows[r].size()) widths[c] = std::max(widths[c], width(rows[r][c]));
+        all += std::max(widths[c], width(rows[0][c])) + (c ? 2 : 0);
+    }
+    if (all <= widest_table) return 1;
+    std::vector<std::vector<std::string>> lines;
+    for (std::size_t c = 0; c < rows[0].size(); ++c) {
+        std::vector<std::string> parts;
+        std::istringstream words(rows[0][c]);
+        for (std::string word; words >> word;)
+            if (!parts.empty() && width(parts.back()) + 1 + width(word) <= widths[c])
+                parts.back() += " " + word;
+            else
+                parts.push_back(word);
+        while (lines.size() < parts.size()) lines.emplace_back(rows[0].size());
+        for (std::size_t k = 0; k < parts.size(); ++k) lines[k][c] = parts[k];
+    }
+    rows.erase(rows.begin());
+    rows.insert(rows.begin(), lines.begin(), lines.end());
+    return std::max<std::size_t>(lines.size(), 1);
+}
+
+/// "out/x.csv" -> "x.csv"; "1/4" and "5mV/K" are no files.
+std::string base_name(const std::string& piece) {
+    if (piece.find('/') == std::string::npos) return piece;
+    const std::filesystem::path path(piece);
+    std::error_code status;
+    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    const bool is_file = path.has_extension() || piece.starts_with('/') || piece.starts_with('.') || piece.starts_with('~') ||
+                         std::filesystem::exists(path, status) || !std::isdigit(static_cast<unsigned char>(piece[0]));
+    return is_file && !name.empty() ? name.string() : piece;
+}
+
+/// Of a word: "--layout=/home/me/pad.csv", "sa1,/home/me/x.cir".
+std::string without_directories(const std::string& word) {
+    std::string out;
+    for (std::size_t at = 0; at <= word.size();) {
+        const auto end = std::min(word.find_first_of("=,", at), word.size());
+        out += base_name(word.substr(at, end - at));
+        if (end < word.size()) out += word[end];
+        at = end + 1;
+    }
+    return out;
+}
+
 }  // namespace
 
+void tell(const std::string& sentence) { fmt::print(stderr, "corpuscle: {}\n", printable(sentence)); }
+void tell_warning(const std::string& sentence) { tell("warning: " + sentence); }
+void show(const std::string& text) { fmt::print("{}", printable_lines(text)); }
+
+Result<void> finish_output() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return {};
+    return bad_input(fmt::format("standard output cannot be written to the end: {}", std::strerror(errno)));
+}
+
 int fail(const Error& error) {
-    fmt::print(stderr, "corpuscle: {}\n", error.text());
+    tell(error.text());
     return static_cast<int>(error.code);
 }
 
 void catch_interrupt() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        std::signal(signal, [](int) {
-            if (stop) std::_Exit(130);
-            stop = 1;
-        });
+    struct sigaction action = {};  // without SA_RESTART: a call that waits ends
+    action.sa_handler = [](int) {
+        if (stop) std::_Exit(130);
+        stop = 1;
+    };
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
+    set_interruption(interrupted);
     std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early (| head) is an error of writing, told as such
 }
 
@@ -49,14 +121,18 @@ std::string time_text(double seconds) {
                       : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
 }
 
-std::string table(const std::vector<std::vector<std::string>>& rows) {
+std::string table(const std::vector<std::vector<std::string>>& given) {
+    auto rows = given;
+    for (auto& row : rows)
+        for (auto& cell : row) cell = printable(cell);
+    const auto headers = narrow_header(rows);
     std::vector<std::size_t> widths;
     std::vector<bool> numeric;
     for (std::size_t r = 0; r < rows.size(); ++r)
         for (std::size_t c = 0; c < rows[r].size(); ++c) {
             if (widths.size() <= c) widths.push_back(0), numeric.push_back(true);
             widths[c] = std::max(widths[c], width(rows[r][c]));
-            if (r > 0 && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
+            if (r >= headers && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
         }
     std::string text;
     for (const auto& row : rows) {
@@ -94,9 +170,9 @@ std::string quoted(int argc, const char* const* argv) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     std::string text = "corpuscle";
     for (int k = 1; k < argc; ++k) {
-        const std::string_view word = argv[k];
-        if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
-            text += " " + std::string(word);
+        const auto word = without_directories(argv[k]);
+        if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+            text += " " + word;
             continue;
         }
         text += " '";

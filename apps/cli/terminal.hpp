@@ -12,7 +12,17 @@ namespace corpuscle {
 /// Prints the error on standard error; gives the exit status it stands for.
 int fail(const Error&);
 
-/// From now on the first Ctrl-C only sets a flag, the second ends the program.
+/// One line on standard error: "corpuscle: ...", "corpuscle: warning: ...". Control characters are escaped.
+void tell(const std::string& sentence);
+void tell_warning(const std::string& sentence);
+
+/// Text of several lines on standard output. Control characters are escaped.
+void show(const std::string& text);
+
+/// What was printed has reached standard output, or the error that says why not.
+Result<void> finish_output();
+
+/// From now on the first Ctrl-C only sets a flag, and ends a read that waits; the second ends the program.
 void catch_interrupt();
 bool interrupted();
 
@@ -35,7 +45,7 @@ public:
     void at(double share);
 };
 
-/// The words of a command line as a shell would need them.
+/// The words of a command line as a shell would need them, files by their names alone: a page that is given away tells no directories.
 std::string quoted(int argc, const char* const* argv);
 
 }  // namespace corpuscle

@@ -16,6 +16,7 @@ struct TypedOption {
 
 struct Common {
     bool json = false, quiet = false;
+    bool overwrite = false;               ///< replace files that no earlier run wrote
     std::string command;                  ///< as it was typed, for the report
     std::vector<TypedOption> typed = {};  ///< the verb's options, in the order of --help
 };
@@ -26,15 +27,21 @@ struct NetlistWords {
     std::vector<std::string> traces;
 };
 
-struct RespondWords {
-    NetlistWords netlists;
-    std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads, channels;
-    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise,
-        bin;
-    std::vector<std::string> notch;
+/// How a recording is to be read; recording_options() makes the reader's options of it.
+struct RecordingWords {
+    std::vector<std::string> channels, notch;
+    std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
     std::string layout;
+    std::optional<std::uint32_t> skip;  ///< lines
+    bool absolute = false;
+};
+
+struct RespondWords : RecordingWords {
+    NetlistWords netlists;
+    std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads;
+    std::optional<std::string> noise, bin;
     std::string method = "exact";
-    bool sampled = false, absolute = false, traces = false, vectors = false, report = false, npz = false, wav = false;
+    bool sampled = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
     std::string population, contact, events, checkpoint;  ///< of a skin; "": not said
     std::uint64_t seed = 0;
@@ -45,6 +52,7 @@ struct RespondWords {
 
 struct CompareWords {
     std::vector<std::string> files, pairs;
+    std::optional<std::string> time, unit;  ///< columns of tables of spikes
     bool by_order = false;
     std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
@@ -98,17 +106,16 @@ struct SweepCalibrateWords {
     bool apart = false;
 };
 
-struct StreamWords {
-    std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real", layout;
-    std::vector<std::string> settings, channels;
-    std::optional<std::string> rate, scale, offset, unit;
-    std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M";
+struct StreamWords : RecordingWords {
+    std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real";
+    std::vector<std::string> settings;
+    std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M", idle = "10s";
     std::string out = "-", to, format = "lines", save, resume;
     std::size_t count = 1;     ///< channels
     std::size_t together = 1;  ///< frames
     std::int64_t clients = 0;  ///< 0: without end
     long baud = 115200;
-    bool sampled = false, spin = false;
+    bool sampled = false, spin = false, allow_drops = false;
 };
 
 struct ListWords {

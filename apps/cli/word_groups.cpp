@@ -1,8 +1,15 @@
 #include "word_groups.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace corpuscle {
+
+std::string page_name_needed(const std::string& name) {
+    const auto dot = name.rfind('.');
+    const auto stem = dot == std::string::npos || dot == 0 || name.find('/', dot) != std::string::npos ? name : name.substr(0, dot);
+    return fmt::format("--report {}: needs a name that ends in .html, such as {}.html", name, stem);
+}
 
 void add_netlist_words(CLI::App& verb, NetlistWords& w) {
     const auto group = "Netlists";
@@ -21,6 +28,50 @@ void add_netlist_words(CLI::App& verb, NetlistWords& w) {
         ->allow_extra_args(false)
         ->type_name("WHAT,WHAT")
         ->group(group);
+}
+
+void add_recording_words(CLI::App& verb, RecordingWords& w) {
+    const auto group = "Recordings";
+    verb.add_option("--channel,-c", w.channels,
+                    "which channels of a recording: names, or numbers and ranges (2-5) that count all columns but the time")
+        ->allow_extra_args(false)
+        ->type_name("CHANNEL")
+        ->group(group);
+    verb.add_option("--dataset", w.dataset, "which array of a file that holds several (HDF5, NPZ), by its path or name")
+        ->type_name("NAME")
+        ->group(group);
+    verb.add_option("--skip", w.skip, "lines at the beginning of a file of text that are not part of its table")
+        ->check(CLI::Range(0U, 1'000'000U))
+        ->type_name("LINES")
+        ->group(group);
+    verb.add_option("--time", w.time, "a recording's time column by name or number, or 'none'")->type_name("COLUMN")->group(group);
+    verb.add_option("--time-unit", w.time_unit, "what the time column is in, if its header does not say: s, ms, us, ns")
+        ->type_name("UNIT")
+        ->group(group);
+    verb.add_option("--unit", w.unit, "what a recording holds: N, mN, gf, kgf, or raw (then say --scale)")->type_name("UNIT")->group(group);
+    verb.add_option("--scale", w.scale, "what is read, times S, is newtons (0.002, 2mN)")->type_name("S")->group(group);
+    verb.add_flag("--abs", w.absolute, "take the absolute value of what is read")->group(group);
+    verb.add_option("--offset", w.offset, "what is read where there is no force; taken off before --scale")->type_name("X")->group(group);
+    verb.add_option("--range", w.range, "what can be read at all; readings outside are bad")->type_name("LO..HI")->group(group);
+    verb.add_option("--bad-fields", w.bad_fields,
+                    "what becomes of fields that are no numbers, and of readings out of --range: error (else of fields), drop the row, "
+                    "interpolate (else of readings)")
+        ->check(CLI::IsMember({"error", "drop", "interpolate"}))
+        ->type_name("WHAT")
+        ->group(group);
+    verb.add_option("--despike", w.despike,
+                    "readings further than this from the median of the 25 about them are bad; auto: 6 standard deviations")
+        ->type_name("LIMIT")
+        ->group(group);
+    verb.add_option("--notch", w.notch, "filter out mains hum: 50Hz, and 4 Hz about it (repeat for others)")
+        ->allow_extra_args(false)
+        ->type_name("FREQUENCY")
+        ->group(group);
+    verb.add_option("--lowpass", w.lowpass, "filter out what is faster (Butterworth, second order)")->type_name("FREQUENCY")->group(group);
+    verb.add_option("--layout", w.layout, "a table that names the sensors and says where they sit: channel,name,x_mm,y_mm")
+        ->type_name("FILE")
+        ->group(group);
+    verb.add_option("--resample", w.resample, "interpolate a recording to this rate")->type_name("FREQUENCY")->group(group);
 }
 
 void add_skin_words(CLI::App& verb, RespondWords& w) {

@@ -1,13 +1,24 @@
 #include "written.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <filesystem>
+
+#include "own_files.hpp"
+#include "printable.hpp"
+#include "study/stale.hpp"
 
 namespace corpuscle {
 
 Result<void> put_whole(OutputFile& file, const std::string& text) {
     if (auto ok = file.write(text); !ok) return ok;
-    return file.commit();
+    if (auto ok = file.commit(); !ok) return ok;
+    return sync_directory_of(file.path());
+}
+
+Result<void> write_whole(const std::string& path, const std::string& text) {
+    auto file = OutputFile::create(path);
+    return file ? put_whole(*file, text) : file.error();
 }
 
 std::vector<std::string> names_in(const std::string& directory, const std::vector<std::string>& paths) {
@@ -18,10 +29,33 @@ std::vector<std::string> names_in(const std::string& directory, const std::vecto
     return all;
 }
 
+std::optional<std::string> page_of(const RespondWords& w) {
+    if (!w.report) return {};
+    return !w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html";
+}
+
+Result<void> check_outputs(const std::string& directory, std::vector<std::string> names, const std::optional<std::string>& page,
+                           const std::string& checkpoint, OutputCheck& outputs) {
+    if (page) {
+        const auto own = names_in(directory, {*page});
+        if (own.empty()) {
+            if (auto ok = outputs.file(*page, is_own_page); !ok) return ok;
+        }
+        names.insert(names.end(), own.begin(), own.end());
+    }
+    if (!checkpoint.empty())
+        if (auto ok = outputs.file(checkpoint, is_own_checkpoint); !ok) return ok;
+    if (directory.empty()) return {};
+    const auto earlier = earlier_outputs(directory);
+    const auto is_listed = [&](const std::string& name) { return std::find(earlier.begin(), earlier.end(), name) != earlier.end(); };
+    return outputs.directory(directory, names, is_listed, is_output_name, is_own_page);
+}
+
 std::string told_of(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {
     if (paths.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
-    const auto gone = removed.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", fmt::join(removed, ", "));
-    return fmt::format("Written: {}\n{}", fmt::join(paths, ", "), gone);
+    const auto gone =
+        removed.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", printable(fmt::format("{}", fmt::join(removed, ", "))));
+    return fmt::format("Written: {}\n{}", printable(fmt::format("{}", fmt::join(paths, ", "))), gone);
 }
 
 }  // namespace corpuscle

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "signal/input_files.hpp"
+
 namespace corpuscle {
 namespace {
 
@@ -41,7 +43,7 @@ public:
 Result<std::unique_ptr<Bytes>> open_bytes(const std::string& path) {
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
-    File file(std::fopen(path.c_str(), "rb"));
+    File file(open_input(path));
     if (!file) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     const auto size = std::filesystem::file_size(path, status);
     if (status) return bad_input("this is no plain file; save it to one", {path});

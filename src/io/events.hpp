@@ -14,11 +14,13 @@
 
 namespace corpuscle {
 
-/// How events are addressed: what each unit is called, and its address.
+/// How events are addressed: what each unit is called, and its address. All by unit.
 struct EventUnits {
     Clock clock;
-    std::vector<std::string> names;        ///< "sa1#17", by unit
-    std::vector<std::uint32_t> addresses;  ///< by unit; empty: the unit's number
+    std::vector<std::string> names;           ///< "sa1#17"
+    std::vector<std::uint32_t> addresses;     ///< empty: the unit's number
+    std::vector<std::string> afferents = {};  ///< as text formats call it: "sa1" on a channel, "sa1#17" in a skin; empty: the name
+    std::vector<std::string> channels = {};   ///< "press", "palm"; empty: none
 };
 
 class EventFormat {

@@ -49,36 +49,76 @@ Result<OutputFile> OutputFile::prepare(const std::string& path) {
 
 Error OutputFile::broken() const { return bad_input(fmt::format("cannot be written to the end: {}", std::strerror(errno)), {path_}); }
 
-Result<OutputFile> OutputFile::create(const std::string& path) {
-    auto out = prepare(path);
-    if (!out) return out;
-    const auto part = fmt::format("{}.part-{}", path, ::getpid());
-    out->file_ = std::fopen(part.c_str(), "wb");
-    if (!out->file_) return bad_input(fmt::format("cannot be written: {}", std::strerror(errno)), {path});
-    out->part_ = part;
-    return out;
-}
-
 namespace {
 
-/// The file of this name, for this program alone and empty; -1: errno says why. Another program may put its own in place between the
-/// opening and the lock: then once more.
+bool is_device(const std::string& path) {
+    struct ::stat facts = {};
+    return ::stat(path.c_str(), &facts) == 0 && !S_ISREG(facts.st_mode);
+}
+
+/// A new file beside the output: path.part-PID, or path.part-PID-2 ... Links are not followed. Its lock tells other runs that it is in
+/// use; -1: errno says why it cannot be made.
+int new_part(const std::string& path, std::string& part) {
+    constexpr int most_tries = 1000;
+    for (int k = 1; k <= most_tries; ++k) {
+        part = fmt::format("{}.part-{}{}", path, ::getpid(), k == 1 ? "" : fmt::format("-{}", k));
+        const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file < 0 && errno == EEXIST) continue;
+        if (file < 0) return file;
+        struct ::stat facts = {};
+        (void)::flock(file, LOCK_EX | LOCK_NB);  // a file system without locks: then nothing is ever removed as abandoned
+        if (::fstat(file, &facts) == 0 && facts.st_nlink > 0) return file;
+        ::close(file);
+    }
+    errno = EEXIST;
+    return -1;
+}
+
+/// The file this name stands for, for this program alone and empty; -1: errno says why. Another program may put its own in place between
+/// the opening and the lock: then once more.
 int owned(const char* name) {
     while (true) {
-        const int file = ::open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        const int file = ::open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
         if (file < 0) return file;
         struct ::stat opened{}, named{};
-        const bool locked = ::flock(file, LOCK_EX | LOCK_NB) == 0;
-        const bool same = locked && ::fstat(file, &opened) == 0 && ::stat(name, &named) == 0 && opened.st_ino == named.st_ino;
+        const bool regular = ::fstat(file, &opened) == 0 && S_ISREG(opened.st_mode);
+        const bool locked = regular && ::flock(file, LOCK_EX | LOCK_NB) == 0;
+        const bool same = locked && ::fstat(file, &opened) == 0 && ::lstat(name, &named) == 0 && opened.st_ino == named.st_ino &&
+                          opened.st_dev == named.st_dev;
         if (same && ::ftruncate(file, 0) == 0) return file;
-        const int why = errno;
+        const int why = regular ? errno : ELOOP;
         ::close(file);
         errno = why;
         if (!locked || same) return -1;
     }
 }
 
+/// A file system or a device that knows no fsync has done what it can.
+bool is_on_disk(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
+
 }  // namespace
+
+Result<void> sync_directory_of(const std::string& path) {
+    const auto above = std::filesystem::path(path).parent_path().string();
+    const int directory = ::open(above.empty() ? "." : above.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (directory < 0) return {};  // one that may not be read is left to the system
+    const bool done = is_on_disk(directory);
+    const int why = errno;
+    ::close(directory);
+    return done ? Result<void>() : bad_input(fmt::format("cannot be kept on the disk: {}", std::strerror(why)), {path});
+}
+
+Result<OutputFile> OutputFile::create(const std::string& path) {
+    auto out = prepare(path);
+    if (!out) return out;
+    std::string part;
+    const bool in_place = is_device(path);  // /dev/null, a named pipe: not to be replaced by a file
+    const int file = in_place ? ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC) : new_part(path, part);
+    if (file < 0) return bad_input(fmt::format("cannot be written: {}", std::strerror(errno)), {path});
+    out->file_ = ::fdopen(file, "wb");
+    out->part_ = part;
+    return out;
+}
 
 Result<OutputFile> OutputFile::growing(const std::string& path) {
     auto out = prepare(path);
@@ -86,6 +126,7 @@ Result<OutputFile> OutputFile::growing(const std::string& path) {
     const auto part = path + ".part";
     const int file = owned(part.c_str());
     if (file < 0 && errno == EWOULDBLOCK) return bad_input("another program is writing this file", {path});
+    if (file < 0 && errno == ELOOP) return bad_input("is a link or no plain file: remove it, or name another output", {part});
     if (file < 0) return bad_input(fmt::format("cannot be written: {}", std::strerror(errno)), {path});
     out->part_ = part, out->grows_ = true;
     out->file_ = ::fdopen(file, "wb");
@@ -112,10 +153,12 @@ Result<void> OutputFile::rewrite(std::size_t at, std::string_view text) {
 }
 
 Result<void> OutputFile::commit() {
-    const bool whole = std::ferror(file_) == 0;
+    if (std::fflush(file_) != 0) return broken();
+    if (std::ferror(file_) != 0) return bad_input("could not be written to the end", {path_});
     const auto close = [&] { return std::fclose(std::exchange(file_, nullptr)) == 0; };
+    if (part_.empty()) return close() ? Result<void>() : broken();
+    if (!is_on_disk(::fileno(file_))) return broken();
     if (!grows_ && !close()) return broken();  // one that grows is kept from others until it has its name
-    if (!whole) return bad_input("could not be written to the end", {path_});
     if (std::rename(part_.c_str(), path_.c_str()) != 0)
         return bad_input(fmt::format("cannot be put in its place: {}", std::strerror(errno)), {path_});
     part_.clear();

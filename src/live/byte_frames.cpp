@@ -13,6 +13,7 @@ class ByteFrames final : public FrameSource {
     FrameCounts counts_;
     std::int64_t hold_ = 0, release_ = 0;  // to be put before the one that was found
     bool found_ = false;
+    std::size_t misfits_ = 0;  // frames that could not be read, whose places are to be filled
 
     bool numbered() const { return decoder_.layout().stamp != FrameStamp::none; }
 
@@ -27,9 +28,16 @@ class ByteFrames final : public FrameSource {
     }
 
     void sender_gone() {
-        counts_.halves += decoder_.begun();
+        if (decoder_.begun()) ++counts_.halves, counts_.half_bytes = static_cast<std::int64_t>(decoder_.begun_bytes());
         decoder_.forget();
         order_.begin_anew();
+    }
+
+    void take_datagram(const Came& came) {
+        if (came.from_another) sender_gone();
+        if (decoder_.came_datagram(came.count)) return;
+        ++counts_.unreadable;
+        if (!numbered()) ++misfits_;
     }
 
 public:
@@ -45,21 +53,32 @@ public:
     FrameCounts counts() const override {
         auto counts = counts_;
         counts.headers = decoder_.headers(), counts.producers = source_->producers(), counts.order = order_.counts();
+        counts.senders = source_->senders();
         return counts;
     }
+    std::int64_t due() const override { return source_->due(); }
+    bool is_live() const override { return source_->is_live(); }
+    std::size_t unread_bytes() const override { return source_->unread(); }
+    std::optional<FrameMisfit> first_misfit() const override { return decoder_.first_misfit(); }
 
     void hurry() override { source_->enough(1); }
 
     Result<bool> receive() override {
-        const auto came = source_->read(decoder_.room());
+        auto room = decoder_.room();
+        if (source_->has_datagrams()) room = room.first(room.size() - 1);  // for the end of a line
+        const auto came = source_->read(room);
         if (!came) return came.error();
-        if (came->what == Came::bytes) decoder_.came(came->count);
+        if (came->what == Came::bytes && source_->has_datagrams())
+            take_datagram(*came);
+        else if (came->what == Came::bytes)
+            decoder_.came(came->count);
         if (came->what == Came::gone || came->what == Came::end) sender_gone();
         return came->what != Came::end;
     }
 
     Next next(std::span<double> force) override {
         for (;;) {
+            if (misfits_ > 0) return --misfits_, Next::filled;
             if (hold_ > 0) return --hold_, Next::filled;
             if (release_ > 0) {
                 std::fill(force.begin(), force.end(), 0.0);

@@ -23,6 +23,8 @@ public:
     std::size_t all_taken() const { return taken_.load(std::memory_order_acquire); }
     std::size_t filled() const { return put_.load(std::memory_order_acquire) - taken_.load(std::memory_order_acquire); }
 
+    bool has_room(std::size_t bytes) const { return bytes <= bytes_.size() - filled(); }
+
     /// All of it or, if there is no room, nothing.
     bool put(std::string_view text) {
         const auto at = put_.load(std::memory_order_relaxed);

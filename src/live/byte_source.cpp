@@ -2,7 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <termios.h>
 #include <algorithm>
 #include <cerrno>
@@ -19,6 +22,10 @@ class StandardInput final : public ByteSource {
 public:
     int waits_on() const override { return STDIN_FILENO; }
     std::string sentence() const override { return "standard input"; }
+    bool is_live() const override {
+        struct ::stat facts = {};
+        return ::fstat(STDIN_FILENO, &facts) != 0 || !S_ISREG(facts.st_mode);
+    }
     Result<Came> read(std::span<char> out) override {
         const auto count = ::read(STDIN_FILENO, out.data(), out.size());
         if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
@@ -29,38 +36,65 @@ public:
 };
 
 class Listener final : public ByteSource {
+    static constexpr std::int64_t between_looks = 200'000'000;  // ns: at who waits behind an idle client
     Endpoint at_;
     Descriptor door_, client_;
-    std::int64_t clients_, most_;
+    SenderLimits limits_;
+    std::int64_t clients_ = 0, idle_clients_ = 0, due_ = steady_never;
     int enough_ = 1;
 
     Came accept() {
         client_ = Descriptor(::accept4(door_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
         if (!client_) return {Came::nothing};
         ++clients_;
-        const int yes = 1;
-        ::setsockopt(client_.get(), SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);  // one whose machine has died goes, too
+        watch_peer(client_.get());
         wake_at_enough();
+        heard();
         return {Came::nothing};
     }
     void wake_at_enough() const { ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &enough_, sizeof enough_); }
+    void heard() {
+        if (limits_.idle > 0) due_ = steady_now() + limits_.idle;
+    }
+
+    Came leave() {
+        client_.close();
+        due_ = steady_never;
+        return {limits_.clients > 0 && clients_ >= limits_.clients ? Came::end : Came::gone};
+    }
+
+    bool another_waits() const {
+        pollfd door = {door_.get(), POLLIN, 0};
+        return ::poll(&door, 1, 0) == 1;
+    }
+
+    /// The client is there and has sent nothing.
+    Came wait_on() {
+        const auto now = steady_now();
+        if (now < due_) return {Came::nothing};
+        due_ = now + between_looks;
+        if (!another_waits()) return {Came::nothing};
+        ++idle_clients_;
+        return leave();
+    }
 
 public:
-    Listener(const Endpoint& at, Descriptor door, std::int64_t most) : at_(at), door_(std::move(door)), clients_(0), most_(most) {}
+    Listener(const Endpoint& at, Descriptor door, const SenderLimits& limits) : at_(at), door_(std::move(door)), limits_(limits) {}
     int waits_on() const override { return client_ ? client_.get() : door_.get(); }
+    std::int64_t due() const override { return due_; }
     std::string sentence() const override { return "listening on " + at_.text(); }
     void enough(std::size_t bytes) override {
         enough_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20));
         if (client_) wake_at_enough();
     }
     std::int64_t producers() const override { return clients_; }
+    SenderCounts senders() const override { return {.idle = idle_clients_}; }
     Result<Came> read(std::span<char> out) override {
         if (!client_) return accept();
         const auto count = ::recv(client_.get(), out.data(), out.size(), 0);
-        if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
-        if (count < 0 && to_be_tried_again(errno)) return Came{Came::nothing};
-        client_.close();  // in peace or not: the next may come
-        return Came{most_ > 0 && clients_ >= most_ ? Came::end : Came::gone};
+        if (count > 0) return heard(), Came{Came::bytes, static_cast<std::size_t>(count)};
+        if (count < 0 && to_be_tried_again(errno)) return wait_on();
+        return leave();  // in peace or not: the next may come
     }
 };
 
@@ -88,11 +122,16 @@ constexpr std::pair<long, speed_t> bauds[] = {{9600, B9600},       {19200, B1920
 
 Result<std::unique_ptr<ByteSource>> standard_input() { return std::unique_ptr<ByteSource>(std::make_unique<StandardInput>()); }
 
-Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int port, std::int64_t clients) {
+std::size_t ByteSource::unread() const {
+    int bytes = 0;
+    return ::ioctl(waits_on(), FIONREAD, &bytes) == 0 && bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+}
+
+Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int port, const SenderLimits& limits) {
     Endpoint at{address, port};
     auto door = listening_socket(at);
     if (!door) return door.error();
-    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*door), clients));
+    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*door), limits));
 }
 
 Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long baud) {

@@ -12,13 +12,12 @@
 #include <cstring>
 
 #include "live/file_outlet.hpp"
-#include "live/frame_source.hpp"
-#include "live/network.hpp"
+#include "live/steady_clock.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr int patience_ms = 1000;  // for a reader that takes nothing when all has ended
+constexpr int between_looks_ms = 100;
 
 enum class Wrote { all, some, gone };
 
@@ -34,14 +33,20 @@ Wrote write_some(ByteRing& ring, int fd, bool socket) {
     return Wrote::all;
 }
 
-/// To the end, as long as something is taken within the patience.
-Wrote write_out(ByteRing& ring, int fd, bool socket) {
-    for (;;) {
-        const auto before = ring.filled();
+void wait_to_write(int fd, int ms) {
+    pollfd wait = {fd, POLLOUT, 0};
+    ::poll(&wait, 1, ms);
+}
+
+/// To the end, as long as something is taken soon enough.
+Wrote write_out(ByteRing& ring, int fd, bool socket, const EventPatience& how_long) {
+    for (auto since = steady_now();;) {
+        const auto before = ring.all_taken();
         const auto wrote = write_some(ring, fd, socket);
         if (wrote != Wrote::some) return wrote;
-        pollfd wait = {fd, POLLOUT, 0};
-        if (::poll(&wait, 1, patience_ms) == 0 && ring.filled() == before) return wrote;
+        if (ring.all_taken() != before || (how_long.is_endless && !how_long.stop())) since = steady_now();
+        if (steady_now() - since > how_long.longest) return wrote;
+        wait_to_write(fd, between_looks_ms);
     }
 }
 
@@ -68,8 +73,15 @@ public:
     std::string sentence() const override { return name_; }
     int waits_on() const override { return waiting_ ? fd_ : -1; }
     Result<void> flush() override { return seen(write_some(ring_, fd_, socket_)); }
-    Result<void> finish() override {
-        auto done = seen(write_out(ring_, fd_, socket_));
+    Result<bool> wait_for_room(std::size_t bytes, int ms) override {
+        if (auto ok = flush(); !ok) return ok.error();
+        if (ring_.has_room(bytes)) return true;
+        wait_to_write(fd_, ms);
+        if (auto ok = flush(); !ok) return ok.error();
+        return ring_.has_room(bytes);
+    }
+    Result<void> finish(const EventPatience& how_long) override {
+        auto done = seen(write_out(ring_, fd_, socket_, how_long));
         lose_all();
         return done;
     }
@@ -77,8 +89,9 @@ public:
 
 class ClientOutlet final : public EventOutlet {
     static constexpr std::int64_t between_tries = 1'000'000'000;  // ns
-    Endpoint to_;
+    ResolvedEndpoint to_;  // asked of the name service once: it may be gone when the reader comes back
     Descriptor fd_;
+    std::size_t next_address_ = 0;
     bool connected_ = true, waiting_ = false;
     std::int64_t next_try_ = 0;
 
@@ -95,24 +108,23 @@ class ClientOutlet final : public EventOutlet {
         if (!fd_) {
             if (steady_now() < next_try_) return;
             next_try_ = steady_now() + between_tries;
-            auto begun = connected_socket(to_, 0);
-            if (!begun) return;
-            fd_ = std::move(*begun);
+            fd_ = begin_connection(to_.addresses[next_address_++ % to_.addresses.size()]);
+            if (!fd_) return;
         }
         const int state = connection_state(fd_);
         if (state < 0) return fd_.close();
         if (state == 0) return;
-        without_delay(fd_.get());
+        without_delay(fd_.get()), watch_peer(fd_.get());
         connected_ = true, ++readers_;
         put_header();
     }
 
 public:
-    ClientOutlet(const EventFormat& format, std::size_t ring, Endpoint to, Descriptor fd)
+    ClientOutlet(const EventFormat& format, std::size_t ring, ResolvedEndpoint to, Descriptor fd)
         : EventOutlet(format, ring), to_(std::move(to)), fd_(std::move(fd)) {
         put_header();
     }
-    std::string sentence() const override { return to_.text(); }
+    std::string sentence() const override { return to_.at.text(); }
     int waits_on() const override { return waiting_ ? fd_.get() : -1; }
     Result<void> flush() override {
         if (!connected_) try_again();
@@ -122,8 +134,15 @@ public:
         if (wrote == Wrote::gone) leave();
         return {};
     }
-    Result<void> finish() override {
-        if (connected_) write_out(ring_, fd_.get(), true);
+    Result<bool> wait_for_room(std::size_t bytes, int ms) override {
+        (void)flush();
+        if (ring_.has_room(bytes)) return true;
+        wait_to_write(fd_.get(), ms);
+        (void)flush();
+        return ring_.has_room(bytes);
+    }
+    Result<void> finish(const EventPatience& how_long) override {
+        if (connected_) write_out(ring_, fd_.get(), true, how_long);
         lose_all();
         return {};
     }
@@ -162,11 +181,17 @@ Result<std::unique_ptr<EventOutlet>> standard_output(const EventFormat& format, 
 }
 
 Result<std::unique_ptr<EventOutlet>> event_client(const std::string& endpoint, const EventFormat& format, std::size_t ring) {
-    const auto to = parse_endpoint(endpoint);
+    const auto at = parse_endpoint(endpoint);
+    if (!at) return at.error();
+    auto to = resolve(*at);
     if (!to) return to.error();
-    auto fd = connected_socket(*to, 5000);
+    return event_client(std::move(*to), format, ring);
+}
+
+Result<std::unique_ptr<EventOutlet>> event_client(ResolvedEndpoint to, const EventFormat& format, std::size_t ring) {
+    auto fd = connected_socket(to, 5000);
     if (!fd) return fd.error();
-    return std::unique_ptr<EventOutlet>(std::make_unique<ClientOutlet>(format, ring, *to, std::move(*fd)));
+    return std::unique_ptr<EventOutlet>(std::make_unique<ClientOutlet>(format, ring, std::move(to), std::move(*fd)));
 }
 
 }  // namespace corpuscle

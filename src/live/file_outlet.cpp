@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <cstring>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -24,7 +26,17 @@ class FileOutlet final : public EventOutlet {
     std::function<Result<void>()> commit_;
     std::atomic<bool> ending_ = false, failed_ = false;
     std::optional<Error> error_;  // the thread's, to be read when failed_
+    // Only where the ring is full: the writer is not to sleep on, and the one that puts sleeps until there is room.
+    std::mutex full_;
+    std::condition_variable hurry_, room_;
+    std::atomic<bool> is_awaited_ = false;
     std::thread thread_;
+
+    void tell_of_room() {
+        const std::lock_guard lock(full_);
+        is_awaited_ = false;
+        room_.notify_one();
+    }
 
     void write_on() {
         for (;;) {
@@ -32,12 +44,15 @@ class FileOutlet final : public EventOutlet {
             for (auto piece = ring_.next(); !piece.empty(); piece = ring_.next()) {
                 if (auto ok = write_(piece); !ok) {
                     error_ = ok.error();
-                    return failed_.store(true, std::memory_order_release);
+                    failed_.store(true, std::memory_order_release);
+                    return tell_of_room();
                 }
                 ring_.took(piece.size());
+                if (is_awaited_) tell_of_room();
             }
             if (last) return;
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            std::unique_lock lock(full_);
+            hurry_.wait_for(lock, std::chrono::milliseconds(2), [this] { return is_awaited_.load(); });
         }
     }
 
@@ -57,7 +72,19 @@ public:
     ~FileOutlet() override { join(); }
     std::string sentence() const override { return name_; }
     Result<void> flush() override { return state(); }
-    Result<void> finish() override {
+    bool is_file() const override { return true; }
+    Result<bool> wait_for_room(std::size_t bytes, int ms) override {
+        std::unique_lock lock(full_);
+        const auto is_settled = [&] { return ring_.has_room(bytes) || failed_; };
+        if (!is_settled()) {
+            is_awaited_ = true;
+            hurry_.notify_one();
+            room_.wait_for(lock, std::chrono::milliseconds(ms), is_settled);
+        }
+        if (auto ok = state(); !ok) return ok.error();
+        return ring_.has_room(bytes);
+    }
+    Result<void> finish(const EventPatience&) override {
         join();
         lose_all();
         if (auto ok = state(); !ok) return ok;
@@ -93,7 +120,11 @@ Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const E
     if (!opened) return opened.error();
     const auto file = std::make_shared<OutputFile>(std::move(*opened));
     return std::unique_ptr<EventOutlet>(std::make_unique<FileOutlet>(
-        format, ring, path, [file](std::string_view text) { return file->write(text); }, [file] { return file->commit(); }));
+        format, ring, path, [file](std::string_view text) { return file->write(text); },
+        [file] {
+            const auto done = file->commit();
+            return done ? sync_directory_of(file->path()) : done;
+        }));
 }
 
 }  // namespace corpuscle

@@ -30,6 +30,12 @@ std::string_view next_field(std::string_view& line) {
     return field;
 }
 
+std::size_t fields_in(std::string_view line) {
+    std::size_t fields = 0;
+    for (; !line.empty(); ++fields) next_field(line);
+    return fields;
+}
+
 double number_of(std::string_view field) {
     double x = 0;
     if (field.starts_with('+')) field.remove_prefix(1);
@@ -66,6 +72,7 @@ void FrameDecoder::forget() { begin_ = end_ = looked_ = 0, skipping_ = false, fi
 FrameDecoder::Found FrameDecoder::next() {
     if (layout_.kind != FrameKind::csv) {
         if (end_ - begin_ < layout_.bytes()) return Found::nothing;
+        ++seen_;
         const char* const at = bytes_.data() + begin_;
         begin_ += layout_.bytes();
         found_ = at + layout_.stamp_bytes();
@@ -73,7 +80,7 @@ FrameDecoder::Found FrameDecoder::next() {
         if (layout_.stamp != FrameStamp::time) return Found::frame;
         double seconds = 0;
         std::memcpy(&seconds, at, sizeof seconds);
-        return read_stamp(seconds) ? Found::frame : Found::unreadable;
+        return read_stamp(seconds) ? Found::frame : unreadable(FrameMisfit::stamp);
     }
     for (;;) {
         looked_ = std::max(looked_, begin_);
@@ -81,15 +88,31 @@ FrameDecoder::Found FrameDecoder::next() {
         if (!end) return looked_ = end_, Found::nothing;
         const std::string_view whole(bytes_.data() + begin_, end);
         begin_ = static_cast<std::size_t>(end - bytes_.data()) + 1;
-        if (std::exchange(skipping_, false)) return Found::unreadable;
+        if (std::exchange(skipping_, false)) return ++seen_, unreadable(FrameMisfit::endless);
         const auto line = trimmed(whole.ends_with('\r') ? whole.substr(0, whole.size() - 1) : whole);
         if (line.empty() || line.front() == '#' || line.front() == '%') continue;
         if (std::exchange(first_, false) && is_header(line)) {
             ++headers_;
             continue;
         }
-        return read_line(line) ? Found::frame : Found::unreadable;
+        ++seen_;
+        return read_line(line);
     }
+}
+
+FrameDecoder::Found FrameDecoder::unreadable(FrameMisfit::Why why, std::size_t found) {
+    if (!misfit_) misfit_ = FrameMisfit{why, seen_, found};
+    return Found::unreadable;
+}
+
+bool FrameDecoder::came_datagram(std::size_t bytes) {
+    if (layout_.kind == FrameKind::csv) {
+        if (bytes > 0 && bytes_[end_ + bytes - 1] != '\n') bytes_[end_ + bytes++] = '\n';
+    } else if (bytes % layout_.bytes() != 0) {
+        ++seen_;
+        return unreadable(FrameMisfit::datagram, bytes), false;
+    }
+    return came(bytes), true;
 }
 
 /// As many words as a frame has numbers, and not one of them is a number.
@@ -115,14 +138,16 @@ bool FrameDecoder::read_stamp(std::string_view text) {
     return status == std::errc{} && end == text.data() + text.size();
 }
 
-/// False if its stamp is none, or there are too few or too many fields.
-bool FrameDecoder::read_line(std::string_view line) {
-    if (layout_.stamp != FrameStamp::none && !read_stamp(next_field(line))) return false;
+/// Unreadable if its stamp is none, or there are too few or too many fields.
+FrameDecoder::Found FrameDecoder::read_line(const std::string_view line) {
+    auto rest = line;
+    const bool is_stamped = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
     for (auto& v : values_) {
-        if (line.empty()) return false;
-        v = number_of(next_field(line));
+        if (rest.empty()) return unreadable(FrameMisfit::width, fields_in(line));
+        v = number_of(next_field(rest));
     }
-    return line.empty();
+    if (!rest.empty()) return unreadable(FrameMisfit::width, fields_in(line));
+    return is_stamped ? Found::frame : unreadable(FrameMisfit::stamp);
 }
 
 std::size_t FrameDecoder::take(std::span<double> force) const {

@@ -1,17 +1,23 @@
 #pragma once
 // Frames out of bytes, which come in pieces of any size. Allocates nothing once it is made.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "live/frame_layout.hpp"
+#include "live/frame_misfit.hpp"
 #include "live/lanes/kernel.hpp"
 
 namespace corpuscle {
 
 class FrameDecoder {
+public:
+    enum class Found { nothing, frame, unreadable };
+
+private:
     FrameLayout layout_;
     const lanes::FrameLanes& lanes_;
     std::vector<char> bytes_;
@@ -22,16 +28,16 @@ class FrameDecoder {
     const char* found_ = nullptr;      // a binary frame's forces
     std::vector<double> values_;       // of a line
     std::uint32_t number_ = 0;
-    std::int64_t headers_ = 0;
+    std::int64_t headers_ = 0, seen_ = 0;  // seen: frames, read or not
+    std::optional<FrameMisfit> misfit_;
 
+    Found unreadable(FrameMisfit::Why, std::size_t found = 0);
     bool is_header(std::string_view line) const;
-    bool read_line(std::string_view line);
+    Found read_line(std::string_view line);
     bool read_stamp(double seconds);
     bool read_stamp(std::string_view text);
 
 public:
-    enum class Found { nothing, frame, unreadable };
-
     /// There is always room for so many more frames.
     explicit FrameDecoder(const FrameLayout&, std::size_t frames = 1);
     const FrameLayout& layout() const { return layout_; }
@@ -39,12 +45,16 @@ public:
     std::span<char> room();                                    ///< where the next bytes go; never empty
     void came(std::size_t bytes) { end_ += bytes; }            ///< so many have come there
     bool begun() const { return end_ > begin_ || skipping_; }  ///< part of a frame is there
+    /// So many have come there as one datagram, which must hold whole frames: the last line needs no end. False: it is none, and is left.
+    bool came_datagram(std::size_t bytes);
+    std::size_t begun_bytes() const { return end_ - begin_; }  ///< of the part of a frame that is there
     void forget();                                             ///< whoever sent it is gone
 
     /// Looks for the next whole frame; the bytes that it took are gone then.
     Found next();
-    std::uint32_t number() const { return number_; }   ///< of the one found, modulo 2^32, where frames are stamped
-    std::int64_t headers() const { return headers_; }  ///< first lines that were names, not numbers
+    std::uint32_t number() const { return number_; }                            ///< of the one found, modulo 2^32, where frames are stamped
+    std::int64_t headers() const { return headers_; }                           ///< first lines that were names, not numbers
+    const std::optional<FrameMisfit>& first_misfit() const { return misfit_; }  ///< the first frame that could not be read
     /// The forces of the one found, in place of those that were. What is no number or beyond the limit stays as it was; returns how
     /// many of those there were.
     std::size_t take(std::span<double> force) const;

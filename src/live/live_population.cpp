@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "model/catalog.hpp"
+#include "skin/class_settings.hpp"
 #include "skin/sites.hpp"
 
 namespace corpuscle {
@@ -38,7 +39,7 @@ Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels,
     auto sites = grid_sites(1, channels, 1e-3);
     if (!sites) return sites.error();
     SkinPlan plan;
-    plan.name = afferents;
+    plan.name = afferents, plan.is_by_channel = true;
     plan.sentence = fmt::format("{} on {} channel{}", afferents, channels, channels == 1 ? "" : "s");
     plan.sites = std::move(*sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
@@ -52,19 +53,33 @@ Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels,
     return plan;
 }
 
-Result<SkinPlan> plan_live(std::string_view population, std::size_t channels) {
-    if (is_afferents(population)) return plan_channels(population, channels);
-    return plan_skin(population);
+Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const Wish> wishes) {
+    auto plan = plan_channels(afferents, channels.size(), wishes);
+    if (plan)
+        for (std::size_t c = 0; c < channels.size(); ++c) plan->sites.names[c] = channels[c].name;
+    return plan;
+}
+
+Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const Wish> wishes) {
+    if (is_afferents(population)) return plan_channels(population, channels, wishes);
+    auto plan = plan_skin(population);
+    if (!plan) return plan;
+    if (auto ok = set_classes(*plan, wishes); !ok) return ok.error();
+    return plan;
 }
 
 EventUnits event_units(const Innervation& skin, const Clock& clock) {
-    EventUnits units{clock, {}, {}};
+    EventUnits units{clock, {}, {}, {}, {}};
     bool one_each = true;
     for (const auto& c : skin.plan.classes) one_each &= c.density.empty() && c.per_site == 1;
     const auto classes = static_cast<std::uint32_t>(skin.plan.classes.size());
+    const auto& sites = skin.plan.sites;
     for (std::size_t u = 0; u < skin.units.size(); ++u) {
+        const auto& unit = skin.units[u];
         units.names.push_back(skin.unit_name(u));
-        units.addresses.push_back(one_each ? (skin.units[u].copy - 1) * classes + skin.units[u].of : static_cast<std::uint32_t>(u));
+        units.addresses.push_back(one_each ? (unit.copy - 1) * classes + unit.of : static_cast<std::uint32_t>(u));
+        units.afferents.push_back(skin.plan.is_by_channel ? skin.plan.classes[unit.of].name : units.names.back());
+        units.channels.push_back(skin.plan.is_by_channel ? sites.names[unit.copy - 1] : sites.regions[unit.region]);
     }
     return units;
 }

@@ -10,13 +10,15 @@ namespace corpuscle {
 /// Whether all that is listed are afferents that have a name, or are made of parts.
 bool is_afferents(std::string_view list);
 
-/// Afferents by name ("sa1,fa1"), each on every one of `channels`.
+/// Afferents by name ("sa1,fa1"), each on every one of `channels`. Wishes that name one of them are marked as used.
 Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const Wish> wishes = {});
+Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const Wish> wishes = {});
 
-/// "hand", "grid 8x8", a population file; or afferents by name on channels.
-Result<SkinPlan> plan_live(std::string_view population, std::size_t channels);
+/// "hand", "grid 8x8", a population file; or afferents by name on channels. Wishes that name one of its classes are marked as used.
+Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const Wish> wishes = {});
 
-/// Names and addresses: on a grid, and wherever each class has one unit at each site, taxel * classes + class, else the unit's number.
+/// The names of a unit, its channel or region, and its address: on a grid, and wherever each class has one unit at each site,
+/// taxel * classes + class, else the unit's number.
 EventUnits event_units(const Innervation&, const Clock&);
 
 }  // namespace corpuscle

@@ -3,6 +3,7 @@
 #include "corpuscle.hpp"
 #include "live/live_population.hpp"
 #include "live/skin_stream.hpp"
+#include "skin/class_settings.hpp"
 
 namespace corpuscle {
 
@@ -28,9 +29,13 @@ T or_throw(Result<T>&& result) {
 
 }  // namespace
 
-LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t channels) {
+LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t channels, const std::vector<std::string>& settings) {
     const auto clock = or_throw(clock_of(rate));
-    auto placed = or_throw(innervate(or_throw(plan_live(population, channels))));
+    std::vector<Wish> wishes;
+    for (const auto& text : settings) wishes.push_back(or_throw(parse_wish(text)));
+    auto plan = or_throw(plan_live(population, channels, wishes));
+    or_throw(check_all_used(plan, wishes));
+    auto placed = or_throw(innervate(std::move(plan)));
     auto units = event_units(*placed, clock);
     held_ = std::unique_ptr<Held>(new Held{or_throw(SkinStream::make(std::move(placed), clock)), std::move(units)});
     held_->events.reserve(8 * held_->units.names.size() + 64);

@@ -55,10 +55,21 @@ T kept_inside(corpuscle_skin* skin, T failed, const Work& work) noexcept {
 using corpuscle::kept_inside;
 
 corpuscle_skin* corpuscle_create(const char* population, double rate_hz, size_t channels, char* error, size_t error_size) {
+    return corpuscle_create_with(population, rate_hz, channels, nullptr, 0, error, error_size);
+}
+
+corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, size_t channels, const char* const* settings, size_t count,
+                                      char* error, size_t error_size) {
     corpuscle::copy_text("", error, error_size);
     try {
         if (!population) throw corpuscle::Refused("no population is named");
-        auto made = std::unique_ptr<corpuscle_skin>(new corpuscle_skin{corpuscle::LiveSkin(population, rate_hz, channels)});
+        if (!settings && count > 0) throw corpuscle::Refused("there are no settings");
+        std::vector<std::string> texts;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (!settings[k]) throw corpuscle::Refused("setting " + std::to_string(k) + " is NULL");
+            texts.emplace_back(settings[k]);
+        }
+        auto made = std::unique_ptr<corpuscle_skin>(new corpuscle_skin{corpuscle::LiveSkin(population, rate_hz, channels, texts)});
         for (std::uint32_t u = 0; u < made->skin.units(); ++u) made->names.push_back(made->skin.name(u));
         for (std::size_t s = 0; s < made->skin.sites(); ++s) made->sites.push_back(made->skin.site(s));
         return made.release();

@@ -15,15 +15,24 @@
 namespace corpuscle {
 namespace {
 
-using Addresses = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
+using AddressList = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
-Result<Addresses> resolved(const Endpoint& at, int flags) {
+Result<std::vector<SocketAddress>> addresses_of(const Endpoint& at, int socket_type, int flags) {
     addrinfo wanted = {}, *found = nullptr;
-    wanted.ai_family = AF_UNSPEC, wanted.ai_socktype = SOCK_STREAM, wanted.ai_flags = flags | AI_NUMERICSERV;
+    wanted.ai_family = AF_UNSPEC, wanted.ai_socktype = socket_type, wanted.ai_flags = flags | AI_NUMERICSERV;
     const int status = ::getaddrinfo(at.address.c_str(), std::to_string(at.port).c_str(), &wanted, &found);
     if (status != 0) return bad_input(fmt::format("{}: {}", at.text(), ::gai_strerror(status)));
-    return Addresses(found, &::freeaddrinfo);
+    const AddressList list(found, &::freeaddrinfo);
+    std::vector<SocketAddress> all;
+    for (const auto* a = list.get(); a; a = a->ai_next) {
+        auto& address = all.emplace_back();
+        std::memcpy(&address.bytes, a->ai_addr, a->ai_addrlen);
+        address.size = a->ai_addrlen;
+    }
+    return all;
 }
+
+const sockaddr* as_sockaddr(const SocketAddress& address) { return reinterpret_cast<const sockaddr*>(&address.bytes); }
 
 Error at_endpoint(std::string_view what, const Endpoint& at, int why) {
     return bad_input(fmt::format("{} {}: {}", what, at.text(), std::strerror(why)));
@@ -56,15 +65,27 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
     return at;
 }
 
-Result<Descriptor> listening_socket(Endpoint& at) {
-    const auto found = resolved(at, AI_PASSIVE);
-    if (!found) return found.error();
+bool SocketAddress::operator==(const SocketAddress& other) const {
+    return size == other.size && std::memcmp(&bytes, &other.bytes, size) == 0;
+}
+
+Result<ResolvedEndpoint> resolve(const Endpoint& at) {
+    auto addresses = addresses_of(at, SOCK_STREAM, 0);
+    if (!addresses) return addresses.error();
+    return ResolvedEndpoint{at, std::move(*addresses)};
+}
+
+namespace {
+
+/// Bound to the first of its addresses that can be had; `make_ready` does what is left to do.
+template <class MakeReady>
+Result<Descriptor> bound_socket(Endpoint& at, int socket_type, const MakeReady& make_ready) {
+    const auto addresses = addresses_of(at, socket_type, AI_PASSIVE);
+    if (!addresses) return addresses.error();
     int why = EADDRNOTAVAIL;
-    for (const auto* a = found->get(); a; a = a->ai_next) {
-        Descriptor fd(::socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-        const int yes = 1;
-        if (fd) ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-        if (fd && ::bind(fd.get(), a->ai_addr, a->ai_addrlen) == 0 && ::listen(fd.get(), 128) == 0) {
+    for (const auto& a : *addresses) {
+        Descriptor fd(::socket(a.bytes.ss_family, socket_type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+        if (fd && make_ready(fd.get(), a)) {
             at.port = port_of(fd.get());
             return fd;
         }
@@ -73,24 +94,46 @@ Result<Descriptor> listening_socket(Endpoint& at) {
     return at_endpoint("cannot listen on", at, why);
 }
 
-Result<Descriptor> connected_socket(const Endpoint& at, int patience_ms) {
-    const auto found = resolved(at, 0);
-    if (!found) return found.error();
+}  // namespace
+
+Result<Descriptor> listening_socket(Endpoint& at) {
+    return bound_socket(at, SOCK_STREAM, [](int fd, const SocketAddress& a) {
+        const int yes = 1;
+        ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+        return ::bind(fd, as_sockaddr(a), a.size) == 0 && ::listen(fd, 128) == 0;
+    });
+}
+
+Result<Descriptor> datagram_socket(Endpoint& at) {
+    return bound_socket(at, SOCK_DGRAM, [](int fd, const SocketAddress& a) { return ::bind(fd, as_sockaddr(a), a.size) == 0; });
+}
+
+Descriptor begin_connection(const SocketAddress& to) {
+    Descriptor fd(::socket(to.bytes.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    if (fd && (::connect(fd.get(), as_sockaddr(to), to.size) == 0 || errno == EINPROGRESS)) return fd;
+    return {};
+}
+
+Result<Descriptor> connected_socket(const ResolvedEndpoint& to, int patience_ms) {
     int why = EADDRNOTAVAIL;
-    for (const auto* a = found->get(); a; a = a->ai_next) {
-        Descriptor fd(::socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-        if (fd && (::connect(fd.get(), a->ai_addr, a->ai_addrlen) == 0 || errno == EINPROGRESS)) {
-            if (patience_ms == 0) return fd;
-            pollfd wait = {fd.get(), POLLOUT, 0};
-            ::poll(&wait, 1, patience_ms);
-            const int state = connection_state(fd);
-            if (state > 0) return without_delay(fd.get()), std::move(fd);
-            why = state < 0 ? errno : ETIMEDOUT;
-        } else {
+    for (const auto& address : to.addresses) {
+        auto fd = begin_connection(address);
+        if (!fd) {
             why = errno;
+            continue;
         }
+        pollfd wait = {fd.get(), POLLOUT, 0};
+        ::poll(&wait, 1, patience_ms);
+        const int state = connection_state(fd);
+        if (state > 0) return without_delay(fd.get()), watch_peer(fd.get()), std::move(fd);
+        why = state < 0 ? errno : ETIMEDOUT;
     }
-    return at_endpoint("cannot connect to", at, why);
+    return at_endpoint("cannot connect to", to.at, why);
+}
+
+Result<Descriptor> connected_socket(const Endpoint& at, int patience_ms) {
+    const auto to = resolve(at);
+    return to ? connected_socket(*to, patience_ms) : Result<Descriptor>(to.error());
 }
 
 int connection_state(const Descriptor& fd) {
@@ -105,6 +148,14 @@ int connection_state(const Descriptor& fd) {
 void without_delay(int fd) {
     const int yes = 1;
     ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+}
+
+void watch_peer(int fd) {
+    const auto set = [fd](int level, int option, int value) { ::setsockopt(fd, level, option, &value, sizeof value); };
+    set(SOL_SOCKET, SO_KEEPALIVE, 1);
+    set(IPPROTO_TCP, TCP_KEEPIDLE, 5);   // s of silence, then a question ...
+    set(IPPROTO_TCP, TCP_KEEPINTVL, 3);  // ... every 3 s
+    set(IPPROTO_TCP, TCP_KEEPCNT, 3);    // ... until 3 of them have no answer
 }
 
 }  // namespace corpuscle

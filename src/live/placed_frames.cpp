@@ -20,6 +20,9 @@ public:
     void hurry() override { from_->hurry(); }
     FrameCounts counts() const override { return from_->counts(); }
     std::string sentence() const override { return from_->sentence(); }
+    bool is_live() const override { return from_->is_live(); }
+    std::size_t unread_bytes() const override { return from_->unread_bytes(); }
+    std::optional<FrameMisfit> first_misfit() const override { return from_->first_misfit(); }
     FrameOrder* order() override { return from_->order(); }
 
     /// The last frame is what `force` holds, so that a stream that is resumed holds what it held.

@@ -28,6 +28,7 @@ public:
 
     std::string sentence() const override { return source_->sentence(); }
     std::int64_t due() const override { return begun_ < 0 || !paced_ ? 0 : due_of(count_); }
+    bool is_live() const override { return paced_; }
     FrameCounts counts() const override { return {.frames = count_, .producers = 1}; }
 
     Result<bool> receive() override {

@@ -8,6 +8,8 @@ namespace corpuscle {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000, longest_wait = second / 5;
+constexpr std::int64_t longest_rest = 5 * second;  // once stopped: for the frames that have come
+constexpr int grace_ms = 50;                       // once stopped: for bytes on their way between two machines, in all
 
 }  // namespace
 
@@ -33,8 +35,8 @@ Result<void> StreamLoop::run() {
     }
     if (ended && ways_.stop()) ended = answer_rest();
     if (ended) ended = answer_gathered();
-    if (ended && !ways_.goes_on) put(skin_.last());
-    const auto finished = outlet_.finish();
+    if (ended && !ways_.goes_on) ended = put(skin_.last());
+    const auto finished = outlet_.finish({patience_ends_ == FrameSource::never ? second : 0, !frames_.is_live(), ways_.stop});
     return ended ? finished : ended;
 }
 
@@ -46,30 +48,47 @@ Result<bool> StreamLoop::wait() {
     const timespec wait = {0, ways_.spin ? 0 : static_cast<long>(left)};
     const int ready = ::ppoll(on, 2, &wait, nullptr);
     if (ready < 0) return true;  // a signal: stop() is asked
-    const bool due = frames_.waits_on() < 0 ? frames_.due() <= steady_now() : on[0].revents != 0;
+    const bool due = on[0].revents != 0 || frames_.due() <= steady_now();
     if (on[1].revents != 0 || (ready == 0 && !ways_.spin))
         if (auto ok = outlet_.flush(); !ok) return ok.error();
     if (!due) return true;
     const auto more = frames_.receive();
+    if (!more && ways_.stop()) return false;  // a read that a signal broke off
     if (!more) return more.error();
     if (auto ok = answer_all(); !ok) return ok.error();
     return *more;
 }
 
-/// Once stopped: frames that have come, and waited to be as many as go together.
+/// Once stopped: the frames that have come, and no others for long. A file's can be read again.
 Result<void> StreamLoop::answer_rest() {
     frames_.hurry();
-    pollfd on = {frames_.waits_on(), POLLIN, 0};
-    if (skin_.together() == 1 || on.fd < 0 || ::poll(&on, 1, 0) <= 0) return {};
-    if (const auto more = frames_.receive(); !more) return more.error();
-    return answer_all();
+    const auto until = steady_now() + longest_rest;
+    auto grace = second / 1000 * grace_ms;
+    for (bool more = frames_.waits_on() >= 0 && frames_.is_live(); more && steady_now() < until;) {
+        const auto before = steady_now();
+        pollfd on = {frames_.waits_on(), POLLIN, 0};
+        const int ready = ::poll(&on, 1, static_cast<int>(std::max<std::int64_t>(0, grace * 1000 / second)));
+        grace -= steady_now() - before;
+        if (ready == 0) break;
+        if (ready < 0) continue;  // a signal
+        const auto received = frames_.receive();
+        if (!received) return received.error();
+        if (auto ok = answer_all(); !ok) return ok;
+        more = *received;
+    }
+    done_.unread = frames_.unread_bytes();
+    return {};
 }
 
 /// The frames that are there.
 Result<void> StreamLoop::answer_all() {
     const auto at = steady_now();
+    const auto before = done_.came;
     for (auto next = frames_.next(force_); next != FrameSource::Next::nothing; next = frames_.next(force_))
         if (auto ok = answer(next == FrameSource::Next::frame, at); !ok) return ok;
+    done_.reads += done_.came > before;
+    if (misfit_told_) return {};
+    if (const auto misfit = frames_.first_misfit()) ways_.misfit(*misfit), misfit_told_ = true;
     return {};
 }
 
@@ -89,7 +108,7 @@ Result<void> StreamLoop::answer_gathered() { return skin_.together() > 1 ? tell(
 
 Result<void> StreamLoop::tell(const Result<std::span<const Spike>>& spikes) {
     if (!spikes) return spikes.error();
-    put(*spikes);
+    if (auto ok = put(*spikes); !ok) return ok;
     if (!spikes->empty())
         if (auto ok = outlet_.flush(); !ok) return ok;
     const auto now = steady_now();
@@ -98,10 +117,26 @@ Result<void> StreamLoop::tell(const Result<std::span<const Spike>>& spikes) {
     return {};
 }
 
-void StreamLoop::put(std::span<const Spike> spikes) {
+Result<void> StreamLoop::put(std::span<const Spike> spikes) {
     done_.spikes += static_cast<std::int64_t>(spikes.size());
-    for (const auto& s : spikes)
-        if (!outlet_.take({event_.data(), format_.put(s, event_.data())})) ++done_.dropped;
+    for (const auto& s : spikes) {
+        const std::string_view event(event_.data(), format_.put(s, event_.data()));
+        if (outlet_.take(event)) continue;
+        const auto room = make_room(event.size());
+        if (!room) return room.error();
+        if (!*room || !outlet_.take(event)) ++done_.dropped;
+    }
+    return {};
+}
+
+/// Waits for a reader who may be waited for; false: there is no room. Once stopped, a reader that takes nothing has one more second.
+Result<bool> StreamLoop::make_room(std::size_t bytes) {
+    while (waits_for_reader() && steady_now() < patience_ends_) {
+        const auto room = outlet_.wait_for_room(bytes, 100);
+        if (!room || *room) return room;
+        if (!outlet_.is_file() && ways_.stop() && patience_ends_ == FrameSource::never) patience_ends_ = steady_now() + second;
+    }
+    return false;
 }
 
 void StreamLoop::frame_came(std::int64_t at) {

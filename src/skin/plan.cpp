@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "signal/carried.hpp"
+#include "signal/input_files.hpp"
 #include "signal/text.hpp"
 #include "skin/grid.hpp"
 #include "skin/text.hpp"
@@ -27,6 +28,7 @@ Result<std::string> skin_text_at(const fs::path& path) {
         return bad_input(fmt::format("is no population file: it is larger than {} MB", most_of_a_skin >> 20), {path.string()});
     std::ifstream file(path, std::ios::binary);
     if (!file) return bad_input("cannot be read", {path.string()});
+    remember_input(path.string());
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 

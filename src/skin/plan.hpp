@@ -39,6 +39,8 @@ struct SkinPlan {
     /// so that pressing so much skin evenly with 4 N is felt as 4 N. Else it feels the mean of what its sensors read.
     double felt_area = 0;
     std::vector<Sourced> sources = {};
+    /// Afferents by name, each on every channel: a unit is told as its class and its channel's name, without a number.
+    bool is_by_channel = false;
     std::optional<Position> nerve = {};  ///< where spikes are listened to: they arrive after (distance to it) / velocity; none: at once
 };
 

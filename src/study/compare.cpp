@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 
 #include "measure/distance.hpp"
 
@@ -18,11 +22,45 @@ std::string listed(const Trains& trains) {
     return fmt::format("{}{}", fmt::join(names, "; "), names.size() < trains.size() ? " ..." : "");
 }
 
-const NamedTrain* find(const Trains& trains, const std::string& afferent, const std::string& channel) {
-    const auto found =
-        std::find_if(trains.begin(), trains.end(), [&](const NamedTrain& t) { return t.afferent == afferent && t.channel == channel; });
-    return found == trains.end() ? nullptr : &*found;
-}
+/// The trains of a file by their names.
+class TrainIndex {
+    std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_name_;
+    std::unordered_map<std::string, const NamedTrain*> by_shown_name_;
+    std::map<std::string_view, std::vector<const NamedTrain*>> by_afferent_;
+
+    const NamedTrain* only_of(const std::string& afferent) const {
+        const auto found = by_afferent_.find(afferent);
+        return found != by_afferent_.end() && found->second.size() == 1 ? found->second.front() : nullptr;
+    }
+
+public:
+    explicit TrainIndex(const Trains& trains) {
+        for (const auto& t : trains)
+            by_name_.try_emplace({t.afferent, t.channel}, &t), by_shown_name_.try_emplace(t.name(), &t), by_afferent_[t.afferent].push_back(&t);
+    }
+
+    const NamedTrain* of_name(std::string_view afferent, std::string_view channel) const {
+        const auto found = by_name_.find({afferent, channel});
+        return found == by_name_.end() ? nullptr : found->second;
+    }
+    const NamedTrain* of_shown_name(const std::string& name) const {
+        const auto found = by_shown_name_.find(name);
+        return found == by_shown_name_.end() ? nullptr : found->second;
+    }
+
+    /// The train of the same name; where one of the two files does not tell channels (address events), the only train of this afferent.
+    /// "sa1#1" without a channel is the first of "sa1".
+    const NamedTrain* alike(const NamedTrain& wanted) const {
+        if (const auto* found = of_name(wanted.afferent, wanted.channel)) return found;
+        if (wanted.afferent.empty()) return nullptr;
+        if (wanted.channel.empty()) {
+            const auto* found = only_of(wanted.afferent);
+            return found || !wanted.afferent.ends_with("#1") ? found : only_of(wanted.afferent.substr(0, wanted.afferent.size() - 2));
+        }
+        const auto* found = of_name(wanted.afferent, "");
+        return found ? found : of_name(wanted.afferent + "#1", "");
+    }
+};
 
 PairedTrains paired(const NamedTrain* a, const NamedTrain* b) {
     return {a ? a->name() : "", b ? b->name() : "", a ? &a->times : nullptr, b ? &b->times : nullptr};
@@ -36,11 +74,10 @@ std::vector<const NamedTrain*> called(const Trains& trains, const std::string& n
 }
 
 /// What in B answers a train of A that goes by `from`, when that is `to` there: the same train with the name changed.
-const NamedTrain* renamed(const Trains& b, const NamedTrain& train, const std::string& from, const std::string& to) {
-    for (const auto& t : b)
-        if (train.name() == from && t.name() == to) return &t;
-    const auto* found = train.afferent == from ? find(b, to, train.channel) : nullptr;
-    return found || train.channel != from ? found : find(b, train.afferent, to);
+const NamedTrain* renamed(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
+    if (const auto* found = train.name() == from ? b.of_shown_name(to) : nullptr) return found;
+    const auto* found = train.afferent == from ? b.of_name(to, train.channel) : nullptr;
+    return found || train.channel != from ? found : b.of_name(train.afferent, to);
 }
 
 /// One --pair: the only two trains of these names, or all whose names differ in just this.
@@ -55,8 +92,9 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
                 fmt::format("--pair {}: no train of the {} file is called '{}'; there are {}", text, file, *name, listed(*all)));
     if (in_a.size() == 1 && in_b.size() == 1) return out.push_back(paired(in_a[0], in_b[0])), Result<void>();
     const std::size_t before = out.size();
+    const TrainIndex index(b);
     for (const auto* train : in_a)
-        if (const auto* other = renamed(b, *train, from, to)) out.push_back(paired(train, other));
+        if (const auto* other = renamed(index, *train, from, to)) out.push_back(paired(train, other));
     if (out.size() > before) return {};
     return bad_usage(
         fmt::format("--pair {}: {} trains of the first file and {} of the second are meant, and no two differ in this name "
@@ -64,12 +102,18 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
                     text, in_a.size(), in_b.size(), in_a[0]->name(), in_b[0]->name()));
 }
 
-/// Trains of one name; those that stand in one file only against silence.
+/// Trains of one name; those that stand in one file only against silence. A pair is one both ways: "sa1" of a file without channels is
+/// none of several channels of another.
 std::vector<PairedTrains> by_name(const Trains& a, const Trains& b) {
+    const TrainIndex in_a(a), in_b(b);
+    const auto partner = [](const NamedTrain& t, const TrainIndex& own, const TrainIndex& other) {
+        const auto* found = other.alike(t);
+        return found && own.alike(*found) == &t ? found : nullptr;
+    };
     std::vector<PairedTrains> out;
-    for (const auto& t : a) out.push_back(paired(&t, find(b, t.afferent, t.channel)));
+    for (const auto& t : a) out.push_back(paired(&t, partner(t, in_a, in_b)));
     for (const auto& t : b)
-        if (!find(a, t.afferent, t.channel)) out.push_back(paired(nullptr, &t));
+        if (!partner(t, in_b, in_a)) out.push_back(paired(nullptr, &t));
     return out;
 }
 

@@ -101,15 +101,6 @@ bool is_file_of_name(int file, const std::string& path) {
            open_one.st_dev == there.st_dev;
 }
 
-/// A new name in a directory is on disk with the directory.
-void sync_directory_of(const std::string& path) {
-    const auto above = fs::path(path).parent_path().string();
-    const int directory = ::open(above.empty() ? "." : above.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (directory < 0) return;
-    ::fsync(directory);
-    ::close(directory);
-}
-
 }  // namespace
 
 Error SkinCheckpoint::broken(const std::string& path) const { return bad_input(std::strerror(errno), {path}); }
@@ -311,10 +302,8 @@ Result<void> SkinCheckpoint::keep() {
     auto out = OutputFile::create(file_);
     if (!out) return out.error();
     if (auto ok = out->write(bytes); !ok) return ok;
-    if (std::fflush(out->stream()) != 0 || ::fsync(::fileno(out->stream())) != 0) return broken(file_);
     if (auto ok = out->commit(); !ok) return ok;
-    sync_directory_of(file_);
-    return {};
+    return sync_directory_of(file_);
 }
 
 /// The lock is held until both are gone; an output of the same name is no checkpoint and stays.

@@ -3,23 +3,83 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+
+#include "io/output_check.hpp"
+#include "signal/input_files.hpp"
 
 namespace corpuscle {
+namespace {
+
+constexpr std::uintmax_t most_of_a_summary = std::uintmax_t{256} << 20;  // bytes
+
+/// "-2", or nothing.
+bool is_number_of_file(std::string_view text) {
+    return text.empty() || (text.size() > 1 && text[0] == '-' && text.find_first_not_of("0123456789", 1) == text.npos);
+}
+
+/// Links are not followed: what they point to is not in the directory.
+bool is_plain_file(const std::filesystem::path& path) {
+    std::error_code status;
+    return std::filesystem::symlink_status(path, status).type() == std::filesystem::file_type::regular;
+}
+
+}  // namespace
+
+bool is_own_page(std::string_view beginning) {
+    const auto head = beginning.substr(0, 1024);
+    // The second is of pages that were made before they had the first.
+    return head.find("<meta name=\"generator\" content=\"corpuscle\">") != head.npos ||
+           head.find("content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">") != head.npos;
+}
+
+bool is_output_name(std::string_view name) {
+    if (name.find('/') != name.npos || name.find('\0') != name.npos) return false;
+    const std::string_view plain[] = {"spikes.csv", "spikes.jsonl", "spikes.aer", "spikes.aedat", "spikes.npz",
+                                      "copies.csv", "units.csv",    "psth.csv",   "summary.json"};
+    if (std::find(std::begin(plain), std::end(plain), name) != std::end(plain)) return true;
+    const auto between = [&](std::string_view before, std::string_view behind) {
+        return name.size() >= before.size() + behind.size() && name.starts_with(before) && name.ends_with(behind)
+                   ? std::optional(name.substr(before.size(), name.size() - before.size() - behind.size()))
+                   : std::nullopt;
+    };
+    for (const auto& [before, behind] : {std::pair{"traces", ".csv"}, std::pair{"spikes", ".wav"}})
+        if (const auto number = between(before, behind); number && is_number_of_file(*number)) return true;
+    for (const auto* const before : {"vectors-", "rom-"})
+        if (const auto afferent = between(before, ".csv"); afferent && !afferent->empty()) return true;
+    return name.size() > 5 && name.ends_with(".html");
+}
+
+std::vector<std::string> earlier_outputs(const std::string& directory) {
+    const std::filesystem::path above(directory), summary = above / "summary.json";
+    std::error_code status;
+    if (!is_plain_file(summary) || std::filesystem::file_size(summary, status) > most_of_a_summary) return {};
+    std::ifstream file(summary, std::ios::binary);
+    const auto earlier = nlohmann::json::parse(file, nullptr, false);
+    if (!earlier.is_object() || earlier.value("program", nlohmann::json()) != "corpuscle" || !earlier.contains("files") ||
+        !earlier["files"].is_array())
+        return {};
+    std::vector<std::string> all = {"summary.json"};
+    for (const auto& entry : earlier["files"]) {
+        if (!entry.is_string()) continue;
+        auto name = entry.get<std::string>();
+        if (!is_output_name(name) || name == "summary.json" || !is_plain_file(above / name)) continue;
+        if (name.ends_with(".html") && !is_own_page(beginning_of((above / name).string()))) continue;
+        all.push_back(std::move(name));
+    }
+    return all;
+}
 
 std::vector<std::string> remove_stale(const std::string& directory, const std::vector<std::string>& written) {
     std::vector<std::string> removed;
-    std::ifstream file(directory + "/summary.json", std::ios::binary);
-    const auto earlier = nlohmann::json::parse(file, nullptr, false);
-    if (!earlier.is_object() || earlier.value("program", nlohmann::json()) != "corpuscle" || !earlier.contains("files")) return removed;
-    for (const auto& entry : earlier["files"]) {
-        if (!entry.is_string()) continue;
-        const auto name = entry.get<std::string>();
+    for (const auto& name : earlier_outputs(directory)) {
+        const auto path = (std::filesystem::path(directory) / name).string();
+        const bool stays = name == "summary.json" || std::find(written.begin(), written.end(), name) != written.end();
+        if (stays || input_at(path) || !is_plain_file(path)) continue;
         std::error_code status;
-        const auto path = std::filesystem::path(directory) / name;
-        if (std::filesystem::path(name).filename() != name || !std::filesystem::is_regular_file(path, status)) continue;
-        if (std::find(written.begin(), written.end(), name) == written.end() && std::filesystem::remove(path, status))
-            removed.push_back(name);
+        if (std::filesystem::remove(path, status)) removed.push_back(name);
     }
     return removed;
 }

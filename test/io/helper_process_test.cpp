@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "io/remote_samples.hpp"
+#include "support/child_process.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -69,7 +70,7 @@ TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
         EXPECT_TRUE(answer.get(held));
         EXPECT_EQ(held, 4 + 3U) << "four of its own, '.', '..', and the list's";
         auto second = std::move(first);
-        EXPECT_EQ(::kill(second.id(), 0), 0);
+        EXPECT_TRUE(test::signal_child(second.id(), 0));
     }
     EXPECT_EQ(descriptors(), before);
     EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);

@@ -6,15 +6,20 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include <poll.h>
+#include <sys/socket.h>
+
 #include "corpuscle.h"
 #include "io/events.hpp"
 #include "io/spikes.hpp"
 #include "live/byte_ring.hpp"
 #include "live/delays.hpp"
+#include "live/event_outlet.hpp"
 #include "live/frame_decoder.hpp"
 #include "live/frame_order.hpp"
 #include "live/live_population.hpp"
 #include "live/placed_frames.hpp"
+#include "live/steady_clock.hpp"
 #include "live/stream_state.hpp"
 #include "model/catalog.hpp"
 #include "skin/site_map.hpp"
@@ -98,6 +103,22 @@ TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
     const auto units = event_units(*skin, {1000, 1});
     EXPECT_EQ(units.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
     EXPECT_EQ(units.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
+}
+
+TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
+    const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb, tip"}};
+    const auto on_channels = sure(innervate(sure(plan_channels("sa1,fa1", channels))));
+    const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t unit, const char* format) {
+        const Spike spike{5, 1, unit};
+        return bytes_of(*sure(event_format(format, event_units(*skin, {1000, 1}))), {&spike, 1});
+    };
+    EXPECT_EQ(sure(event_format("lines", event_units(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
+    EXPECT_EQ(lines(on_channels, 0, "lines"), "sa1,fz,0.005000000\n");
+    EXPECT_EQ(lines(on_channels, 3, "lines"), "fa1,\"thumb, tip\",0.005000000\n");
+    EXPECT_EQ(lines(on_channels, 3, "jsonl"), R"({"time_s":0.005000000,"afferent":"fa1","channel":"thumb, tip","address":3})"
+                                              "\n");
+    const auto hand = sure(innervate(sure(plan_skin("fingertip"))));
+    EXPECT_TRUE(lines(hand, 16, "lines").starts_with("sa1#17," + hand->plan.sites.regions[hand->units[16].region] + ","));
 }
 
 TEST(Events, FilesThatAreDamagedAreRefused) {
@@ -300,6 +321,34 @@ TEST(ByteRing, GivesWholeEventsInOrderFromOneThreadToAnother) {
     EXPECT_EQ(next, 1'000'000U);
 }
 
+TEST(EventOutlet, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
+    Endpoint at;
+    auto door = sure(listening_socket(at));
+    const auto accepted = [&] {
+        pollfd there = {door.get(), POLLIN, 0};
+        EXPECT_EQ(::poll(&there, 1, 10000), 1);
+        return Descriptor(::accept(door.get(), nullptr, nullptr));
+    };
+    auto to = sure(resolve(at));
+    to.at.address = "robot.invalid";  // no name service knows it
+    const auto format = sure(event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
+    const auto outlet = sure(event_client(to, *format, 1024));
+    accepted().close();
+    const auto begun = steady_now();
+    std::int64_t longest = 0;
+    while (outlet->readers() < 2 && steady_now() - begun < 10'000'000'000) {
+        const auto before = steady_now();
+        EXPECT_TRUE(outlet->take("a,,0.1\n"));
+        EXPECT_TRUE(outlet->flush());
+        longest = std::max(longest, steady_now() - before);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(outlet->readers(), 2);
+    EXPECT_LT(longest, 1'000'000'000) << "no call waits";
+    EXPECT_GT(outlet->lost(), 0);
+    accepted().close();
+}
+
 TEST(Delays, QuantilesAreWithinThreePercent) {
     Delays d;
     for (std::int64_t ns = 1; ns <= 1'000'000; ++ns) d.add(ns);
@@ -411,6 +460,32 @@ TEST(CHeader, TellsWhatIsWrongAndGoesOnFromWhatWasSaved) {
     EXPECT_GT(all.size(), 1U);
     EXPECT_EQ(all, second);
     corpuscle_destroy(one), corpuscle_destroy(other), corpuscle_destroy(nullptr);
+}
+
+TEST(CHeader, TakesSettingsOfAPopulationsClasses) {
+    char error[400];
+    const auto spikes = [&](std::vector<const char*> settings) {
+        auto* skin = corpuscle_create_with("grid 2x2", 1000, 1, settings.data(), settings.size(), error, sizeof error);
+        EXPECT_TRUE(skin) << error;
+        long count = 0;
+        const std::vector<double> frame(corpuscle_sites(skin), 2.0);
+        for (int k = 0; k < 500; ++k)
+            EXPECT_EQ(corpuscle_push(
+                          skin, frame.data(), frame.size(), [](void* to, const corpuscle_spike*) { ++*static_cast<long*>(to); }, &count),
+                      0);
+        corpuscle_destroy(skin);
+        return count;
+    };
+    EXPECT_GT(spikes({"sa1.V_th=300mV"}), spikes({}));
+    for (const auto& [setting, said] : {std::pair{"sa9.V_th=1V", "no 'sa9' takes part; did you mean 'sa1'?"},
+                                        {"sa1.V=1V", "unknown parameter 'V'"},
+                                        {"sa1", "write NAME.PARAMETER=VALUE"}}) {
+        EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &setting, 1, error, sizeof error), nullptr);
+        EXPECT_NE(std::string(error).find(said), std::string::npos) << error;
+    }
+    const char* none = nullptr;
+    EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &none, 1, error, sizeof error), nullptr);
+    EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, nullptr, 1, error, sizeof error), nullptr);
 }
 
 }  // namespace

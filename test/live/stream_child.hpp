@@ -12,6 +12,7 @@
 #include <csignal>
 #include <thread>
 
+#include "support/child_process.hpp"
 #include "support/program.hpp"
 
 namespace corpuscle {
@@ -35,7 +36,7 @@ public:
         for (auto& w : words) arguments.push_back(w.data());
         arguments.push_back(nullptr);
         std::ofstream(err_).close();
-        pid_ = ::fork();
+        pid_ = test::fork_child();
         if (pid_ == 0) {
             const int err = ::open(err_.c_str(), O_WRONLY | O_APPEND);
             ::dup2(to[0], 0), ::dup2(from[1], 1), ::dup2(err, 2);
@@ -47,7 +48,7 @@ public:
     }
     ~Child() {
         ::close(in), ::close(out);
-        if (pid_ > 0) ::kill(pid_, SIGKILL), ::waitpid(pid_, nullptr, 0);
+        if (test::signal_child(pid_, SIGKILL)) ::waitpid(pid_, nullptr, 0);
     }
     void close_in() { ::close(in), in = -1; }
     void close_out() { ::close(out), out = -1; }
@@ -58,7 +59,7 @@ public:
             text.remove_prefix(static_cast<std::size_t>(count));
         }
     }
-    void interrupt() const { ::kill(pid_, SIGINT); }
+    void interrupt() const { test::signal_child(pid_, SIGINT); }
     std::string told() const { return test::read_file(err_); }
     /// All that it writes, until it closes.
     std::string read_out() const {

@@ -1,14 +1,17 @@
 // corpuscle stream with real pipes and sockets, and what goes wrong with them: nothing crashes, nothing hangs, all is counted and told.
 
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <pty.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <termios.h>
 
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "io/spikes.hpp"
+#include "live/network.hpp"
 #include "stream_child.hpp"
 
 namespace corpuscle {
@@ -155,7 +158,7 @@ TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
     const Folder folder;
     int far = -1, near = -1;
     char name[128];
-    if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << "no pseudo terminal here";
+    if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << test::no_terminals;
     ::fcntl(far, F_SETFD, FD_CLOEXEC), ::fcntl(near, F_SETFD, FD_CLOEXEC);
     Child whole(folder, with({"--quiet"}));
     whole.send(some_lines(500)), whole.close_in();
@@ -193,7 +196,8 @@ TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {
     }
     child.close_in();
     const auto bytes = child.read_out();
-    EXPECT_EQ(child.wait(), 0);
+    EXPECT_EQ(child.wait(), 1) << "spikes that were left out are an error";
+    EXPECT_NE(child.told().find("--allow-drops"), std::string::npos) << child.told();
     EXPECT_NE(child.told().find("20000 frames of 20 s"), std::string::npos) << child.told();
     EXPECT_NE(child.told().find("left out: the reader was too slow"), std::string::npos) << child.told();
     const auto read = sure(read_spikes(folder.write("s.aer", bytes)));
@@ -217,7 +221,7 @@ TEST(StreamProgram, WhoListensMayGoAndComeBack) {
     before();
     const Folder folder;
     const auto [door, port] = listening();
-    Child child(folder, with({"--to", std::to_string(port)}));
+    Child child(folder, with({"--to", std::to_string(port), "--allow-drops"}));
     int reader = ::accept(door, nullptr, nullptr);
     child.send(some_lines(400));
     char first = 0;
@@ -225,10 +229,10 @@ TEST(StreamProgram, WhoListensMayGoAndComeBack) {
     ::close(reader);
     for (int k = 0; k < 60 && ::poll(std::array<pollfd, 1>{{{door, POLLIN, 0}}}.data(), 1, 50) == 0; ++k) child.send(some_lines(400));
     reader = ::accept(door, nullptr, nullptr);
-    char head[16] = {};
+    char head[24] = {};
     child.send(some_lines(400));
-    EXPECT_EQ(::recv(reader, head, sizeof head, MSG_WAITALL), 16);
-    EXPECT_EQ(std::string_view(head, 16), "time_s,afferent\n") << "the header, again";
+    EXPECT_EQ(::recv(reader, head, sizeof head, MSG_WAITALL), 24);
+    EXPECT_EQ(std::string_view(head, 24), "afferent,channel,time_s\n") << "the header, again";
     child.close_in();
     EXPECT_EQ(child.wait(), 0) << child.told();
     EXPECT_NE(child.told().find("2 connections"), std::string::npos) << child.told();
@@ -264,12 +268,314 @@ TEST(StreamProgram, GapsDuplicatesAndLateFramesKeepTheSamplesTime) {
     EXPECT_NE(run(torn, "10ms").second.find("60 frames held, 186 without force"), std::string::npos);
 }
 
+// --- nothing is dropped where frames can wait
+
+/// Every site feels noise: many spikes from few frames.
+std::string noisy_recording(int samples, int channels) {
+    std::string text;
+    for (int c = 0; c < channels; ++c) text += (c > 0 ? ",f" : "f") + std::to_string(c) + "_N";
+    text += "\n";
+    for (int k = 0; k < samples; ++k) {
+        for (int c = 0; c < channels; ++c) text += (c > 0 ? "," : "") + std::to_string((k * 7 + c * 3) % 5);
+        text += "\n";
+    }
+    return text;
+}
+
+TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
+    before();
+    const Folder folder;
+    const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
+    const auto spikes = [&](const std::string& file, const std::string& buffer) {
+        const auto ran =
+            test::run(folder, "stream --in " + recording + " --rate 1kHz --scale 20 --pace fast --format aer --json --buffer " + buffer +
+                                  " -o " + folder / file);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        const auto doc = nlohmann::json::parse(ran.out);
+        EXPECT_EQ(doc["events"]["dropped"], 0);
+        EXPECT_EQ(doc["events"]["lost"], 0);
+        EXPECT_TRUE(doc["came_at_Hz"].is_null()) << "a recording at --pace fast has no pace";
+        return doc["spikes"].get<std::size_t>();
+    };
+    const auto count = spikes("small.aer", "1k");
+    EXPECT_GT(count * 16, 100'000U) << "far more than the buffer holds";
+    EXPECT_EQ(spikes("large.aer", "100M"), count);
+    EXPECT_EQ(test::read_file(folder / "small.aer"), test::read_file(folder / "large.aer"));
+}
+
+TEST(StreamProgram, ARecordingWaitsForAReaderThatIsSlow) {
+    before();
+    const Folder folder;
+    const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
+    const std::vector<std::string> words = {"--in",   recording, "--rate",   "1kHz", "--scale",  "20",
+                                            "--pace", "fast",    "--buffer", "1k",   "--format", "aer"};
+    Child child(folder, words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // longer than a reader of live spikes is waited for at the end
+    const auto bytes = child.read_out();
+    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_EQ(child.told().find("left out"), std::string::npos) << child.told();
+    EXPECT_EQ(child.told().find("frames came at"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("3000 frames of 3 s"), std::string::npos) << child.told();
+    Child again(folder, words);
+    EXPECT_EQ(again.read_out(), bytes);
+    EXPECT_EQ(again.wait(), 0);
+    Child stopped(folder, words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // it waits for us
+    stopped.interrupt();
+    EXPECT_EQ(stopped.wait(), 130) << "a reader that takes nothing does not hold up Ctrl-C: " << stopped.told();
+}
+
+TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
+    const Folder folder;
+    std::string frames;
+    for (int k = 0; k < 20000; ++k) frames += std::to_string((k * 7) % 5) + "\n";
+    const auto ran =
+        test::run(folder, "stream --rate 1kHz --buffer 1k -o " + (folder / "spikes.csv") + " < " + folder.write("frames", frames));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.err.find("left out"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("frames came at"), std::string::npos) << "a file has no pace: " << ran.err;
+}
+
+TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
+    before();
+    const Folder folder;
+    Child bulk(folder, with({"--json", "-o", folder / "a.csv"}));
+    bulk.send(some_lines(100'000)), bulk.close_in();
+    const auto in_bulk = nlohmann::json::parse(bulk.read_out());
+    EXPECT_EQ(bulk.wait(), 0);
+    EXPECT_TRUE(in_bulk["came_at_Hz"].is_null() && in_bulk["jitter_s"].is_null()) << in_bulk;
+    Child clocked(folder, with({"--json", "-o", folder / "b.csv"}));
+    for (int k = 0; k < 50; ++k) clocked.send("1\n"), std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    clocked.close_in();
+    const auto by_clock = nlohmann::json::parse(clocked.read_out());
+    EXPECT_EQ(clocked.wait(), 0);
+    EXPECT_GT(by_clock["came_at_Hz"].get<double>(), 0) << by_clock;
+}
+
+// --- recordings
+
+TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndTheDoubtsOfRespond) {
+    const Folder folder;
+    std::string text = "time,fz_N\n";
+    for (int k = 0; k < 3000; ++k) text += std::to_string(k) + "," + (k % 1000 < 200 ? "0" : k == 1500 ? "900" : "2") + "\n";
+    const auto recording = folder.write("touch.csv", text);
+    const std::string words = " --channel fz --despike 100 --range 0..500 --scale 0.5";
+    const auto offline = test::run(folder, "respond " + recording + words + " --time-unit ms -o " + (folder / "answer"));
+    ASSERT_EQ(offline.status, 0) << offline.err;
+    const auto live = test::run(folder, "stream --in " + recording + words + " --time-unit ms --pace fast -o " + (folder / "live.csv"));
+    ASSERT_EQ(live.status, 0) << live.err;
+    const auto compared = test::run(folder, "compare answer/spikes.csv live.csv --json");
+    ASSERT_EQ(compared.status, 0) << "trains are called the same: " << compared.err;
+    const auto doc = nlohmann::json::parse(compared.out);
+    EXPECT_GT(doc["total"]["matched"], 10);
+    EXPECT_EQ(doc["total"]["missing"], 0);
+    EXPECT_EQ(doc["total"]["extra"], 0);
+    const auto lines = [&](const std::string& command) {
+        std::vector<std::string> out;
+        std::istringstream err(test::run(folder, command).err);
+        for (std::string line; std::getline(err, line);)
+            if (line.find("touch: ") != std::string::npos) out.push_back(line);
+        return out;
+    };
+    const auto doubts = lines("respond " + recording + " --time-unit ms");
+    EXPECT_FALSE(doubts.empty());
+    EXPECT_EQ(lines("stream --in " + recording + " --time-unit ms --pace fast -o " + (folder / "x.csv")), doubts);
+}
+
+// --- frames of another width
+
+TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
+    before();
+    const Folder folder;
+    Child child(folder, {"--population", "fingertip", "--rate", "1kHz"});
+    child.send("1,2,3,4\n");
+    EXPECT_TRUE(child.said("frame 1 has 4 numbers; 'fingertip' has ")) << "at once: " << child.told();
+    child.close_in();
+    EXPECT_EQ(child.wait(), 1);
+    EXPECT_TRUE(child.said("no frame could be read from standard input: frame 1 has 4 numbers")) << child.told();
+    Child binary(folder, with({"--channels", "16", "--frames", "f32"}));
+    binary.send("abcdefgh"), binary.close_in();
+    EXPECT_EQ(binary.wait(), 1);
+    EXPECT_TRUE(binary.said("no whole frame came from standard input: 8 bytes, and a frame of 'sa1,fa1' (16 sites) has 64"))
+        << binary.told();
+    Child nothing(folder, plain);
+    nothing.close_in();
+    EXPECT_EQ(nothing.wait(), 1);
+    EXPECT_TRUE(nothing.said("no frame came from standard input")) << nothing.told();
+    Child stamped(folder, with({"--channels", "2", "--stamp", "count"}));
+    stamped.send("1,1,1\n2.5,1,1\n"), stamped.close_in();
+    EXPECT_EQ(stamped.wait(), 0);
+    EXPECT_TRUE(stamped.said("frame 2 does not begin with its count, a whole number")) << stamped.told();
+}
+
+// --- settings
+
+TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
+    const Folder folder;
+    const auto recording = folder.write("touch.csv", noisy_recording(2000, 4));
+    const auto spikes = [&](const std::string& settings) {
+        const auto ran = test::run(folder, "stream --population 'grid 2x2' --in " + recording + " --rate 1kHz --pace fast" + settings +
+                                               " --json -o " + (folder / "spikes.csv"));
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return nlohmann::json::parse(ran.out)["spikes"].get<long>();
+    };
+    EXPECT_GT(spikes(" --set sa1.V_th=300mV"), spikes(" --set sa1.V_th=1V"));
+    const auto wrong = test::run(folder, "stream --population 'grid 2x2' --rate 1kHz --set sa1.nothing=1 </dev/null");
+    EXPECT_NE(wrong.status, 0);
+    EXPECT_NE(wrong.err.find("unknown parameter 'nothing'"), std::string::npos) << wrong.err;
+}
+
+// --- senders on a network
+
+TEST(StreamProgram, FramesSentBeforeAnInterruptAreAnsweredAlsoThoseInTheSocket) {
+    before();
+    const Folder folder;
+    Child child(folder, with({"--in", "tcp:0", "--json", "-o", folder / "s.csv"}));
+    const int fd = connected(child.port());
+    std::string frames;
+    for (int k = 0; k < 300'000; ++k) frames += "2\n";
+    for (std::string_view rest = frames; !rest.empty();) {
+        const auto count = ::send(fd, rest.data(), rest.size(), MSG_NOSIGNAL);
+        ASSERT_GT(count, 0);
+        rest.remove_prefix(static_cast<std::size_t>(count));
+    }
+    ::close(fd);
+    child.interrupt();
+    const auto doc = nlohmann::json::parse(child.read_out());
+    EXPECT_EQ(child.wait(), 130) << child.told();
+    EXPECT_EQ(doc["frames"], 300'000);
+    EXPECT_EQ(doc["frames_as_bytes"]["bytes_unread"], 0);
+}
+
+TEST(StreamProgram, AnIdleSenderMakesWayForTheNextAndStaysIfThereIsNone) {
+    before();
+    const Folder folder;
+    Child child(folder, with({"--in", "tcp:0", "--idle-limit", "300ms", "--clients", "2", "--json", "-o", folder / "s.csv"}));
+    const int port = child.port(), silent = connected(port);
+    EXPECT_EQ(::send(silent, "1\n", 2, MSG_NOSIGNAL), 2);
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    EXPECT_EQ(::send(silent, "1\n", 2, MSG_NOSIGNAL), 2) << "nobody waits behind it";
+    const int next = connected(port);
+    EXPECT_EQ(::send(next, "1\n1\n", 4, MSG_NOSIGNAL), 4);
+    ::close(next);
+    const auto doc = nlohmann::json::parse(child.read_out());
+    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_EQ(doc["frames"], 4);
+    EXPECT_EQ(doc["frames_as_bytes"]["idle_senders"], 1);
+    ::close(silent);
+}
+
+/// The seconds of silence after which the system asks whether the other side of a connection still lives, as the child set them.
+TEST(Network, ADeadPeerIsNoticedWithinSecondsNotHours) {
+    const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    watch_peer(fd);
+    const auto option = [fd](int level, int name) {
+        int value = 0;
+        socklen_t size = sizeof value;
+        EXPECT_EQ(::getsockopt(fd, level, name, &value, &size), 0);
+        return value;
+    };
+    EXPECT_EQ(option(SOL_SOCKET, SO_KEEPALIVE), 1);
+    EXPECT_LE(option(IPPROTO_TCP, TCP_KEEPIDLE) + option(IPPROTO_TCP, TCP_KEEPINTVL) * option(IPPROTO_TCP, TCP_KEEPCNT), 20);
+    ::close(fd);
+}
+
+int datagrams_to(int port) {
+    const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const auto at = here(port);
+    EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
+    return fd;
+}
+
+void send_datagram(int fd, std::string_view text) { EXPECT_EQ(::send(fd, text.data(), text.size(), 0), static_cast<ssize_t>(text.size())); }
+
+TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
+    before();
+    const Folder folder;
+    Child whole(folder, with({"--quiet"}));
+    whole.send(some_lines(600)), whole.close_in();
+    const auto wanted = whole.read_out();
+    EXPECT_EQ(whole.wait(), 0);
+    EXPECT_GT(wanted.size(), 200U);
+    Child child(folder, with({"--in", "udp:0", "--clients", "1"}));
+    const int fd = datagrams_to(child.port());
+    for (int k = 0; k < 600; k += 3) {
+        const auto lines = some_lines(3, k);
+        send_datagram(fd, k % 2 == 0 ? lines : lines.substr(0, lines.size() - 1));  // the last line of a datagram needs no end
+        if (k % 60 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    send_datagram(fd, "");  // its end
+    EXPECT_EQ(child.read_out(), wanted);
+    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_NE(child.told().find("600 frames of 600 ms"), std::string::npos) << child.told();
+    ::close(fd);
+}
+
+TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsHeard) {
+    before();
+    const Folder folder;
+    Child child(folder, with({"--in", "udp:0", "--clients", "1", "--stamp", "count", "--frames", "f64", "--json", "-o", folder / "s.csv"}));
+    const int port = child.port(), fd = datagrams_to(port), stranger = datagrams_to(port);
+    const auto frame = [](std::uint32_t number, double force) {
+        std::string bytes(12, '\0');
+        std::memcpy(bytes.data(), &number, 4), std::memcpy(bytes.data() + 4, &force, 8);
+        return bytes;
+    };
+    send_datagram(fd, frame(0, 1));
+    send_datagram(stranger, frame(1, 1));
+    send_datagram(fd, frame(4, 1) + frame(5, 1));
+    send_datagram(fd, frame(3, 1));                        // late
+    send_datagram(fd, frame(5, 1));                        // twice
+    send_datagram(fd, frame(6, 1).substr(0, 11));          // cut short
+    send_datagram(fd, frame(7, 1) + std::string(3, 'x'));  // not whole
+    send_datagram(fd, "");
+    const auto doc = nlohmann::json::parse(child.read_out());
+    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_EQ(doc["frames"], 3);
+    EXPECT_EQ(doc["frames_filled"], 3);
+    EXPECT_EQ(doc["frames_in_order"]["gaps"], 1);
+    EXPECT_EQ(doc["frames_in_order"]["late"], 1);
+    EXPECT_EQ(doc["frames_in_order"]["duplicates"], 1);
+    EXPECT_EQ(doc["frames_as_bytes"]["unreadable"], 2);
+    EXPECT_EQ(doc["frames_as_bytes"]["datagrams_of_others"], 1);
+    EXPECT_NE(child.told().find("a datagram has 11 bytes"), std::string::npos) << child.told();
+    ::close(fd), ::close(stranger);
+}
+
+// --- where the system waits
+
+TEST(StreamProgram, OneSignalEndsItWhileItWaitsForARecordingThatDoesNotCome) {
+    before();
+    const Folder folder;
+    const auto fifo = folder / "fifo.csv";
+    ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+    Child opening(folder, {"--in", fifo, "--rate", "1kHz"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    opening.interrupt();
+    EXPECT_EQ(opening.wait(), 130) << opening.told();
+    Child reading(folder, {"--in", fifo, "--rate", "1kHz"});
+    const int writer = ::open(fifo.c_str(), O_WRONLY | O_CLOEXEC);
+    EXPECT_EQ(::write(writer, "f_N\n1\n", 6), 6);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    reading.interrupt();
+    EXPECT_EQ(reading.wait(), 130) << reading.told();
+    ::close(writer);
+}
+
 TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
     const Folder folder;
     const std::pair<const char*, const char*> cases[] = {
-        {"", "--rate is to be said"},
+        {"", "--rate is required"},
         {"--rate 1kHz --format aerr", "no format of events is called 'aerr'; did you mean 'aer'?"},
         {"--rate 1kHz --in tcp:99999", "write tcp:PORT"},
+        {"--rate 1kHz --in udp:x", "write udp:PORT"},
+        {"--rate 1kHz --in udp:0 --channels 20000 --frames f64", "a frame of 160000 bytes does not go into a datagram"},
+        {"--rate 1kHz --despike auto", "--despike is for recordings (--in FILE), and frames come from standard input"},
+        {"--rate 1kHz --time-unit ms", "--stamp time"},
+        {"--in press --notch 50Hz", "--notch is for recordings, and press is a stimulus"},
+        {"--in pres --pace fast", "did you mean 'press'?"},
+        {"--rate 1kHz --unit mmHg", "say --scale S"},
+        {"--rate 1kHz --set sa9.f_B=25Hz", "did you mean 'sa1'?"},
         {"--rate 1kHz --in serial:/dev/null", "this is no serial device"},
         {"--rate 1kHz --to 7000 -o x.csv", "spikes go to one of them"},
         {"--rate 1kHz --json", "--json prints on standard output"},

@@ -1,5 +1,6 @@
 #include "study/compare.hpp"
 
+#include <chrono>
 #include <cmath>
 
 #include "support/property.hpp"
@@ -33,6 +34,16 @@ TEST(PairTrains, TakesThoseOfOneNameAndSilenceForTheOthers) {
     EXPECT_EQ(pairs({{"7", ""}}, {{"sa1", "x"}}), "7=sa1,x") << "the only two there are";
 }
 
+TEST(PairTrains, AFileWithoutChannelsMeetsOneThatHasThemIfOnlyOneTrainCanBeMeant) {
+    EXPECT_EQ(pairs({{"sa1#1", ""}, {"sa1#2", ""}}, {{"sa1#2", "palm"}, {"sa1#1", "thumb"}}), "sa1#1=sa1#1,thumb sa1#2=sa1#2,palm");
+    EXPECT_EQ(pairs({{"fa1#1", "palm"}, {"sa1#1", "palm"}}, {{"sa1#1", ""}}), "fa1#1,palm= sa1#1,palm=sa1#1");
+    EXPECT_EQ(pairs({{"fa1#1", ""}, {"sa1#1", ""}}, {{"fa1", "press"}, {"sa1", "press"}}), "fa1#1=fa1,press sa1#1=sa1,press")
+        << "address events of one channel";
+    EXPECT_EQ(pairs({{"fa1", "press"}, {"sa1", "press"}}, {{"fa1#1", ""}, {"sa1#1", ""}}), "fa1,press=fa1#1 sa1,press=sa1#1");
+    EXPECT_EQ(pairs({{"sa1", ""}, {"fa1", "x"}}, {{"fa1", "x"}, {"sa1", "x"}, {"sa1", "y"}}), "sa1= fa1,x=fa1,x =sa1,x =sa1,y");
+    EXPECT_EQ(pairs({{"sa1#1", ""}, {"fa1", "x"}}, {{"fa1", "x"}, {"sa1", "x"}, {"sa1", "y"}}), "sa1#1= fa1,x=fa1,x =sa1,x =sa1,y");
+}
+
 TEST(PairTrains, ANameChangesOnEveryChannelOrForEveryAfferent) {
     const Names two = {{"sa1", "x"}, {"sa1", "y"}}, kim = {{"sa1-kim", "x"}, {"sa1-kim", "y"}};
     EXPECT_EQ(pairs(two, kim, {.pairs = {"sa1=sa1-kim"}}), "sa1,x=sa1-kim,x sa1,y=sa1-kim,y");
@@ -62,6 +73,18 @@ TEST(PairTrains, WrongUseGetsTheWordsThatWork) {
               "--by-order: the first file has 2 trains, the second 1; --pair A-NAME=B-NAME names those to compare");
     EXPECT_EQ(pairs(fz, abs, {.pairs = {"fz=fz_abs"}, .by_order = true}),
               "--by-order and --pair both say who is compared with whom: give one");
+}
+
+// Each name is looked up, not searched for among all.
+TEST(PairTrains, OfAHundredThousandTakesWellUnderASecond) {
+    std::vector<NamedTrain> a, b;
+    for (int k = 0; k < 100'000; ++k)
+        a.push_back({"sa1#" + std::to_string(k), "press", {}}), b.push_back({"sa1#" + std::to_string(100'000 - k), "press", {}});
+    const auto begun = std::chrono::steady_clock::now();
+    const auto pairs = pair_trains(a, b, {});
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 5);
+    ASSERT_TRUE(pairs);
+    EXPECT_EQ(pairs->size(), 100'001U) << "all but one of each have a partner";
 }
 
 TEST(Compare, CountsWhatMatchesAndWhatDoesNot) {

@@ -13,6 +13,7 @@
 
 #include "study/sweep/dump.hpp"
 #include "study/sweep/run_sweep.hpp"
+#include "support/child_process.hpp"
 #include "support/plain_sweep.hpp"
 #include "support/support.hpp"
 
@@ -80,7 +81,7 @@ constexpr double soon = 1e-4, pause = 1e-4;  // s
 
 /// What happens to this is a child process, which does `work` and leaves.
 pid_t child(const std::function<void()>& work) {
-    const auto id = ::fork();
+    const auto id = test::fork_child();
     if (id > 0) return id;
     try {
         work();
@@ -126,7 +127,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
     for (int k = 0; k < 50; ++k) {
         const auto id = child([&] { run_sweep_of(sweep, path, how); });
         std::this_thread::sleep_for(moment(random) * length);
-        ::kill(id, SIGKILL);
+        test::signal_child(id, SIGKILL);
         end_of(id);
         if (!fs::exists(path)) continue;
         std::int64_t rows = 0;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 
 #include "circuit/netlist/parsed.hpp"
+#include "signal/input_files.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -15,14 +17,16 @@ namespace {
 Result<std::string> text_of(const std::string& path) {
     std::error_code failed;
     if (std::filesystem::is_directory(path, failed)) return bad_input("is a directory, not a netlist", {path});
-    std::ifstream file(path, std::ios::binary);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
     if (!file) return bad_input(fmt::format("cannot be read: {}", std::strerror(errno)), {path});
     std::string text;
-    for (char block[1 << 16]; file.read(block, sizeof block) || file.gcount() > 0;) {
-        text.append(block, static_cast<std::size_t>(file.gcount()));
+    for (char block[1 << 16];;) {
+        const auto got = read_input(file.get(), block, path);
+        if (!got) return got.error();
+        text.append(block, *got);
         if (text.size() > most_text) return bad_input(fmt::format("is larger than {} MB", most_text >> 20), {path});
+        if (*got < sizeof block) return text;
     }
-    return text;
 }
 
 int found(const std::unordered_map<std::string, int>& numbers, std::string_view name) {

@@ -8,6 +8,7 @@
 
 #include "signal/carried.hpp"
 #include "signal/field.hpp"
+#include "signal/input_files.hpp"
 #include "signal/text.hpp"
 #include "study/orders.hpp"
 
@@ -31,6 +32,7 @@ Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
     if (fs::file_size(path, status) > most_bytes) return bad_input(fmt::format("is larger than {} MB", most_bytes >> 20), {name});
     std::ifstream file(path, std::ios::binary);
     if (!file) return bad_input("cannot be read", {name});
+    remember_input(path.string());
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 

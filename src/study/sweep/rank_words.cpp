@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <array>
 #include <cerrno>
+#include <limits>
 #include <type_traits>
 
 #include "study/sweep/results_layout.hpp"
@@ -73,7 +74,10 @@ bool get(Message& m, UnitOutcome& o) {
 }  // namespace
 
 RankHello RankHello::mine(const Sweep* sweep) { return {host_name(), static_cast<std::uint64_t>(::getpid()), sweep ? hash_of(*sweep) : 0}; }
-bool RankHello::is_dead() const { return process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH; }
+bool RankHello::is_dead() const {
+    const bool is_id = process > 0 && process <= std::numeric_limits<pid_t>::max();  // of one process, not of a group
+    return is_id && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+}
 bool RankHello::can_be_seen() const { return host == host_name() && !is_dead(); }
 
 Message message(RankWord word) {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "circuit/carried.hpp"
+#include "signal/input_files.hpp"
 #include "study/afferents.hpp"
 #include "study/sweep/subject.hpp"
 
@@ -24,6 +25,7 @@ Result<SweepText> text_at(const fs::path& path) {
         return bad_input(fmt::format("is no sweep file: it is larger than {} MB", most_of_a_sweep >> 20), {path.string()});
     std::ifstream file(path, std::ios::binary);
     if (!file) return bad_input("cannot be read", {path.string()});
+    remember_input(path.string());
     const std::string text(std::istreambuf_iterator<char>(file), {});
     return sweeps::read_sweep_text(text, path.string());
 }

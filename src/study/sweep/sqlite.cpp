@@ -9,7 +9,16 @@
 namespace corpuscle::sql {
 namespace {
 
-constexpr int wait_ms = 10'000;  // for another program's short hold on the file
+constexpr int wait_ms = 10'000;          // for another program's short hold on the file
+constexpr int longest_value = 64 << 20;  // bytes of one text or blob: a trace of 16 million samples
+
+/// Nothing that stands in a file's schema is run, and a name in quotes is a column or an error, never a text.
+void distrust(sqlite3* file) {
+    for (const int off : {SQLITE_DBCONFIG_DQS_DML, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
+                          SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+        sqlite3_db_config(file, off, 0, nullptr);
+    sqlite3_limit(file, SQLITE_LIMIT_LENGTH, longest_value);
+}
 
 /// What the system said; of a -wal that cannot be written SQLite does not keep it.
 int cause_of(sqlite3* file) {
@@ -52,6 +61,13 @@ Error failed(sqlite3* file, const std::string& path) {
                 fmt::format("cannot be read or written ({}); what was written before is kept: see to the disk and give the same "
                             "command again",
                             reason(file)));
+        case SQLITE_TOOBIG:
+            return say(fmt::format("a text or a blob is larger than {} MB; keep fewer traces, or a longer 'every'", longest_value >> 20));
+        case SQLITE_ERROR:
+            return say(
+                fmt::format("is not as a sweep writes it ({}): it was changed by another program; take a copy from before, or give "
+                            "another file with --out",
+                            sqlite3_errmsg(file)));
         default:
             return say(fmt::format("SQLite: {}", sqlite3_errmsg(file)));
     }
@@ -78,6 +94,7 @@ Result<Handle> open(const std::string& path, int flags) {
     if (code != SQLITE_OK) return failed(raw, path);
     sqlite3_busy_timeout(raw, wait_ms);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    distrust(raw);
     return file;
 }
 

@@ -1,0 +1,132 @@
+#include "help.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "signal/field.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t widest = 100;  // columns
+
+/// How many columns a UTF-8 text takes.
+std::size_t columns_of(std::string_view text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+/// Breaks a line at blanks; the lines behind the first begin with `indent` blanks.
+std::string wrapped(std::string_view line, std::size_t indent) {
+    std::string out;
+    while (columns_of(line) > widest) {
+        auto end = line.rfind(' ', widest);
+        const auto first = line.find_first_not_of(' ');
+        if (end == line.npos || end <= first) end = line.find(' ', widest);
+        if (end == line.npos) break;
+        auto part = line.substr(0, end);
+        part = part.substr(0, part.find_last_not_of(' ') + 1);
+        out += std::string(part) + "\n";
+        line = line.substr(std::min(line.find_first_not_of(' ', end), line.size()));
+        if (line.empty()) return out;
+        const std::string rest = std::string(indent, ' ') + std::string(line);
+        return out + wrapped(rest, indent);
+    }
+    return out + std::string(line) + "\n";
+}
+
+/// A name and its sentence, which stands beside it or, behind a long name, below.
+std::string entry(const std::string& name, const std::string& sentence, std::size_t width) {
+    const auto head = "  " + name;
+    if (sentence.empty()) return wrapped(head, 4);
+    if (columns_of(head) + 2 <= width) return wrapped(head + std::string(width - columns_of(head), ' ') + sentence, width);
+    return wrapped(head, 4) + wrapped(std::string(width, ' ') + sentence, width);
+}
+
+/// A command on several lines, as a shell takes it; not broken within quotes.
+std::string continued(std::string_view command) {
+    std::string out;
+    constexpr std::size_t room = widest - 2;  // for the backslash
+    for (std::string indent = "  "; columns_of(command) + indent.size() > widest; indent = "      ") {
+        std::size_t end = command.npos;
+        bool quoted = false;
+        for (std::size_t k = 0; k < command.size() && k + indent.size() <= room; ++k) {
+            quoted ^= command[k] == '\'' || command[k] == '"';
+            if (command[k] == ' ' && !quoted) end = k;
+        }
+        if (end == command.npos) break;
+        out += fmt::format("{}{} \\\n", indent, command.substr(0, end));
+        command.remove_prefix(end + 1);
+    }
+    return fmt::format("{}{}{}\n", out, out.empty() ? "  " : "      ", command);
+}
+
+/// An example with its remark, which goes below a long one.
+std::string example(std::string_view line) {
+    constexpr std::string_view gap = "   ";
+    const auto begin = line.find_first_not_of(' ');
+    if (columns_of(line) <= widest || begin == line.npos) return std::string(line) + "\n";
+    const auto end = line.find(gap, begin);
+    if (end == line.npos) return continued(line.substr(begin));
+    const auto command = line.substr(begin, end - begin), remark = line.substr(line.find_first_not_of(' ', end));
+    if (2 + columns_of(command) + gap.size() + columns_of(remark) <= widest) return fmt::format("  {}{}{}\n", command, gap, remark);
+    return fmt::format("{}      {}\n", continued(command), remark);
+}
+
+/// The footer's paragraphs that begin with "Examples:" or so, and all others.
+std::pair<std::string, std::string> split_footer(const std::string& footer) {
+    std::pair<std::string, std::string> out;
+    bool in_examples = false;
+    for (std::size_t at = 0; at < footer.size();) {
+        const auto end = std::min(footer.find('\n', at), footer.size());
+        const std::string_view line(footer.data() + at, end - at);
+        at = end + 1;
+        for (const std::string_view title : {"Examples:", "Example:", "First steps:"}) in_examples = in_examples || line == title;
+        in_examples = in_examples && !line.empty();
+        in_examples ? out.first += example(line) : out.second += wrapped(line, line.starts_with("  ") ? 17 : 0);
+    }
+    const auto text = out.second.find_first_not_of('\n');
+    out.second.erase(0, std::min(text, out.second.size()));
+    return out;
+}
+
+}  // namespace
+
+std::string Help::make_option(const CLI::Option* option, bool is_positional) const {
+    return entry(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option), width_of_names);
+}
+
+std::string Help::make_subcommand(const CLI::App* verb) const {
+    return entry(verb->get_display_name(true), verb->get_description(), width_of_names / 2);
+}
+
+std::string Help::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+    if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    const auto [examples, prose] = split_footer(app->get_footer());
+    auto out = wrapped(app->get_description(), 0) + make_usage(app, std::move(name));
+    if (!examples.empty()) out += "\n" + examples;
+    out += make_positionals(app) + make_groups(app, mode) + make_subcommands(app, mode);
+    if (!prose.empty()) out += "\n" + prose;
+    for (std::size_t at = 0; (at = out.find("\n\n\n", at)) != out.npos;) out.erase(at, 1);
+    return out;
+}
+
+std::vector<std::string> with_help_first(std::vector<std::string> words) {
+    if (words.empty()) return {"--help"};
+    if (words[0] != "help") return words;
+    words.erase(words.begin());
+    words.emplace_back("--help");
+    return words;
+}
+
+std::string unknown_verb(const CLI::App& app, const std::vector<std::string>& words) {
+    if (words.empty() || words[0].empty() || words[0].starts_with('-')) return "";
+    std::vector<std::string> names;
+    for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());
+    if (std::find(names.begin(), names.end(), words[0]) != names.end()) return "";
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const auto hint = did_you_mean(words[0], known);
+    return fmt::format("there is no verb '{}'{}", words[0], hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,119 @@
+#include "stream_input.hpp"
+
+#include <fmt/format.h>
+#include <charconv>
+
+#include "force_words.hpp"
+#include "io/columns.hpp"
+#include "recording_words.hpp"
+#include "signal/quantity.hpp"
+#include "signal/stimuli.hpp"
+#include "terminal.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double stimulus_rate = 1e3;  // Hz
+
+/// A quantity that has a default.
+Result<double> required_quantity(const std::string& text, std::string_view unit, std::string_view option) {
+    const auto value = quantity(text, unit, option);
+    if (!value) return value.error();
+    return **value;
+}
+
+/// The options of recordings that frames on a wire do not have, and why.
+Result<void> check_wire_words(const StreamWords& w) {
+    RecordingWords others = w;
+    others.unit.reset(), others.scale.reset(), others.offset.reset(), others.layout.clear();
+    const auto word = recording_word(others);
+    if (word.empty()) return {};
+    const auto why = word == "--channel" ? "every number of a frame is a site's, in the order of the sites or of --layout"
+                     : word == "--time" || word == "--time-unit"
+                         ? "the time of a frame is its number over --rate; --stamp time says that each begins with its time"
+                     : word == "--dataset" || word == "--skip" ? "frames have no file"
+                     : word == "--range" || word == "--bad-fields"
+                         ? "a force that is no number or beyond --limit is no reading, and the site's last one is held"
+                         : "it needs the readings before and behind, and a frame is answered as it comes";
+    return bad_usage(fmt::format("{} is for recordings (--in FILE), and frames come from {}: {}", word, name_of_input(w.in), why));
+}
+
+Result<int> port_of(const StreamWords& w) {
+    const auto scheme = w.in.substr(0, 4);
+    int port = 0;
+    const auto* const end = w.in.data() + w.in.size();
+    const auto [stop, status] = std::from_chars(w.in.data() + scheme.size(), end, port);
+    if (status != std::errc{} || stop != end || port < 0 || port > 65535)
+        return bad_usage(fmt::format("--in {}: write {}PORT, such as {}7000; --listen says on which address", w.in, scheme, scheme));
+    return port;
+}
+
+}  // namespace
+
+bool is_wire(const std::string& in) { return in == "-" || in.starts_with("tcp:") || in.starts_with("udp:") || in.starts_with("serial:"); }
+
+std::string name_of_input(const std::string& in) { return in == "-" ? "standard input" : in; }
+
+Result<StreamNumbers> stream_numbers(const StreamWords& w) {
+    StreamNumbers n;
+    auto options = recording_options(w);
+    if (!options) return options.error();
+    n.recording = std::move(*options);
+    for (const auto& [text, unit, option, to] : {std::tuple{&w.limit, "N", "--limit", &n.limit},
+                                                 {&w.hold, "s", "--hold", &n.hold},
+                                                 {&w.longest, "s", "--longest-gap", &n.longest},
+                                                 {&w.idle, "s", "--idle-limit", &n.idle},
+                                                 {&w.buffer, "", "--buffer", &n.buffer}}) {
+        const auto value = required_quantity(*text, unit, option);
+        if (!value) return value.error();
+        if (!(*value >= 0)) return bad_usage(fmt::format("{} {}: must not be negative", option, *text));
+        *to = *value;
+    }
+    if (!(n.buffer >= 1000 && n.buffer <= 1e10)) return bad_usage(fmt::format("--buffer {}: between 1k and 10G bytes", w.buffer));
+    return n;
+}
+
+Result<std::unique_ptr<Source>> open_stream_source(const StreamWords& w, const StreamNumbers& n, std::span<const Wish> wishes) {
+    if (const auto word = recording_word(w); !word.empty() && is_stimulus(w.in))
+        return bad_usage(fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word, w.in, w.in));
+    auto options = n.recording;
+    options.keep_on = [](double) { return !interrupted(); };
+    return open_force(w.in, options, wishes, stimulus_rate, 0);
+}
+
+Result<Clock> wire_clock(const StreamWords& w, const StreamNumbers& n) {
+    if (n.recording.rate) return clock_of(*n.recording.rate);
+    return bad_usage(fmt::format("--rate is required: how many frames a second come from {}", name_of_input(w.in)));
+}
+
+Result<FrameLayout> wire_layout(const StreamWords& w, const StreamNumbers& n, std::size_t sites, const Clock& clock) {
+    if (auto ok = check_wire_words(w); !ok) return ok.error();
+    Column number;
+    number.name = "a frame";
+    const auto scale = newtons_per_unit(number, n.recording, name_of_input(w.in));
+    if (!scale) return scale.error();
+    FrameLayout layout;
+    layout.kind = w.frames == "csv"   ? FrameKind::csv
+                  : w.frames == "f32" ? FrameKind::f32
+                  : w.frames == "f64" ? FrameKind::f64
+                                      : FrameKind::i16;
+    layout.stamp = w.stamp == "none" ? FrameStamp::none : w.stamp == "count" ? FrameStamp::count : FrameStamp::time;
+    layout.sites = sites, layout.rate = clock.rate();
+    layout.scale = *scale, layout.offset = n.recording.offset, layout.limit = n.limit;
+    return layout;
+}
+
+Result<std::unique_ptr<ByteSource>> open_wire(const StreamWords& w, const StreamNumbers& n, const FrameLayout& layout) {
+    if (w.in == "-") return standard_input();
+    if (w.in.starts_with("serial:")) return open_serial(w.in.substr(7), w.baud);
+    const auto port = port_of(w);
+    if (!port) return port.error();
+    const SenderLimits limits{w.clients, static_cast<std::int64_t>(std::min(n.idle, 1e9) * 1e9)};
+    if (w.in.starts_with("tcp:")) return listen_on(w.listen, *port, limits);
+    if (layout.kind != FrameKind::csv && layout.bytes() > max_datagram)
+        return bad_usage(fmt::format("--in {}: a frame of {} bytes does not go into a datagram, which has at most {}; use tcp:{}{}", w.in,
+                                     layout.bytes(), max_datagram, *port, w.frames == "f64" ? ", or --frames f32" : ""));
+    return receive_datagrams(w.listen, *port, limits);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,36 @@
+#pragma once
+// Where a stream's frames come from, as the command line says it.
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "io/recording.hpp"
+#include "live/byte_source.hpp"
+#include "live/frame_layout.hpp"
+#include "signal/settings.hpp"
+#include "verbs.hpp"
+
+namespace corpuscle {
+
+/// Bytes as they come, not a recording or a stimulus: -, tcp:PORT, udp:PORT, serial:DEVICE.
+bool is_wire(const std::string& in);
+/// "standard input", "tcp:7000", "grip.csv"
+std::string name_of_input(const std::string& in);
+
+/// Quantities of the command line, in SI.
+struct StreamNumbers {
+    RecordingOptions recording;  ///< rate, scale, offset and unit hold of frames on a wire, too
+    double limit = 0, hold = 0, longest = 0, buffer = 0, idle = 0;
+};
+Result<StreamNumbers> stream_numbers(const StreamWords&);
+
+/// A recording, read as respond reads it, or a stimulus.
+Result<std::unique_ptr<Source>> open_stream_source(const StreamWords&, const StreamNumbers&, std::span<const Wish>);
+
+/// The clock of frames on a wire, and how they lie in its bytes.
+Result<Clock> wire_clock(const StreamWords&, const StreamNumbers&);
+Result<FrameLayout> wire_layout(const StreamWords&, const StreamNumbers&, std::size_t sites, const Clock&);
+Result<std::unique_ptr<ByteSource>> open_wire(const StreamWords&, const StreamNumbers&, const FrameLayout&);
+
+}  // namespace corpuscle

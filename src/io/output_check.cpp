@@ -1,0 +1,136 @@
+#include "io/output_check.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "signal/input_files.hpp"
+
+namespace corpuscle {
+namespace {
+
+enum class Standing { nothing, empty, regular, device, directory, lost_link };
+
+Standing standing_at(const std::string& path) {
+    struct ::stat facts = {};
+    if (::stat(path.c_str(), &facts) != 0) return ::lstat(path.c_str(), &facts) == 0 ? Standing::lost_link : Standing::nothing;
+    if (S_ISREG(facts.st_mode)) return facts.st_size == 0 ? Standing::empty : Standing::regular;
+    return S_ISDIR(facts.st_mode) ? Standing::directory : Standing::device;
+}
+
+/// Refuses an output that is an input; Standing tells whether there is anything to be asked further.
+Result<Standing> replaceable(const std::string& path) {
+    if (const auto input = input_at(path))
+        return bad_usage(*input == path ? fmt::format("{}: this output would replace a file that the command reads; name another", path)
+                                        : fmt::format("{}: this output would replace a file that the command reads (as {}); name another",
+                                                      path, *input == "-" ? "standard input" : *input));
+    return standing_at(path);
+}
+
+bool is_foreign(Standing standing) { return standing == Standing::regular || standing == Standing::lost_link; }
+
+/// A regular file's lock is free: the process that made it has ended.
+bool is_abandoned(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return false;
+    struct ::stat facts = {};
+    const bool abandoned = ::fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    ::close(file);
+    return abandoned;
+}
+
+/// "spikes.csv" of "spikes.csv.part-123" and "spikes.csv.part-123-2"; "": it is no part.
+std::string_view output_of_part(std::string_view name) {
+    constexpr std::string_view part = ".part-";
+    const auto at = name.rfind(part);
+    if (at == name.npos) return "";
+    const auto number = name.substr(at + part.size());
+    const bool is_number = !number.empty() && number.front() != '-' && number.find_first_not_of("0123456789-") == number.npos;
+    return is_number ? name.substr(0, at) : "";
+}
+
+void remove_dead_parts_in(const std::string& directory, const std::function<bool(std::string_view)>& is_output) {
+    struct Close {
+        void operator()(::DIR* d) const { ::closedir(d); }
+    };
+    const std::unique_ptr<::DIR, Close> open(::opendir(directory.empty() ? "." : directory.c_str()));
+    while (const auto* const entry = open ? ::readdir(open.get()) : nullptr) {
+        const std::string_view name = entry->d_name;
+        const auto output = output_of_part(name);
+        const auto path = (std::filesystem::path(directory) / name).string();
+        if (!output.empty() && is_output(output) && is_abandoned(path)) ::unlink(path.c_str());
+    }
+}
+
+}  // namespace
+
+std::string beginning_of(const std::string& path) {
+    std::string text(4096, '\0');
+    const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return "";
+    struct ::stat facts = {};
+    const auto count = ::fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) ? ::read(file, text.data(), text.size()) : 0;
+    ::close(file);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+    return text;
+}
+
+void remove_dead_parts(const std::string& path) {
+    const std::filesystem::path output(path);
+    remove_dead_parts_in(output.parent_path().string(), [&](std::string_view name) { return name == output.filename().string(); });
+}
+
+/// Two outputs of one command are two files.
+Result<void> OutputCheck::enter(const std::string& path) {
+    std::error_code status;
+    const std::filesystem::path output(path);
+    const auto above = output.parent_path();
+    auto absolute = (std::filesystem::weakly_canonical(above.empty() ? "." : above, status) / output.filename()).string();
+    if (standing_at(path) == Standing::device) return {};
+    if (std::find(outputs_.begin(), outputs_.end(), absolute) != outputs_.end())
+        return bad_usage(fmt::format("{}: two outputs of this command have this name; name another for one of them", path));
+    outputs_.push_back(std::move(absolute));
+    return {};
+}
+
+Result<void> OutputCheck::file(const std::string& path, Signature ours) {
+    if (auto ok = enter(path); !ok) return ok;
+    const auto standing = replaceable(path);
+    if (!standing) return standing.error();
+    if (is_foreign(*standing) && !overwrite_ && !ours(beginning_of(path)))
+        return bad_input("no earlier run of corpuscle wrote this file; name another, or add --overwrite to replace it", {path});
+    if (*standing != Standing::device) remove_dead_parts(path);
+    return {};
+}
+
+Result<void> OutputCheck::growing_file(const std::string& path, Signature ours) {
+    if (auto ok = file(path, ours); !ok) return ok;
+    return standing_at(path) == Standing::device ? Result<void>() : file(path + ".part", ours);
+}
+
+Result<void> OutputCheck::directory(const std::string& path, std::span<const std::string> names,
+                                    const std::function<bool(const std::string&)>& is_listed, bool (*is_output)(std::string_view),
+                                    Signature page) {
+    for (const auto& name : names) {
+        const auto output = path + "/" + name;
+        if (auto ok = enter(output); !ok) return ok;
+        const auto standing = replaceable(output);
+        if (!standing) return standing.error();
+        if (!is_foreign(*standing) || overwrite_ || is_listed(name)) continue;
+        if (name.ends_with(".html") && page(beginning_of(output))) continue;
+        return bad_input(
+            "no earlier run of corpuscle wrote this file (no summary.json beside it lists it); name another directory with --out, or "
+            "add --overwrite to replace it",
+            {output});
+    }
+    remove_dead_parts_in(path, is_output);
+    return {};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,45 @@
+#include "live/frame_misfit.hpp"
+
+#include <fmt/format.h>
+
+#include "live/frame_layout.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::string counted_noun(std::size_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+/// "a count and 4793 numbers"
+std::string contents_of(const FrameLayout& layout, std::size_t numbers) {
+    const auto values = counted_noun(numbers, "number");
+    return layout.stamp == FrameStamp::none ? values
+                                            : fmt::format("a {} and {}", layout.stamp == FrameStamp::count ? "count" : "time", values);
+}
+
+std::string wanted_frame(const FrameLayout& layout, std::string_view population) {
+    return fmt::format("'{}' has {}, and a frame is {}", population, counted_noun(layout.sites, "site"), contents_of(layout, layout.sites));
+}
+
+}  // namespace
+
+std::string text_of(const FrameMisfit& misfit, const FrameLayout& layout, std::string_view population) {
+    const std::size_t stamps = layout.stamp == FrameStamp::none ? 0 : 1;
+    switch (misfit.why) {
+        case FrameMisfit::width:
+            return fmt::format("frame {} has {}; {}", misfit.frame,
+                               misfit.found < stamps ? "nothing" : contents_of(layout, misfit.found - stamps),
+                               wanted_frame(layout, population));
+        case FrameMisfit::stamp:
+            return fmt::format("frame {} does not begin with {}; {}", misfit.frame,
+                               layout.stamp == FrameStamp::count ? "its count, a whole number" : "its time in seconds",
+                               wanted_frame(layout, population));
+        case FrameMisfit::endless:
+            return fmt::format("frame {} is a line longer than any frame; {}", misfit.frame, wanted_frame(layout, population));
+        case FrameMisfit::datagram:
+            return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", misfit.found, wanted_frame(layout, population),
+                               layout.bytes());
+    }
+    return {};
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,102 @@
+#include "signal/input_files.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace corpuscle {
+namespace {
+
+struct InputFiles {
+    std::mutex mutex;
+    std::map<std::pair<dev_t, ino_t>, std::string> paths;
+};
+
+InputFiles& input_files() {
+    static InputFiles all;
+    return all;
+}
+
+/// Device and inode of a regular file.
+std::optional<std::pair<dev_t, ino_t>> identity_of(const std::string& path) {
+    struct ::stat facts = {};
+    const bool found = path == "-" ? ::fstat(0, &facts) == 0 : ::stat(path.c_str(), &facts) == 0;
+    if (!found || !S_ISREG(facts.st_mode)) return {};
+    return std::pair{facts.st_dev, facts.st_ino};
+}
+
+std::atomic<bool (*)()> interruption = nullptr;
+
+bool is_interrupted() {
+    const auto asked = interruption.load();
+    return asked && asked();
+}
+
+constexpr int patience_ms = 100;  // from a signal that comes just before a wait until it is heard
+
+/// read(), which waits no longer than until an interruption; -1: errno, EINTR stands for one.
+ssize_t read_when_ready(int file, std::span<char> to) {
+    for (;;) {
+        if (is_interrupted()) return errno = EINTR, -1;
+        pollfd ready = {file, POLLIN, 0};
+        const int count = ::poll(&ready, 1, patience_ms);
+        if (count == 0 || (count < 0 && errno == EINTR)) continue;
+        const auto got = ::read(file, to.data(), to.size());
+        if (got >= 0 || (errno != EINTR && errno != EAGAIN)) return got;
+    }
+}
+
+}  // namespace
+
+void remember_input(const std::string& path) {
+    const auto identity = identity_of(path);
+    if (!identity) return;
+    const std::scoped_lock lock(input_files().mutex);
+    input_files().paths.try_emplace(*identity, path);
+}
+
+std::optional<std::string> input_at(const std::string& path) {
+    const auto identity = path == "-" ? std::nullopt : identity_of(path);
+    if (!identity) return {};
+    const std::scoped_lock lock(input_files().mutex);
+    const auto at = input_files().paths.find(*identity);
+    return at == input_files().paths.end() ? std::nullopt : std::optional(at->second);
+}
+
+void set_interruption(bool (*asked)()) { interruption = asked; }
+
+std::FILE* open_input(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (file < 0) return nullptr;
+    ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    remember_input(path);
+    return ::fdopen(file, "rb");
+}
+
+Result<std::size_t> read_input(std::FILE* file, std::span<char> to, const std::string& name) {
+    struct ::stat facts = {};
+    const auto error = [&] { return bad_input(std::string("cannot be read: ") + std::strerror(errno), {name}); };
+    if (::fstat(::fileno(file), &facts) == 0 && S_ISREG(facts.st_mode)) {
+        const auto got = std::fread(to.data(), 1, to.size(), file);
+        if (got < to.size() && std::ferror(file)) return error();
+        return got;
+    }
+    std::size_t filled = 0;
+    while (filled < to.size()) {
+        const auto got = read_when_ready(::fileno(file), to.subspan(filled));
+        if (got < 0 && errno == EINTR) return Error{Code::interrupted, "interrupted", {name}};
+        if (got < 0) return error();
+        if (got == 0) break;
+        filled += static_cast<std::size_t>(got);
+    }
+    return filled;
+}
+
+}  // namespace corpuscle

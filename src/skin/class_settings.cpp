@@ -1,0 +1,31 @@
+#include "skin/class_settings.hpp"
+
+#include <fmt/format.h>
+
+namespace corpuscle {
+
+Result<void> set_classes(SkinPlan& plan, std::span<const Wish> wishes) {
+    for (auto& c : plan.classes) {
+        std::vector<Row> rows;
+        for (const auto& p : *c.afferent.parameters) rows.push_back(p.row);
+        const auto settings = settings_for(c.name, rows, wishes);
+        if (!settings) return settings.error();
+        for (const auto& s : *settings)
+            for (std::size_t k = 0; k < rows.size(); ++k)
+                if (rows[k].name == s.name) c.afferent.values[k] = s.value;
+        if (auto wrong = refusal(c.afferent)) return *wrong;
+    }
+    return {};
+}
+
+Result<void> check_all_used(const SkinPlan& plan, std::span<const Wish> wishes, std::span<const std::string_view> others) {
+    std::vector<std::string_view> names(others.begin(), others.end());
+    for (const auto& c : plan.classes) names.push_back(c.name);
+    for (const auto& w : wishes)
+        if (!w.used)
+            return bad_usage(
+                fmt::format("{}: no '{}' takes part{} ({} can be set)", w.text(), w.of, did_you_mean(w.of, names), fmt::join(names, ", ")));
+    return {};
+}
+
+}  // namespace corpuscle
