@@ -327,7 +327,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     for (const auto& warning : work_warnings(*work)) warn(*job, warning);
     warn_of_rates(*job, summary);
     const auto silent = silence.found(job->copies, job->options);
-    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) fmt::print(stderr, "corpuscle: {}\n", sentence_of(s));
+    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) tell(sentence_of(s));
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     if (job->population.copies > 0) answer["copies"] = document_of(job->population);
     for (const auto& s : silent)

@@ -243,8 +243,8 @@ void tell_of_rates(SkinJob& job, const SkinSummary& summary) {
 }
 
 /// Options that change where or how the answer is written, and not the answer.
-constexpr std::string_view output_options[] = {"--checkpoint", "--out",   "--report", "--bin",  "--events",
-                                               "--npz",        "--force", "--quiet",  "--json", "--threads"};
+constexpr std::string_view output_options[] = {"--checkpoint", "--out",       "--report", "--bin",  "--events",
+                                               "--npz",        "--overwrite", "--quiet",  "--json", "--threads"};
 
 /// The checksum of a file's contents, if there is such a file.
 Result<void> add_contents(RunFingerprint& all, const std::string& what, const std::string& path) {

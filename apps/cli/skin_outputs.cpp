@@ -59,8 +59,8 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
 }
 
 Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary, OutputCheck& outputs) {
-    for (const auto& [word, said] : {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()},
-                                     std::pair{"--npz", w.npz}})
+    for (const auto& [word, said] :
+         {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}, std::pair{"--npz", w.npz}})
         if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
     directory_ = w.out;
     const auto page_path = page_of(w);

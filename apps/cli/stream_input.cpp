@@ -28,7 +28,7 @@ Result<void> check_wire_words(const StreamWords& w) {
     others.unit.reset(), others.scale.reset(), others.offset.reset(), others.layout.clear();
     const auto word = recording_word(others);
     if (word.empty()) return {};
-    const auto why = word == "--channel" ? "every number of a frame is a site's; --layout FILE says which"
+    const auto why = word == "--channel" ? "every number of a frame is a site's, in the order of the sites or of --layout"
                      : word == "--time" || word == "--time-unit"
                          ? "the time of a frame is its number over --rate; --stamp time says that each begins with its time"
                      : word == "--dataset" || word == "--skip" ? "frames have no file"

