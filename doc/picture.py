@@ -27,7 +27,8 @@ def main(corpuscle, picture, *words):
             browser.get(report.as_uri())
             browser.execute_script("""
                 const sections = [...document.querySelectorAll('#figures > section')];
-                for (const inner of sections.slice(1, -1)) inner.remove();  // currents and membranes: the report has them
+                const skin = document.querySelector('#maps') !== null;
+                for (const other of skin ? sections.slice(1, -1) : sections.slice(2)) other.remove();  // currents and membranes: the report has them
                 document.querySelector('#figures').style.padding = '0 12px';""")
             browser.execute_script("""
                 const skin = document.querySelector('#maps') !== null;  // maps and what goes on below them, in one picture

@@ -30,6 +30,9 @@ corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, si
 void corpuscle_destroy(corpuscle_skin* skin); /* NULL is nothing */
 
 size_t corpuscle_sites(const corpuscle_skin* skin);                         /* forces of a frame */
+const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site);   /* "r1c2"; site from 0; NULL: there is none */
+/* Where force `site` of a frame is felt, in metres: x to the right, y away from the wrist. 0, or -1: there is no such site. */
+int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, double* y);
 size_t corpuscle_units(const corpuscle_skin* skin);                         /* afferents */
 const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t unit); /* "sa1#17"; NULL: there is none */
 

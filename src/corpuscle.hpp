@@ -44,6 +44,12 @@ public:
         std::uint32_t address = 0;  ///< of it (doc/events.md)
     };
 
+    /// Where a force of a frame is felt; m, x to the right and y away from the wrist.
+    struct Site {
+        std::string name;  ///< "r1c2", "index.tip.17"
+        double x = 0, y = 0;
+    };
+
     /// "hand", "fingertip", "grid 8x8", a population file; or afferents by name ("sa1,fa1"), each on all of so many channels; with settings
     /// of its classes such as "sa1.f_B=25Hz". Throws Refused, and so do the rest.
     explicit LiveSkin(const std::string& population, double rate = 1e3, std::size_t channels = 1,
@@ -53,6 +59,7 @@ public:
     ~LiveSkin();
 
     std::size_t sites() const;                   ///< forces of a frame
+    Site site(std::size_t number) const;         ///< which is force `number` of a frame, from 0
     std::size_t units() const;                   ///< afferents
     std::int64_t frames() const;                 ///< answered so far
     std::string name(std::uint32_t unit) const;  ///< "sa1#17"

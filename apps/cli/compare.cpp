@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "printable.hpp"
@@ -28,6 +29,15 @@ Result<CompareOptions> options_of(const CompareWords& w) {
         *to = *value;
     }
     return options;
+}
+
+/// Spikes half a second apart are hardly the same one: a bare number is in seconds.
+void warn_of_window(const CompareOptions& options, const CompareWords& w) {
+    constexpr double longest_usual = 0.5;  // s
+    if (options.window <= longest_usual) return;
+    const bool bare = w.window.find_first_not_of("+0123456789.eE") == std::string::npos;
+    fmt::print(stderr, "corpuscle: warning: --window {} matches spikes up to {} apart{}\n", w.window, format_quantity(options.window, "s"),
+               bare ? fmt::format("; for milliseconds write --window {}ms", w.window) : "");
 }
 
 Json document_of(const Difference& d) {
@@ -88,9 +98,16 @@ Result<void> run(const CompareWords& w, const Common& common) {
     if (w.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
     if (w.files.size() == 1 && w.pairs.empty())
         return bad_usage(fmt::format("compare {}: with what? Name a second file, or two trains of this one: --pair sa1=fa1", w.files[0]));
-    const auto a = read_spikes(w.files.front());
+    warn_of_window(*options, w);
+    const SpikeColumns columns{w.time, w.unit};
+    auto a = read_spikes(w.files.front(), columns);
+    auto b = w.files.size() == 1 ? a : read_spikes(w.files.back(), columns);
+    // Columns are named for the file that has them; the other's are called as usual.
+    if (!a && b && w.files.size() == 2 && (w.time || w.unit))
+        if (auto usual = read_spikes(w.files.front())) a = std::move(usual);
+    if (a && !b && (w.time || w.unit))
+        if (auto usual = read_spikes(w.files.back())) b = std::move(usual);
     if (!a) return a.error();
-    const auto b = w.files.size() == 1 ? a : read_spikes(w.files.back());
     if (!b) return b.error();
     const auto pairs = pair_trains(*a, *b, *options);
     if (!pairs) return pairs.error();

@@ -25,6 +25,7 @@ void CurveFiles::next(const Variant& variant) {
 }
 
 Result<void> CurveFiles::whole(std::span<const Plot> plots) {
+    has_whole_ = true;
     if (csv_) {
         for (const auto& plot : plots)
             if (auto ok = table(plot, plots.size()); !ok) return ok;
@@ -60,7 +61,8 @@ Result<void> CurveFiles::begin(const Plot& head) {
 Result<void> CurveFiles::point(std::span<const double> row) {
     if (csv_ && several_) rows_ += label_ + ",";
     csv_ ? append_csv_row(rows_, row) : append_raw_point(rows_, points_, row, !words_.ascii);
-    ++points_, time_ = row[0], streamed_ = true;
+    ++points_, time_ = row[0];
+    streamed_ = streamed_ || points_ > 1;
     return rows_.size() >= block || Clock::now() - written_ > longest_wait ? write_out() : Result<void>();
 }
 
@@ -80,12 +82,14 @@ Result<void> CurveFiles::end() {
 Result<void> CurveFiles::finish() {
     for (auto& file : files_)
         if (auto ok = file.commit(); !ok) return ok;
+    const bool written = !files_.empty();
     files_.clear();
-    return {};
+    return written ? sync_directory_of(words_.out) : Result<void>();
 }
 
 Result<std::string> CurveFiles::finish_early(bool interrupted) {
-    if (files_.empty() || !(streamed_ || interrupted)) return std::string();
+    if (!streamed_ && !(interrupted && has_whole_)) files_.clear();  // what stood there before stays
+    if (files_.empty()) return std::string();
     const bool within = file_ != nullptr;
     const auto remark = fmt::format("{} ends early{}{}", within ? file_->path() : words_.out, label_.empty() ? "" : ", in " + label_,
                                     within ? ", at " + format_quantity(written_to_, "s") : "");

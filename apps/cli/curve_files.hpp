@@ -28,7 +28,8 @@ class CurveFiles final : public circuit::CurveSink {
     std::size_t points_ = 0, count_at_ = 0;
     double time_ = 0, written_to_ = 0;  // of the newest point; of the last that is in the file
     Clock::time_point written_;
-    bool streamed_ = false;  // there is one
+    bool streamed_ = false;   // a transient has come beyond its first point
+    bool has_whole_ = false;  // some analysis was whole
 
     Result<void> write_out();
     Result<void> table(const circuit::Plot&, std::size_t count);

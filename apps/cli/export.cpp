@@ -5,25 +5,18 @@
 
 #include "circuit/carried.hpp"
 #include "circuit/export/ngspice.hpp"
-#include "io/output.hpp"
 #include "io/output_check.hpp"
 #include "own_files.hpp"
 #include "printable.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
 namespace {
 
 using namespace circuit;
 using Json = nlohmann::ordered_json;
-
-Result<void> write_file(const std::string& path, const std::string& text) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    if (auto ok = file->write(text); !ok) return ok;
-    return file->commit();
-}
 
 Json document_of(const NgspiceDeck& deck, const std::vector<Error>& remarks) {
     Json warnings = Json::array();
@@ -44,7 +37,7 @@ Result<void> export_netlist(const ExportWords& words, const Common& common) {
     if (!deck) return deck.error();
     remarks.insert(remarks.end(), deck->left_out.begin(), deck->left_out.end());
     if (!words.out.empty())
-        if (auto ok = write_file(words.out, deck->text); !ok) return ok;
+        if (auto ok = write_whole(words.out, deck->text); !ok) return ok;
     for (const auto& r : remarks) tell_warning(r.text());
     if (common.json)
         fmt::print("{}\n", json_text(document_of(*deck, remarks)));

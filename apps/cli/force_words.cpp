@@ -1,11 +1,20 @@
 #include "force_words.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <filesystem>
 
 #include "signal/stimuli.hpp"
+#include "skin/contact/contact.hpp"
 
 namespace corpuscle {
+
+bool is_force(const std::string& word) {
+    const auto touches = named_touches();
+    std::error_code status;
+    return is_stimulus(word) || word == "-" || std::filesystem::exists(word, status) ||
+           std::any_of(touches.begin(), touches.end(), [&](const NamedTouch& t) { return t.name == word; });
+}
 
 Result<std::unique_ptr<Source>> open_force(const std::string& force, const RecordingOptions& options, std::span<const Wish> wishes,
                                            double rate, std::uint64_t seed) {

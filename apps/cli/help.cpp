@@ -43,14 +43,34 @@ std::string entry(const std::string& name, const std::string& sentence, std::siz
     return wrapped(head, 4) + wrapped(std::string(width, ' ') + sentence, width);
 }
 
-/// An example with its remark; too long for one line, the remark goes first, on a line of its own.
+/// A command on several lines, as a shell takes it; not broken within quotes.
+std::string continued(std::string_view command) {
+    std::string out;
+    constexpr std::size_t room = widest - 2;  // for the backslash
+    for (std::string indent = "  "; columns_of(command) + indent.size() > widest; indent = "      ") {
+        std::size_t end = command.npos;
+        bool quoted = false;
+        for (std::size_t k = 0; k < command.size() && k + indent.size() <= room; ++k) {
+            quoted ^= command[k] == '\'' || command[k] == '"';
+            if (command[k] == ' ' && !quoted) end = k;
+        }
+        if (end == command.npos) break;
+        out += fmt::format("{}{} \\\n", indent, command.substr(0, end));
+        command.remove_prefix(end + 1);
+    }
+    return fmt::format("{}{}{}\n", out, out.empty() ? "  " : "      ", command);
+}
+
+/// An example with its remark, which goes below a long one.
 std::string example(std::string_view line) {
+    constexpr std::string_view gap = "   ";
     const auto begin = line.find_first_not_of(' ');
     if (columns_of(line) <= widest || begin == line.npos) return std::string(line) + "\n";
-    const auto gap = line.find("   ", begin);
-    if (gap == line.npos) return std::string(line) + "\n";
-    const auto remark = line.substr(line.find_first_not_of(' ', gap));
-    return fmt::format("  {}:\n    {}\n", remark, line.substr(begin, gap - begin));
+    const auto end = line.find(gap, begin);
+    if (end == line.npos) return continued(line.substr(begin));
+    const auto command = line.substr(begin, end - begin), remark = line.substr(line.find_first_not_of(' ', end));
+    if (2 + columns_of(command) + gap.size() + columns_of(remark) <= widest) return fmt::format("  {}{}{}\n", command, gap, remark);
+    return fmt::format("{}      {}\n", continued(command), remark);
 }
 
 /// The footer's paragraphs that begin with "Examples:" or so, and all others.
@@ -87,6 +107,7 @@ std::string Help::make_help(const CLI::App* app, std::string name, CLI::AppForma
     if (!examples.empty()) out += "\n" + examples;
     out += make_positionals(app) + make_groups(app, mode) + make_subcommands(app, mode);
     if (!prose.empty()) out += "\n" + prose;
+    for (std::size_t at = 0; (at = out.find("\n\n\n", at)) != out.npos;) out.erase(at, 1);
     return out;
 }
 
@@ -104,7 +125,8 @@ std::string unknown_verb(const CLI::App& app, const std::vector<std::string>& wo
     for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());
     if (std::find(names.begin(), names.end(), words[0]) != names.end()) return "";
     const std::vector<std::string_view> known(names.begin(), names.end());
-    return fmt::format("there is no verb '{}'{}; there are {}", words[0], did_you_mean(words[0], known), fmt::join(names, ", "));
+    const auto hint = did_you_mean(words[0], known);
+    return fmt::format("there is no verb '{}'{}", words[0], hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint);
 }
 
 }  // namespace corpuscle

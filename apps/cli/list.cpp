@@ -173,6 +173,12 @@ Json document_of(const Entry& e) {
 }  // namespace
 
 int list(const ListWords& words, const Common& common) {
+    if (words.sites) {
+        const auto sites = sites_listing(words.what, common.json);
+        if (!sites) return fail(sites.error());
+        fmt::print("{}", *sites);
+        return 0;
+    }
     const auto sections = chosen(words.what);
     if (!sections) return fail(sections.error());
     if (common.json) {

@@ -29,4 +29,7 @@ struct Section {
 /// Populations, and what can press on them.
 std::vector<Section> skin_sections();
 
+/// The sites of one population, in the order that frames have them: CSV that a population file takes as its list, or JSON.
+Result<std::string> sites_listing(const std::vector<std::string>& populations, bool json);
+
 }  // namespace corpuscle

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "io/spikes.hpp"
 #include "list_entry.hpp"
 #include "signal/quantity.hpp"
 #include "skin/contact/contact.hpp"
@@ -100,6 +102,27 @@ std::vector<Entry> contact_entries() {
 }
 
 }  // namespace
+
+Result<std::string> sites_listing(const std::vector<std::string>& populations, bool json) {
+    if (populations.size() != 1)
+        return bad_usage(
+            fmt::format("list --sites takes one population, such as 'corpuscle list hand --sites', not {}", populations.size()));
+    const auto plan = plan_skin(populations[0]);
+    if (!plan) return plan.error();
+    const auto& sites = plan->sites;
+    if (json) {
+        nlohmann::ordered_json out = {{"population", plan->name}, {"site_area_m2", sites.area}, {"sites", nlohmann::ordered_json::array()}};
+        for (std::size_t s = 0; s < sites.size(); ++s)
+            out["sites"].push_back(
+                {{"name", sites.names[s]}, {"x_m", sites.at[s].x}, {"y_m", sites.at[s].y}, {"region", sites.regions[sites.region[s]]}});
+        return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    }
+    std::string out = "name,x_mm,y_mm,region\n";
+    for (std::size_t s = 0; s < sites.size(); ++s)
+        out += fmt::format("{},{:.10g},{:.10g},{}\n", csv_field(sites.names[s]), 1e3 * sites.at[s].x, 1e3 * sites.at[s].y,
+                           csv_field(sites.regions[sites.region[s]]));
+    return out;
+}
 
 std::vector<Section> skin_sections() {
     std::vector<Entry> skins;

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "circuit/analyses.hpp"
+#include "force_words.hpp"
 #include "help.hpp"
 #include "model/spread.hpp"
 #include "signal/version.hpp"
@@ -49,6 +50,7 @@ set: a .param, an array, any number of a device. 'corpuscle list' shows them all
 
 Examples:
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
+  corpuscle respond press --json                           one document, with the time of every spike
   corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
   corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
   corpuscle respond press --afferent sa1,sa1-circuit --corner ss --temp 85 --supply 0.65V
@@ -64,8 +66,9 @@ times S is newtons. Its clock is its time column (name it with --time), or --rat
 
 constexpr const char* compare_examples =
     R"(A is the reference: a spike of A without a match in B is missing, one of B without a match in A is extra. Files are
-spikes.csv or spikes.npz of 'corpuscle respond', or any CSV with a header that has a column time_s and, to tell trains
-apart, a column unit (or afferent, channel). Trains that are called the same are compared. A NAME is that of an afferent
+spikes.csv or spikes.npz of 'corpuscle respond', any CSV or JSON lines with a column time_s and, to tell trains apart, a
+column unit (or afferent, channel, cluster ...; --time and --unit name others), or a lone list of times in seconds (.txt,
+.npy). Trains that are called the same are compared, and so are two lone ones. A NAME is that of an afferent
 or unit, that of a channel, or both: sa1,fz.
 
 Examples:
@@ -158,8 +161,10 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     add_common(verb, common);
     verb.callback([&w, report] {
         w.report = report->count() > 0;
+        if (w.report_file.empty() || w.report_file.ends_with(".html")) return;
         // "--report press": the word is no page, so it is one of the forces.
-        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) w.forces.push_back(std::exchange(w.report_file, ""));
+        if (!is_force(w.report_file)) throw CLI::ValidationError(page_name_needed(w.report_file));
+        w.forces.push_back(std::exchange(w.report_file, ""));
     });
 }
 
@@ -171,6 +176,8 @@ void add_compare(CLI::App& app, CompareWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("A-NAME=B-NAME");
     verb.add_flag("--by-order", w.by_order, "whatever they are called: the first train of A with the first of B, and so on");
+    verb.add_option("--time", w.time, "the column of times, by name or number, where it is called otherwise")->type_name("COLUMN");
+    verb.add_option("--unit", w.unit, "the column that tells trains apart, by name or number")->type_name("COLUMN");
     verb.add_option("--window", w.window, "spikes closer than this may match")->capture_default_str()->type_name("TIME");
     verb.add_option("--cost", w.cost, "of the Victor-Purpura distance: of moving a spike, per second")
         ->capture_default_str()
@@ -191,6 +198,9 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
     verb.add_option("NAME", w.names, "which studies (default: all)");
     verb.add_option("--report", w.report_file, "write a page to look at: figures to zoom into, what was printed beside what was made")
         ->type_name("FILE.html");
+    verb.callback([&w] {
+        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
+    });
     verb.add_option("--markdown", w.markdown_file, "write all numbers as text")->type_name("FILE.md");
     add_common(verb, common);
 }
@@ -198,7 +208,7 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
 void add_run(CLI::App& app, RunWords& w, Common& common) {
     auto& verb = *app.add_subcommand("run", "the analyses written in a netlist -> .raw, CSV, printed measures");
     std::string known;
-    for (const auto& a : circuit::analyses) known += fmt::format("\n  {:72} {}", a.usage, a.sentence);
+    for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.sentence);
     verb.footer(
         "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include, .lib, .options ... and "
         "what\n"
@@ -230,10 +240,21 @@ void add_export(CLI::App& app, ExportWords& w, Common& common) {
 
 void add_list(CLI::App& app, ListWords& w, Common& common) {
     auto& verb = *app.add_subcommand("list", "everything the catalogues hold, each parameter with default, unit, range and sentence");
-    verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press");
+    verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites");
     verb.add_option("WHAT", w.what,
                     "afferents, sensors, transducers, converters, transductions, neurons, stimuli, measures, formats, or names of any");
+    verb.add_flag("--sites", w.sites,
+                  "of a population (hand, 'grid 4x4', own.toml): its sites in the order of a frame, as CSV: name, x_mm, y_mm, region");
     add_common(verb, common);
+}
+
+/// The options that were given to the verb.
+std::vector<TypedOption> typed_options(const CLI::App& app) {
+    std::vector<TypedOption> out;
+    for (const auto* verb : app.get_subcommands())
+        for (const auto* option : verb->get_options())
+            if (option->count() > 0) out.push_back({option->get_name(), option->results()});
+    return out;
 }
 
 }  // namespace
@@ -280,6 +301,7 @@ int main(int argc, char** argv) {
         if (const auto error = unknown_verb(app, words); !error.empty()) return fail(bad_usage(error));
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
         app.parse(std::move(words));
+        common.typed = typed_options(app);
         status = run_verb();
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) {
@@ -294,7 +316,9 @@ int main(int argc, char** argv) {
         if (interrupted()) return fail({Code::interrupted, "interrupted"});
         const auto done = finish_output();
         return fail(done ? bad_input("standard output cannot be written to the end") : done.error());
-    } catch (const std::exception& e) {  // no memory
+    } catch (const std::bad_alloc&) {
+        return fail(bad_input("there is not enough memory for this; take fewer afferents, sites or samples at a time"));
+    } catch (const std::exception& e) {
         return fail(bad_input(e.what()));
     }
     const auto done = finish_output();

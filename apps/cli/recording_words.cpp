@@ -87,22 +87,14 @@ Result<RecordingOptions> recording_options(const RecordingWords& w) {
 }
 
 std::string_view recording_word(const RecordingWords& w) {
-    const std::pair<std::string_view, bool> words[] = {{"--channel", !w.channels.empty()},
-                                                       {"--dataset", w.dataset.has_value()},
-                                                       {"--skip", w.skip.has_value()},
-                                                       {"--time", w.time.has_value()},
-                                                       {"--time-unit", w.time_unit.has_value()},
-                                                       {"--unit", w.unit.has_value()},
-                                                       {"--scale", w.scale.has_value()},
-                                                       {"--abs", w.absolute},
-                                                       {"--resample", w.resample.has_value()},
-                                                       {"--offset", w.offset.has_value()},
-                                                       {"--range", w.range.has_value()},
-                                                       {"--bad-fields", w.bad_fields.has_value()},
-                                                       {"--despike", w.despike.has_value()},
-                                                       {"--notch", !w.notch.empty()},
-                                                       {"--lowpass", w.lowpass.has_value()},
-                                                       {"--layout", !w.layout.empty()}};
+    const std::pair<std::string_view, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()},
+                                                       {"--skip", w.skip.has_value()},           {"--time", w.time.has_value()},
+                                                       {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
+                                                       {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
+                                                       {"--resample", w.resample.has_value()},   {"--offset", w.offset.has_value()},
+                                                       {"--range", w.range.has_value()},         {"--bad-fields", w.bad_fields.has_value()},
+                                                       {"--despike", w.despike.has_value()},     {"--notch", !w.notch.empty()},
+                                                       {"--lowpass", w.lowpass.has_value()},     {"--layout", !w.layout.empty()}};
     for (const auto& [word, given] : words)
         if (given) return word;
     return "";

@@ -17,6 +17,8 @@
 #include "signal/quantity.hpp"
 #include "signal/text.hpp"
 #include "study/afferents.hpp"
+#include "study/nerve_limit.hpp"
+#include "study/silence.hpp"
 #include "study/summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -237,6 +239,19 @@ void print_quality(Job& job, const Summary& summary, bool quiet) {
     }
 }
 
+/// Rates that no nerve has, of each afferent on the channel where it is fastest.
+void warn_of_rates(Job& job, const Summary& summary) {
+    constexpr auto peak = place_of_measure<PeakRate>;
+    for (const auto& plan : job.afferents) {
+        const RateRow* fastest = nullptr;
+        double rate = nerve_limit;
+        for (const auto& row : summary.rows())
+            if (const double r = row.over.empty() ? row.values[peak] : row.over[peak].greatest; row.afferent == plan.name && r > rate)
+                fastest = &row, rate = r;
+        if (fastest) warn(job, fmt::format("{}: on {} {}", plan.name, fastest->channel, rate_sentence(rate, plan, plan.name)));
+    }
+}
+
 /// Netlists on their channels.
 std::size_t netlists(const Job& job) {
     std::size_t all = 0;
@@ -244,6 +259,28 @@ std::size_t netlists(const Job& job) {
         for (const auto& a : job.copies) all += a.design ? s->channels().size() : 0;
     return all;
 }
+
+/// The spikes of every unit, for the document on standard output.
+class SpikeTimes final : public Listener {
+    nlohmann::ordered_json units_ = nlohmann::ordered_json::array();
+    std::size_t first_ = 0;
+
+public:
+    Result<void> begin(const Input& input) override {
+        first_ = units_.size();
+        for (std::size_t u = 0; u < input.units(); ++u)
+            units_.push_back({{"afferent", input.afferent_of(u).name},
+                              {"channel", input.channel_name(input.channel_of(u))},
+                              {"times_s", nlohmann::ordered_json::array()}});
+        return {};
+    }
+    Result<void> block(const Input& input, const Answered& answered) override {
+        for (const auto& s : answered.spikes)
+            units_[first_ + s.unit - input.first_unit]["times_s"].push_back(input.source.clock().time(s.step, s.offset));
+        return {};
+    }
+    const nlohmann::ordered_json& document() const { return units_; }
+};
 
 /// Files of which there is one an input, an afferent or a channel.
 std::vector<std::string> later_names(const Job& job, const RespondWords& w) {
@@ -275,8 +312,11 @@ Result<void> run(const RespondWords& w, const Common& common) {
     Pool pool(w.threads);
     job->options.pool = &pool;
     Summary summary;
-    std::vector<Listener*> listeners = {&summary};
+    Silence silence;
+    std::vector<Listener*> listeners = {&summary, &silence};
     outputs.listen(listeners);
+    SpikeTimes times;
+    if (common.json) listeners.push_back(&times);
     Result<Work> work = [&] {
         Progress progress(common.quiet);
         job->options.keep_on = [&](double share) { return progress.at(share), !interrupted(); };
@@ -285,14 +325,22 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (!work) return work.error();
     print_quality(*job, summary, common.quiet);
     for (const auto& warning : work_warnings(*work)) warn(*job, warning);
+    warn_of_rates(*job, summary);
+    const auto silent = silence.found(job->copies, job->options);
+    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) fmt::print(stderr, "corpuscle: {}\n", sentence_of(s));
     auto answer = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     if (job->population.copies > 0) answer["copies"] = document_of(job->population);
+    for (const auto& s : silent)
+        answer["silent"].push_back({{"afferent", s.name},
+                                    {"force_max_N", s.force},
+                                    {"factor_to_fire", s.factor ? nlohmann::ordered_json(*s.factor) : nlohmann::ordered_json(nullptr)}});
     const auto costs = answer.value("costs", nlohmann::ordered_json::array());
     answer["files"] = outputs.names();
     const auto document = json_text(answer) + "\n";
     if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command, costs); !ok) return ok;
+    if (common.json) answer["spikes"] = times.document();
     if (common.json)
-        fmt::print("{}", document);
+        fmt::print("{}\n", json_text(answer));
     else if (!common.quiet)
         show(inputs_table(summary) + copies_line(job->population) + rate_table(summary) + versions_table(summary.comparisons()) +
              outputs.told());

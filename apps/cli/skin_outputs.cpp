@@ -7,6 +7,7 @@
 #include "signal/text.hpp"
 #include "study/skin_bins_file.hpp"
 #include "study/skin_events_file.hpp"
+#include "study/skin_npz_file.hpp"
 #include "study/skin_spikes_file.hpp"
 #include "study/skin_units_file.hpp"
 #include "study/stale.hpp"
@@ -41,11 +42,14 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
     }
     const auto spikes = w.events.empty() ? std::string("spikes.csv") : fmt::format("spikes{}", format->extension);
     std::vector<std::string> names = {spikes, "units.csv", "summary.json"};
+    if (w.npz) names.emplace_back("spikes.npz");
     if (*bin) names.emplace_back("psth.csv");
     if (auto ok = check_outputs(w.out, std::move(names), page, w.checkpoint, outputs); !ok) return ok;
     auto ok = w.events.empty() ? add<SkinSpikesFile>(spikes) : add<SkinEventsFile>(spikes, w.events);
     if (!ok) return ok;
     if (ok = add<SkinUnitsFile>("units.csv", std::cref(summary)); !ok) return ok;
+    if (w.npz)
+        if (ok = add<SkinNpzFile>("spikes.npz"); !ok) return ok;
     if (*bin)
         if (ok = add<SkinBinsFile>("psth.csv", **bin); !ok) return ok;
     auto file = OutputFile::create(directory_ + "/summary.json");
@@ -55,7 +59,8 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
 }
 
 Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary, OutputCheck& outputs) {
-    for (const auto& [word, said] : {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}})
+    for (const auto& [word, said] : {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()},
+                                     std::pair{"--npz", w.npz}})
         if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
     directory_ = w.out;
     const auto page_path = page_of(w);

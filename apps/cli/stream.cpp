@@ -9,13 +9,16 @@
 
 #include "io/output_check.hpp"
 #include "live/live_population.hpp"
+#include "live/placed_frames.hpp"
 #include "live/stream_state.hpp"
 #include "own_files.hpp"
 #include "printable.hpp"
 #include "signal/input_files.hpp"
 #include "skin/class_settings.hpp"
+#include "skin/site_map.hpp"
 #include "stream_input.hpp"
 #include "stream_told.hpp"
+#include "study/skin_run.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -54,10 +57,10 @@ class LiveRun {
         const auto plan = plan_of(words_, channels, wishes);
         if (!plan) return plan.error();
         if (auto ok = open_skin(*plan, (*source)->clock()); !ok) return ok;
-        if (skin_->sites() != channels.size())
-            return bad_input(fmt::format("{} has {} channels, {} has {} sites", words_.in, channels.size(), plan->name, skin_->sites()));
+        auto sites = sites_of(*plan, **source);
+        if (!sites) return sites.error();
         source_ = source->get();
-        frames_ = frames_of(std::move(*source), words_.pace == "real");
+        frames_ = placed_frames(frames_of(std::move(*source), words_.pace == "real"), std::move(*sites), skin_->sites());
         return {};
     }
 
@@ -67,13 +70,20 @@ class LiveRun {
         const auto plan = plan_of(words_, {}, wishes);
         if (!plan) return plan.error();
         if (auto ok = open_skin(*plan, *clock); !ok) return ok;
-        const auto layout = wire_layout(words_, n, skin_->sites(), *clock);
+        std::vector<std::uint32_t> sites;  // of each number of a frame; none: all, in order
+        if (!words_.layout.empty()) {
+            auto map = read_site_map(words_.layout, plan->sites);
+            if (!map) return map.error();
+            sites = std::move(*map);
+        }
+        const auto layout = wire_layout(words_, n, sites.empty() ? skin_->sites() : sites.size(), *clock);
         if (!layout) return layout.error();
         auto bytes = open_wire(words_, n, *layout);
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
         layout_ = *layout;
         frames_ = frames_of(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.longest), words_.together);
+        if (!sites.empty()) frames_ = placed_frames(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
 
@@ -188,7 +198,7 @@ class LiveRun {
         drawn_ = true;
     }
 
-    void tell_end() {
+    void print_summary() {
         clear_status();
         if (common_.json) fmt::print("{}\n", json_text(stream_document(facts())));
         if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", printable_lines(stream_summary(facts())));
@@ -238,7 +248,7 @@ public:
         if (is_wire(words_.in) && words_.in != "-") print(frames_->sentence());
         auto ended = loop_->run();
         print_quality();
-        tell_end();
+        print_summary();
         if (auto ok = put_by(); ended && !ok) return ok;
         if (ended && interrupted()) return stopped;
         if (ended) ended = check_frames();

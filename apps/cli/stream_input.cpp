@@ -25,10 +25,10 @@ Result<double> required_quantity(const std::string& text, std::string_view unit,
 /// The options of recordings that frames on a wire do not have, and why.
 Result<void> check_wire_words(const StreamWords& w) {
     RecordingWords others = w;
-    others.unit.reset(), others.scale.reset(), others.offset.reset();
+    others.unit.reset(), others.scale.reset(), others.offset.reset(), others.layout.clear();
     const auto word = recording_word(others);
     if (word.empty()) return {};
-    const auto why = word == "--channel" || word == "--layout" ? "every number of a frame is a site's, in the order of the sites"
+    const auto why = word == "--channel" ? "every number of a frame is a site's; --layout FILE says which"
                      : word == "--time" || word == "--time-unit"
                          ? "the time of a frame is its number over --rate; --stamp time says that each begins with its time"
                      : word == "--dataset" || word == "--skip" ? "frames have no file"

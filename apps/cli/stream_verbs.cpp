@@ -113,7 +113,7 @@ void StreamVerb::add_to(CLI::App& app, Common& common) {
     verb.footer(stream_examples);
     verb.add_option("--population,-p", w.population, "what answers")->capture_default_str()->type_name("POPULATION");
     verb.add_option("--channels,-n", w.count, "of afferents by name: how many forces a frame has")
-        ->check(CLI::Range(1, 1 << 24))
+        ->check(CLI::Range(1, 1 << 22))
         ->capture_default_str()
         ->type_name("N");
     verb.add_option("--set,-s", w.settings, "a parameter, of an afferent, a population's class or a stimulus, with its unit")

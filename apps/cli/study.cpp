@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "io/output.hpp"
 #include "io/output_check.hpp"
 #include "own_files.hpp"
 #include "report/study_page.hpp"
@@ -16,6 +15,7 @@
 #include "study/study_document.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
 namespace {
@@ -73,13 +73,6 @@ std::string recordings() {
     return set && *set ? set : "../shared/data";
 }
 
-Result<void> write(const std::string& path, const std::string& text) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    if (auto ok = file->write(text); !ok) return ok;
-    return file->commit();
-}
-
 Result<void> run(const StudyWords& words, const Common& common) {
     const auto all = chosen(words.names.empty() ? std::vector<std::string>{"all"} : words.names);
     if (!all) return all.error();
@@ -95,9 +88,9 @@ Result<void> run(const StudyWords& words, const Common& common) {
     }();
     if (!outcomes) return outcomes.error();
     if (!words.report_file.empty())
-        if (auto ok = write(words.report_file, study_page(*all, *outcomes, common.command)); !ok) return ok;
+        if (auto ok = write_whole(words.report_file, study_page(*all, *outcomes, common.command)); !ok) return ok;
     if (!words.markdown_file.empty())
-        if (auto ok = write(words.markdown_file, markdown_of(*all, *outcomes)); !ok) return ok;
+        if (auto ok = write_whole(words.markdown_file, markdown_of(*all, *outcomes)); !ok) return ok;
     if (common.json) {
         auto document = nlohmann::ordered_json::array();
         for (std::size_t k = 0; k < all->size(); ++k) document.push_back(document_of(*(*all)[k], (*outcomes)[k]));

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/output.hpp"
 #include "io/output_check.hpp"
 #include "printable.hpp"
 #include "report/sweep_page.hpp"
@@ -15,6 +14,7 @@
 #include "sweep_tables.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "written.hpp"
 
 namespace corpuscle {
 namespace {
@@ -30,13 +30,6 @@ Result<SweepQuestion> question_of(const SweepShowWords& words) {
     std::sort(out.quantiles.begin(), out.quantiles.end());
     out.quantiles.erase(std::unique(out.quantiles.begin(), out.quantiles.end()), out.quantiles.end());
     return out;
-}
-
-Result<void> write_page(const std::string& path, const std::string& text) {
-    auto file = OutputFile::create(path);
-    if (!file) return file.error();
-    if (auto ok = file->write(text); !ok) return ok;
-    return file->commit();
 }
 
 Result<void> run(const SweepShowWords& words, const Common& common) {
@@ -63,7 +56,7 @@ Result<void> run(const SweepShowWords& words, const Common& common) {
     if (!words.report_file.empty()) {
         const auto page = sweep_page(*results, *table, *summary, title, common.command);
         if (!page) return page.error();
-        if (auto ok = write_page(words.report_file, *page); !ok) return ok;
+        if (auto ok = write_whole(words.report_file, *page); !ok) return ok;
     }
     if (common.json)
         fmt::print("{}\n", json_text(document_of(*table, *summary, title)));

@@ -172,17 +172,109 @@ std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
     return text;
 }
 
-/// The quantiles that were asked for, with their intervals.
+/// "a grid of press.F_max (8) by sa1.f_B (4); nothing is drawn".
+std::string grid_opening(const SweepTable& from) {
+    std::string axes;
+    for (std::size_t a = 0; a < from.axes.size(); ++a)
+        axes += fmt::format("{}{} ({} value{})", a == 0 ? "" : " by ", from.axes[a].name, from.points[a].size(),
+                            from.points[a].size() == 1 ? "" : "s");
+    return fmt::format("A grid of {}; nothing is drawn by chance, so these are all there is.\n", axes);
+}
+
+std::string grid_yields(const SweepTable& from, const SweepSummary& s) {
+    if (s.all.passed == s.all.units) return "";
+    Rows rows = {{"yield", "limits", "passed", "of", "%"}};
+    const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, double share) {
+        rows.push_back({name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.units), percent(share)});
+    };
+    line(from.has_limits() ? "all limits" : "ended", "", s.all.passed, s.all.yield.value);
+    for (std::size_t m = 0; m < from.measures.size(); ++m)
+        if (const auto& own = s.all.measures[m].yield)
+            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.units)),
+                 own->value);
+    return "\n" + table(rows);
+}
+
+/// The row at which a measure is this; of several the first.
+std::string where_it_is(const SweepTable& from, std::size_t measure, double value) {
+    const auto& values = from.measure_values[measure];
+    const auto at = std::find(values.begin(), values.end(), value);
+    return at == values.end() ? "-" : point_label(from, static_cast<std::size_t>(at - values.begin()));
+}
+
+std::string grid_measures(const SweepTable& from, const SweepSummary& s) {
+    Rows rows = {{"measure", "units", "least", "at", "most", "at", "mean"}};
+    for (std::size_t m = 0; m < from.measures.size(); ++m) {
+        const auto& one = s.all.measures[m];
+        const Writing shown(from.measures[m].unit, one);
+        const bool varies = one.least < one.greatest;
+        rows.push_back({named(from.measures[m], shown.unit()), fmt::format("{}", one.count), shown(one.least),
+                        varies ? where_it_is(from, m, one.least) : "all", shown(one.greatest),
+                        varies ? where_it_is(from, m, one.greatest) : "all", shown(one.mean.value)});
+    }
+    return "\n" + table(rows);
+}
+
+/// Of each measure every axis.
+std::string effects_text(const SweepTable& from, const SweepSummary& s) {
+    Rows rows = {{"measure", "axis", "share (%)", "from", "mean there", "to", "mean there"}};
+    for (std::size_t d = 0; d < s.dependences.size(); ++d) {
+        const auto& one = s.dependences[d];
+        const bool is_yield = d >= from.measures.size();
+        const Writing shown(is_yield ? "" : from.measures[d].unit, is_yield ? MeasureSummary{} : s.all.measures[d]);
+        const auto mean = [&](double x) { return is_yield ? percent(x) + " %" : shown(x); };
+        const auto name = is_yield ? one.measure : named(from.measures[d], shown.unit());
+        double rest = 1;
+        for (const auto& e : one.effects) {
+            const auto& axis = from.axes[e.axis];
+            const auto value = [&](double x) {
+                return axis.words.empty() ? format_quantity(x, axis.unit)
+                                          : axis.words[std::min(static_cast<std::size_t>(x), axis.words.size() - 1)];
+            };
+            rows.push_back({&e == &one.effects[0] ? name : "", axis.name, percent(e.share), value(from.points[e.axis].front()),
+                            mean(e.means.front()), value(from.points[e.axis].back()), mean(e.means.back())});
+            rest -= e.share;
+        }
+        if (one.effects.size() > 1 && rest >= least_told) rows.push_back({"", "jointly", percent(rest)});
+        if (one.effects.empty()) rows.push_back({name, "none: it is the same everywhere"});
+    }
+    return rows.size() == 1
+               ? ""
+               : "\nWhat each axis does: the share of the variance over the grid that lies between the means at its values\n" + table(rows);
+}
+
+std::string grid_points(const SweepTable& from, const SweepSummary& s) {
+    if (s.points.size() < 2) return "";
+    Rows rows = {{"point"}};
+    const bool limits = from.has_limits();
+    if (limits) rows[0].emplace_back("passed");
+    std::vector<Writing> shown;
+    for (std::size_t m = 0; m < from.measures.size(); ++m) {
+        shown.emplace_back(from.measures[m].unit, s.all.measures[m]);
+        rows[0].push_back(named(from.measures[m], shown.back().unit()));
+    }
+    for (const auto& p : s.points) {
+        rows.push_back({p.label});
+        if (limits) rows.back().push_back(p.units == 1 ? (p.passed ? "yes" : "no") : fmt::format("{} of {}", p.passed, p.units));
+        for (std::size_t m = 0; m < from.measures.size(); ++m)
+            rows.back().push_back(p.measures[m].count == 0 ? "-" : shown[m](p.measures[m].mean.value));
+    }
+    const bool means = std::any_of(s.points.begin(), s.points.end(), [](const PointSummary& p) { return p.units > 1; });
+    return fmt::format("\nPoint by point{}:\n{}", means ? ", means" : "", table(rows));
+}
+
+/// The quantiles that were asked for, with their intervals; a grid's have none.
 std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
     Rows rows = {{"quantile"}};
     for (std::size_t m = 0; m < from.measures.size(); ++m) {
         const Writing shown(from.measures[m].unit, s.all.measures[m]);
-        rows[0].push_back(named(from.measures[m], shown.unit())), rows[0].push_back("95 %");
+        rows[0].push_back(named(from.measures[m], shown.unit()));
+        if (!from.is_grid) rows[0].push_back("95 %");
         for (std::size_t q = 0; q < s.question.quantiles.size(); ++q) {
             if (m == 0) rows.push_back({fmt::format("{:g} %", 100 * s.question.quantiles[q])});
             const auto& all = s.all.measures[m].quantiles;
             rows[q + 1].push_back(q < all.size() ? shown(all[q].value) : "-");
-            rows[q + 1].push_back(q < all.size() ? shown.interval(all[q]) : "-");
+            if (!from.is_grid) rows[q + 1].push_back(q < all.size() ? shown.interval(all[q]) : "-");
         }
     }
     return "\n" + table(rows);
@@ -192,6 +284,11 @@ std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
 
 std::string sweep_tables(const SweepTable& from, const SweepSummary& s, const std::string& title, bool quantiles) {
     if (from.rows() == 0) return fmt::format("{}: none of {} units is finished yet.\n", title, from.units);
+    if (from.is_grid) {
+        auto text = opening(from, s, title) + grid_opening(from) + grid_yields(from, s);
+        if (!from.measures.empty()) text += grid_measures(from, s) + (quantiles ? quantiles_text(from, s) : "");
+        return text + effects_text(from, s) + grid_points(from, s);
+    }
     auto text = opening(from, s, title) + yields(from, s);
     if (!from.measures.empty()) text += measures_text(from, s) + (quantiles ? quantiles_text(from, s) : "");
     return text + points_text(from, s) + dependences_text(from, s);

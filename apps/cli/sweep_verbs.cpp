@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "signal/version.hpp"
+#include "word_groups.hpp"
 
 namespace corpuscle {
 namespace {
@@ -97,6 +98,9 @@ void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("SHARE");
     verb.add_option("--report", w.report_file, "write a page to look at")->type_name("FILE.html")->group("Output");
+    verb.callback([&w] {
+        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
+    });
     add_common(verb, common);
 }
 
@@ -135,7 +139,8 @@ void add_common(CLI::App& verb, Common& common) {
     verb.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
     verb.add_flag("--quiet,-q", common.quiet, "print no table, no progress and no remarks; warnings stay");
-    verb.add_flag("--overwrite", common.overwrite, "replace output files that no earlier run wrote; files that are read are never replaced");
+    verb.add_flag("--overwrite", common.overwrite,
+                  "replace output files that no earlier run wrote; files that are read are never replaced");
 }
 
 void SweepVerbs::add_to(CLI::App& app, Common& common) {

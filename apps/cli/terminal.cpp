@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <numeric>
+#include <sstream>
 
 #include "printable.hpp"
 #include "signal/input_files.hpp"
@@ -16,6 +20,8 @@ namespace corpuscle {
 namespace {
 
 volatile std::sig_atomic_t stop = 0;
+
+constexpr std::size_t widest_table = 100;  // columns, before its header takes several lines
 
 /// A number, or a mean with its deviation: "9.4 +- 1.1".
 bool is_number(std::string_view cell) {
@@ -27,6 +33,96 @@ bool is_number(std::string_view cell) {
 std::size_t width(const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+/// The words of a heading, and the parts of those with a hyphen: "Victor-", "Purpura".
+std::vector<std::string> pieces_of(const std::string& heading) {
+    std::vector<std::string> out;
+    std::istringstream words(heading);
+    for (std::string word; words >> word;) {
+        const auto hyphen = word.find('-', 2);
+        if (hyphen != word.npos && hyphen + 2 < word.size())
+            out.push_back(word.substr(0, hyphen + 1)), out.push_back(word.substr(hyphen + 1));
+        else
+            out.push_back(word);
+    }
+    return out;
+}
+
+/// The header of a table too wide for a terminal on several lines, a word on each where the column is narrow; gives how many.
+std::size_t narrow_header(std::vector<std::vector<std::string>>& rows) {
+    if (rows.size() < 2) return 1;
+    std::vector<std::size_t> widths(rows[0].size());
+    std::size_t all = 0;
+    for (std::size_t c = 0; c < rows[0].size(); ++c) {
+        for (std::size_t r = 1; r < rows.size(); ++r)
+            if (c < rows[r].size()) widths[c] = std::max(widths[c], width(rows[r][c]));
+        all += std::max(widths[c], width(rows[0][c])) + (c ? 2 : 0);
+    }
+    if (all <= widest_table) return 1;
+    std::vector<std::vector<std::string>> lines;
+    for (std::size_t c = 0; c < rows[0].size(); ++c) {
+        std::vector<std::string> parts;
+        for (const auto& word : pieces_of(rows[0][c])) {
+            const bool joined = !parts.empty() && parts.back().ends_with('-');
+            if (!parts.empty() && width(parts.back()) + (joined ? 0 : 1) + width(word) <= widths[c])
+                parts.back() += (joined ? "" : " ") + word;
+            else
+                parts.push_back(word);
+        }
+        while (lines.size() < parts.size()) lines.emplace_back(rows[0].size());
+        for (std::size_t k = 0; k < parts.size(); ++k) lines[k][c] = parts[k];
+    }
+    rows.erase(rows.begin());
+    rows.insert(rows.begin(), lines.begin(), lines.end());
+    return std::max<std::size_t>(lines.size(), 1);
+}
+
+/// The columns of a table in blocks that fit a terminal, one below the other; each begins with the words that name its rows.
+std::vector<std::vector<std::size_t>> blocks_of(const std::vector<std::size_t>& widths, const std::vector<bool>& numeric) {
+    const auto all_of = [](std::size_t from, std::size_t to) {
+        std::vector<std::size_t> out(to - from);
+        std::iota(out.begin(), out.end(), from);
+        return out;
+    };
+    const auto sum = [&](std::size_t from, std::size_t to) {
+        return std::accumulate(widths.begin() + static_cast<std::ptrdiff_t>(from), widths.begin() + static_cast<std::ptrdiff_t>(to),
+                               std::size_t{0}, [](std::size_t all, std::size_t w) { return all + w + 2; });
+    };
+    const auto names = static_cast<std::size_t>(std::find(numeric.begin(), numeric.end(), true) - numeric.begin());
+    if (sum(0, widths.size()) <= widest_table + 2 || sum(0, names) > widest_table / 2) return {all_of(0, widths.size())};
+    std::vector<std::vector<std::size_t>> blocks;
+    for (std::size_t c = names; c < widths.size();) {
+        auto end = c + 1;
+        while (end < widths.size() && sum(0, names) + sum(c, end + 1) <= widest_table + 2) ++end;
+        auto block = all_of(0, names);
+        for (; c < end; ++c) block.push_back(c);
+        blocks.push_back(std::move(block));
+    }
+    return blocks;
+}
+
+/// "out/x.csv" -> "x.csv"; "1/4" and "5mV/K" are no files.
+std::string base_name(const std::string& piece) {
+    if (piece.find('/') == std::string::npos) return piece;
+    const std::filesystem::path path(piece);
+    std::error_code status;
+    const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    const bool is_file = path.has_extension() || piece.starts_with('/') || piece.starts_with('.') || piece.starts_with('~') ||
+                         std::filesystem::exists(path, status) || !std::isdigit(static_cast<unsigned char>(piece[0]));
+    return is_file && !name.empty() ? name.string() : piece;
+}
+
+/// Of a word: "--layout=/home/me/pad.csv", "sa1,/home/me/x.cir".
+std::string without_directories(const std::string& word) {
+    std::string out;
+    for (std::size_t at = 0; at <= word.size();) {
+        const auto end = std::min(word.find_first_of("=,", at), word.size());
+        out += base_name(word.substr(at, end - at));
+        if (end < word.size()) out += word[end];
+        at = end + 1;
+    }
+    return out;
 }
 
 }  // namespace
@@ -69,23 +165,28 @@ std::string table(const std::vector<std::vector<std::string>>& given) {
     auto rows = given;
     for (auto& row : rows)
         for (auto& cell : row) cell = printable(cell);
+    const auto headers = narrow_header(rows);
     std::vector<std::size_t> widths;
     std::vector<bool> numeric;
     for (std::size_t r = 0; r < rows.size(); ++r)
         for (std::size_t c = 0; c < rows[r].size(); ++c) {
             if (widths.size() <= c) widths.push_back(0), numeric.push_back(true);
             widths[c] = std::max(widths[c], width(rows[r][c]));
-            if (r > 0 && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
+            if (r >= headers && !rows[r][c].empty() && !is_number(rows[r][c])) numeric[c] = false;
         }
     std::string text;
-    for (const auto& row : rows) {
-        std::string line;
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            const std::string pad(widths[c] - width(row[c]), ' ');
-            line += (c ? "  " : "") + (numeric[c] ? pad + row[c] : row[c] + pad);
+    for (const auto& block : blocks_of(widths, numeric)) {
+        text += text.empty() ? "" : "\n";
+        for (const auto& row : rows) {
+            std::string line;
+            for (const auto c : block) {
+                if (c >= row.size()) continue;
+                const std::string pad(widths[c] - width(row[c]), ' ');
+                line += (c ? "  " : "") + (numeric[c] ? pad + row[c] : row[c] + pad);
+            }
+            line.erase(line.find_last_not_of(' ') + 1);
+            text += line + "\n";
         }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
     }
     return text;
 }
@@ -113,9 +214,9 @@ std::string quoted(int argc, const char* const* argv) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     std::string text = "corpuscle";
     for (int k = 1; k < argc; ++k) {
-        const std::string_view word = argv[k];
-        if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
-            text += " " + std::string(word);
+        const auto word = without_directories(argv[k]);
+        if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+            text += " " + word;
             continue;
         }
         text += " '";

@@ -45,7 +45,7 @@ public:
     void at(double share);
 };
 
-/// The words of a command line as a shell would need them.
+/// The words of a command line as a shell would need them, files by their names alone: a page that is given away tells no directories.
 std::string quoted(int argc, const char* const* argv);
 
 }  // namespace corpuscle

@@ -8,10 +8,17 @@
 
 namespace corpuscle {
 
+/// An option as it was typed, by its long name.
+struct TypedOption {
+    std::string name;
+    std::vector<std::string> values;
+};
+
 struct Common {
     bool json = false, quiet = false;
-    bool overwrite = false;   ///< replace files that no earlier run wrote
-    std::string command;  ///< as it was typed, for the report
+    bool overwrite = false;               ///< replace files that no earlier run wrote
+    std::string command;                  ///< as it was typed, for the report
+    std::vector<TypedOption> typed = {};  ///< the verb's options, in the order of --help
 };
 
 /// What is set of every netlist that takes part, and shown of it.
@@ -113,6 +120,7 @@ struct StreamWords : RecordingWords {
 
 struct ListWords {
     std::vector<std::string> what;
+    bool sites = false;  ///< of populations
 };
 
 int respond(const RespondWords&, const Common&);

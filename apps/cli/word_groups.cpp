@@ -1,8 +1,15 @@
 #include "word_groups.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace corpuscle {
+
+std::string page_name_needed(const std::string& name) {
+    const auto dot = name.rfind('.');
+    const auto stem = dot == std::string::npos || dot == 0 || name.find('/', dot) != std::string::npos ? name : name.substr(0, dot);
+    return fmt::format("--report {}: needs a name that ends in .html, such as {}.html", name, stem);
+}
 
 void add_netlist_words(CLI::App& verb, NetlistWords& w) {
     const auto group = "Netlists";

@@ -9,6 +9,9 @@ class App;
 
 namespace corpuscle {
 
+/// The error of a page whose name is none.
+std::string page_name_needed(const std::string& name);
+
 void add_netlist_words(CLI::App&, NetlistWords&);
 /// How a recording is to be read, but for --rate, which means other things besides.
 void add_recording_words(CLI::App&, RecordingWords&);

@@ -12,7 +12,13 @@ namespace corpuscle {
 
 Result<void> put_whole(OutputFile& file, const std::string& text) {
     if (auto ok = file.write(text); !ok) return ok;
-    return file.commit();
+    if (auto ok = file.commit(); !ok) return ok;
+    return sync_directory_of(file.path());
+}
+
+Result<void> write_whole(const std::string& path, const std::string& text) {
+    auto file = OutputFile::create(path);
+    return file ? put_whole(*file, text) : file.error();
 }
 
 std::vector<std::string> names_in(const std::string& directory, const std::vector<std::string>& paths) {
@@ -42,7 +48,7 @@ Result<void> check_outputs(const std::string& directory, std::vector<std::string
     if (directory.empty()) return {};
     const auto earlier = earlier_outputs(directory);
     const auto is_listed = [&](const std::string& name) { return std::find(earlier.begin(), earlier.end(), name) != earlier.end(); };
-    return outputs.directory(directory, names, is_listed, is_own_page);
+    return outputs.directory(directory, names, is_listed, is_output_name, is_own_page);
 }
 
 std::string told_of(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {

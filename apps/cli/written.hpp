@@ -13,6 +13,7 @@ namespace corpuscle {
 
 /// All of a file at once, and in its place.
 Result<void> put_whole(OutputFile&, const std::string& text);
+Result<void> write_whole(const std::string& path, const std::string& text);
 
 /// Of some paths, the names of those that stand in this very directory.
 std::vector<std::string> names_in(const std::string& directory, const std::vector<std::string>& paths);

@@ -27,7 +27,7 @@ class FrequencyPanel extends Panel {
     }
 
     rows(a, b, width) {
-        const margin = 4 * (b - a) / width;  // marks cut by the edge are drawn too
+        const margin = 4 * devicePixels() * (b - a) / width;  // marks cut by the edge are drawn too
         const seen = this.trains.map((spikes) => [spikes.before(a - margin), Math.min(spikes.before(b + margin), spikes.count - 1)]);
         const all = seen.reduce((sum, [i, j]) => sum + Math.max(j - i, 0), 0);
         return all <= 2 * width ? this.everyMark(seen) : this.columnMarks(a, b, width);

@@ -8,6 +8,12 @@ const AXIS_FONT = 11;
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 const afferentColour = (index) => colour("series-" + index % 8);
 
+/// Pixels of the screen, or of paper, for each pixel of the page's layout.
+const devicePixels = () => (document.documentElement.classList.contains("printing") ? 2 : window.devicePixelRatio || 1);
+
+/// A telephone's screen: less room is left beside the plots.
+const isNarrow = () => document.documentElement.clientWidth < 520;
+
 /// Between two #rrggbb colours: share 0 is the first, 1 the second.
 function mixed(first, second, share) {
     const part = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
@@ -55,7 +61,7 @@ class Panel {
             dateWindow: [view.a, view.b],
             valueRange: this.range(null),
             axes: {
-                x: {ticker: (lo, hi, pixels) => timeTicks(lo, hi, pixels, this.bottom), axisLabelWidth: 90},
+                x: {ticker: (lo, hi, pixels) => timeTicks(lo, hi, pixels, this.bottom), axisLabelWidth: isNarrow() ? 52 : 90},
                 y: {ticker: (lo, hi, pixels) => this.valueTicks(lo, hi, pixels), axisLabelWidth: view.labelWidth},
             },
             underlayCallback: (context, area, chart) => {
@@ -63,7 +69,7 @@ class Panel {
                 if (area.w >= 1) this.under(context, area);  // a hidden page has no width
             },
             interactionModel: {},  // the view has its own, for all panels at once
-            pixelRatio: document.documentElement.classList.contains("printing") ? 2 : null,
+            pixelRatio: devicePixels(),
             legend: "never", pointSize: 2.2, highlightCircleSize: 0, showLabelsOnHighlight: false,
             axisLabelFontSize: AXIS_FONT, axisTickSize: 3, rightGap: view.rightRoom, xAxisHeight: this.axisHeight,
             gridLineColor: colour("grid"), gridLineWidth: 1, axisLineColor: colour("axis"), axisLineWidth: 1,
@@ -87,7 +93,7 @@ class Panel {
     /// `fit`: the vertical axis follows what is in view.
     draw(a, b, fit) {
         if (this.area.w < 1) return;
-        const rows = this.rows(a, b, this.area.w);
+        const rows = this.rows(a, b, this.area.w * devicePixels());
         this.chart.updateOptions({file: rows.length ? rows : this.empty(a, b), dateWindow: [a, b],
                                   valueRange: this.range(fit ? rows : null), drawPoints: this.dots});
         this.plot.setAttribute("aria-label", `${this.about}, from ${timeText(a, (b - a) / 1000)} to ${timeText(b, (b - a) / 1000)}`);

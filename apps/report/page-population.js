@@ -8,7 +8,7 @@ class PopulationPanel extends Panel {
     /// `rates`: [{name, color, index, bin, values}].
     constructor({rates, each = "copy", ...rest}) {
         const highest = rates.reduce((high, {values}) => values.reduce((m, v) => Math.max(m, v), high), 0);
-        const power = prefixPower(highest, "Hz");
+        const power = Math.max(0, prefixPower(highest, "Hz"));  // a nerve's rate is in Hz, however low
         super({...rest, scale: 10 ** power, title: "", bottom: true,
                series: rates.map(({name, color, index}) => ({label: name, html: escaped(name), color, width: 1.6, dash: DASHES[index % DASHES.length]}))});
         Object.assign(this, {rates, highest, each, unit: PREFIXES[power] + "Hz"});
@@ -35,6 +35,6 @@ class PopulationPanel extends Panel {
 
     read(t) {
         const k = this.binAt(t);
-        this.rates.forEach(({values}, s) => { this.values[s].textContent = k in values ? quantity(values[k], "Hz") : "–"; });
+        this.rates.forEach(({values}, s) => { this.values[s].textContent = !(k in values) ? "–" : values[k] < 1 ? `${Number(values[k].toPrecision(3))} Hz` : quantity(values[k], "Hz"); });
     }
 }

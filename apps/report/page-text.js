@@ -4,8 +4,9 @@
 const PREFIXES = {"-15": "f", "-12": "p", "-9": "n", "-6": "µ", "-3": "m", "0": "", "3": "k", "6": "M", "9": "G", "12": "T"};
 const GREEK = {tau: "τ", alpha: "α", beta: "β", gamma: "γ", delta: "δ", theta: "θ", lambda: "λ", sigma: "σ", omega: "ω"};
 
-const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
-const unitText = (unit) => (unit === "1" ? "" : unit.replace(/[oO]hm/g, "Ω"));
+const escaped = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+/// Units come from files and go into HTML: none has one of these letters.
+const unitText = (unit) => (unit === "1" ? "" : String(unit).replace(/[&<>"'`]/g, "").replace(/[oO]hm/g, "Ω"));
 
 /// The power of ten whose prefix suits a value; 0 for units that take none (m^2, %, plain numbers).
 function prefixPower(value, unit) {

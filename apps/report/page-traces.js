@@ -21,7 +21,7 @@ class TracePanel extends Panel {
         const count = (b - a) / T;
         const single = finest === 1 && count <= 2 * width;
         const column = single ? 1 : finest * Math.max(1, Math.ceil(count / (finest * width)));
-        this.dots = single && count < width / 8;
+        this.dots = single && count < width / (8 * devicePixels());
         const first = Math.max(0, Math.floor((a - t0) / T / column) - 1);
         const end = Math.min(Math.ceil(samples / column), Math.ceil((b - t0) / T / column) + 2);
         const rows = [], last = this.traces.map(() => 0);
@@ -71,7 +71,7 @@ class OverlayPanel extends TracePanel {
         if (!this.right) return;
         const {scale, color, name, trace} = this.right;
         const power = prefixPower(Math.max(...this.extent.map((v) => Math.abs(scale.from(v)))), trace.unit);
-        Object.assign(this, {rightScale: 10 ** power, rightRoom: 58});
+        Object.assign(this, {rightScale: 10 ** power, rightRoom: isNarrow() ? 38 : 58});
         const turned = scale.factor < 0 ? ", upside down" : "";
         element(this.heading, "span", "right-title", `${escaped(name)}${turned} <span class="unit">(${PREFIXES[power]}${unitText(trace.unit)})</span>`).style.color = color;
     }

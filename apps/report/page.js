@@ -23,7 +23,7 @@ function show(input, channel) {
     view.clear();
     at("figures").replaceChildren();
     labelWidth(input);
-    view.show([...forcePanels(), ...receptors.flatMap(receptorPanels), ...spikePanels()], input, keep);
+    view.show([...forcePanels(), ...spikePanels(), ...receptors.flatMap(receptorPanels)], input, keep);
     scrollTo(0, scroll);
     showChoice(input, channel);
     showRates(report.data.table, report.data.inputs, channel);
@@ -34,7 +34,7 @@ function show(input, channel) {
 function labelWidth(input) {
     const labels = lanes(input, null).map(({label}) => label);
     const longest = labels.length <= MOST_LABELS ? Math.max(0, ...labels.map((label) => label.length)) : 0;
-    view.labelWidth = Math.max(60, Math.min(130, 7 * longest));
+    view.labelWidth = isNarrow() ? Math.max(36, Math.min(90, 6 * longest + 10)) : Math.max(60, Math.min(130, 7 * longest));
     at("figures").style.setProperty("--left", view.labelWidth + 6 + "px");
 }
 

@@ -78,7 +78,8 @@ class Skin {
     constructor(data) {
         const {over, marks, sites} = data;
         Object.assign(this, {data, regions: data.regions, t0: over.t0});
-        this.classes = data.classes.map((one, index) => ({...one, index, get color() { return afferentColour(index); }}));
+        const overall = (name) => data.summary.rates.find(({afferent, region, phase}) => afferent === name && region === "all" && phase === "all");
+        this.classes = data.classes.map((one, index) => ({...one, index, active: overall(one.name).active, get color() { return afferentColour(index); }}));
         this.input = {t0: over.t0, T: over.T, samples: over.shown_samples, phases: data.summary.input.phases.map(({name, from_s, to_s}) => ({name, from: over.t0 + from_s, to: over.t0 + to_s}))};
         this.places = floats(marks.places);
         this.region = new Uint16Array(bytesOf(marks.region).buffer);

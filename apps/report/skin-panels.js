@@ -1,7 +1,8 @@
 "use strict";
 // Plots over time beneath the maps: how often each class fires, and the spikes of its units.
 
-/// Rates of classes, in bins that are as wide as about 100 of them fill the window.
+/// Rates of classes, in bins that are as wide as about 100 of them fill the window: of the units that fire at some time, for the others
+/// were not touched.
 class SkinRatePanel extends PopulationPanel {
     /// `fine`: {frames, classes}: spikes of each class in narrow bins.
     constructor({fine, ...rest}) {
@@ -9,13 +10,15 @@ class SkinRatePanel extends PopulationPanel {
         this.fine = fine;
     }
 
+    titleOf() { return titleHtml(`mean rate of the units that fire, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
+
     /// For a window of so many seconds.
     static binned({frames, classes}, input, span) {
         const join = 2 ** Math.max(0, Math.round(Math.log2(span / 100 / frames.width))), bins = Math.ceil(frames.count / join), bin = join * frames.width;
         const counts = classes.map(() => new Float64Array(bins));
         for (let f = 0; f < frames.count; ++f) frames.each(f, (c, n) => { counts[c][Math.floor(f / join)] += n; });
         const length = (k) => Math.min(bin, input.samples * input.T - k * bin) || bin;
-        return classes.map(({name, color, index, units}) => ({name, color, index, bin, values: Array.from(counts[index], (n, k) => n / units / length(k))}));
+        return classes.map(({name, color, index, active}) => ({name, color, index, bin, values: Array.from(counts[index], (n, k) => n / Math.max(1, active) / length(k))}));
     }
 
     draw(a, b, fit) {

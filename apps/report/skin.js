@@ -112,6 +112,4 @@ modeOptions();
 connect();
 draw();
 player.start();
-// The first picture: where most happens.
-const busiest = Array.from({length: skin.marks.count}, (_, f) => skin.marks.begin[f + 1] - skin.marks.begin[f]).reduce((best, n, f, all) => (n > all[best] ? f : best), 0);
-view.point(player.timeOf(busiest));
+view.point(player.timeOf(0));

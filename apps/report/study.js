@@ -12,16 +12,18 @@ function element(host, tag, kind = "", html = "") {
     return host.appendChild(made);
 }
 
-/// made, printed, deviation, allowed, as text; then the verdict, and where it is from and why.
+const NUMBERS = ["made", "printed", "deviation", "allowed"];
+
+/// made, printed, deviation, allowed, as text; then the verdict, the source and the reason. On a narrow screen each number carries its column's name.
 function claimCells({what, texts, verdict, source, note}) {
-    const told = texts.map((text) => `<td class="number">${escaped(text === "-" ? "\u2013" : text)}</td>`).join("");
-    const judged = `<td class="${{holds: "holds", agrees: "holds", differs: "fails", "does not hold": "fails"}[verdict] || ""}">${verdict}</td>`;
-    return `<td>${escaped(what)}</td>${told}${judged}<td class="unit">${escaped([source, note].filter(Boolean).join("; "))}</td>`;
+    const numbers = texts.map((text, k) => `<td class="number" data-column="${NUMBERS[k]}">${escaped(text === "-" ? "\u2013" : text)}</td>`).join("");
+    const kind = {holds: "holds", agrees: "holds", differs: "fails", "does not hold": "fails"}[verdict] || "";
+    return `<td class="what">${escaped(what)}</td>${numbers}<td class="verdict ${kind}">${verdict}</td><td class="reason unit">${escaped([source, note].filter(Boolean).join("; "))}</td>`;
 }
 
 function showTable(host, first, rows) {
-    const head = [...first, "", "made", "printed", "deviation", "allowed", "", "source, reason"].map((text) => `<th scope="col">${text}</th>`).join("");
-    element(host, "div", "scroll", `<table><thead><tr>${head}</tr></thead><tbody>${rows.map((row) => `<tr>${row}</tr>`).join("")}</tbody></table>`);
+    const head = [...first, "", ...NUMBERS, "", "source, reason"].map((text) => `<th scope="col">${text}</th>`).join("");
+    element(host, "div", "scroll", `<table class="claims"><thead><tr>${head}</tr></thead><tbody>${rows.map((row) => `<tr>${row}</tr>`).join("")}</tbody></table>`);
 }
 
 function showClaims(host, claims) {
@@ -30,7 +32,7 @@ function showClaims(host, claims) {
 
 /// Of several studies, before them all: every number that was printed, and whatever is off; or that alone.
 function showDeviations(host, studies) {
-    const rows = studies.flatMap(({name, claims}) => claims.filter((claim) => claim.on_top).map((claim) => `<td><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
+    const rows = studies.flatMap(({name, claims}) => claims.filter((claim) => claim.on_top).map((claim) => `<td class="study"><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
     if (studies.length < 2 || !rows.length) return;
     const section = element(host, "section", "deviations");
     element(section, "h2", "", `Printed and made <small>${escaped(data.tally)}</small>`);

@@ -3,7 +3,7 @@
 
 function figure(host, title) {
     const made = element(host, "figure");
-    element(made, "figcaption", "", title);
+    element(made, "figcaption", "", `<span class="title">${title}</span>`);
     return element(made, "div", "plot");
 }
 

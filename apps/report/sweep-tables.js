@@ -21,7 +21,11 @@ const headed = (name, unit) => escaped(name) + (unit && ` <span class="unit">(${
 function showTable(host, head, rows) {
     const kinds = [...(rows[0] || "").matchAll(/<t[dh]([^>]*)>/g)].map(([, said]) => (said.includes("number") ? "number" : ""));
     const cells = head.map((text, k) => `<th scope="col" class="${kinds[k] || ""}">${text}</th>`).join("");
-    return element(host, "div", "scroll", `<table><thead><tr>${cells}</tr></thead><tbody>${rows.map((row) => `<tr>${row}</tr>`).join("")}</tbody></table>`);
+    const made = element(host, "div", "scroll", `<table${head.length > 4 ? ' class="many"' : ""}><thead><tr>${cells}</tr></thead><tbody>${rows.map((row) => `<tr>${row}</tr>`).join("")}</tbody></table>`);
+    const names = [...made.querySelectorAll("thead th")].map((one) => one.textContent);
+    for (const row of made.querySelectorAll("tbody tr"))  // on a narrow screen each cell says what it is
+        if (row.cells.length === names.length) [...row.cells].forEach((one, k) => { one.dataset.head = names[k]; });
+    return made;
 }
 
 function openingText() {

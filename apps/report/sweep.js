@@ -28,7 +28,8 @@ function draw() {
     for (const id of ["figures", "rasters", "traces", "extremes"]) document.getElementById(id)?.replaceChildren();
     const plots = element(document.getElementById("figures"), "div", "plots");
     showKey();
-    if (measures.length) showHistogram(plots, state.measure), showNormalPlot(plots, state.measure);
+    if (data.grids) showGrid(plots, state.measure);
+    else if (measures.length) showHistogram(plots, state.measure), showNormalPlot(plots, state.measure);
     for (const factor of data.factors[state.measure] || []) showScatter(plots, state.measure, factor);
     for (const train of data.rasters) showRaster(document.getElementById("rasters"), train);
     for (const trace of data.traces) showEnvelope(document.getElementById("traces"), trace);
@@ -42,19 +43,26 @@ function chooser(host, id, name, options, chosen) {
     select.addEventListener("change", () => { chosen(Number(select.value)); draw(); });
 }
 
-function start(host) {
-    document.getElementById("title").textContent = data.title;
-    document.getElementById("program").textContent = data.program;
-    document.getElementById("command").textContent = data.command;
+/// Of a sweep that draws: what can be inferred.
+function startDrawn(host) {
     showYields(section(host, "yields", "Yield", openingText()));
     if (!table.finished) return;
     showMeasures(section(host, "measures", "Measures", "with the interval in which the truth lies with 95 % confidence"));
     showPoints(host);
     showDependences(host);
+}
+
+function start(host) {
+    document.getElementById("title").textContent = data.title;
+    document.getElementById("program").textContent = data.program;
+    document.getElementById("command").textContent = data.command;
+    if (data.grids) startGrid(host);
+    else startDrawn(host);
+    if (!table.finished) return;
     const bar = element(host, "div");
     bar.id = "toolbar";
     if (measures.length) chooser(bar, "measure", "measure", measures.map(({name}) => name), (k) => (state.measure = k));
-    if (data.groupings.length > 1) chooser(bar, "grouping", "colour by", data.groupings.map(({name}) => name), (k) => (state.grouping = k));
+    if (data.groupings.length > 1 && (!data.grids || data.rasters.length || data.traces.length)) chooser(bar, "grouping", "colour by", data.groupings.map(({name}) => name), (k) => (state.grouping = k));
     const key = element(bar, "span", "key");
     key.id = "key";
     element(host, "div").id = "figures";

@@ -99,6 +99,37 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
     return out;
 }
 
+Json matrix_of(const std::vector<std::vector<double>>& rows) {
+    Json out = Json::array();
+    for (const auto& row : rows) out.push_back(shown_numbers(row));
+    return out;
+}
+
+/// Of each measure of a grid: what each axis does, and its means over each pair of the first axes.
+Json grids_document(const SweepTable& table) {
+    constexpr std::size_t most_axes = 4, most_cells = 40'000;
+    Json out = Json::array();
+    for (const auto& values : table.measure_values) {
+        const auto effects = effects_of(table, values);
+        Json one = {{"effects", Json::array()}, {"pairs", Json::array()}};
+        for (const auto& e : effects)
+            one["effects"].push_back(
+                {{"axis", e.axis}, {"share", e.share}, {"values", shown_numbers(table.points[e.axis])}, {"means", shown_numbers(e.means)}});
+        for (std::size_t a = 0; a < std::min(effects.size(), most_axes); ++a)
+            for (std::size_t b = a + 1; b < std::min(effects.size(), most_axes); ++b) {
+                const auto x = effects[a].axis, y = effects[b].axis;
+                if (table.points[x].size() * table.points[y].size() > most_cells) continue;
+                one["pairs"].push_back({{"x", x},
+                                        {"y", y},
+                                        {"xs", shown_numbers(table.points[x])},
+                                        {"ys", shown_numbers(table.points[y])},
+                                        {"means", matrix_of(means_over(table, values, x, y))}});
+            }
+        out.push_back(std::move(one));
+    }
+    return out;
+}
+
 std::vector<std::size_t> failed_rows(const SweepTable& table) {
     std::vector<std::size_t> out;
     for (std::size_t r = 0; r < table.rows() && out.size() < most_failed; ++r)
@@ -137,6 +168,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
         page["alone"] = fmt::format(
             "One chip by itself: corpuscle respond or run with the sweep's settings and --mismatch {}/CHIP; CHIP is the unit's number{}.",
             drawn->seed, drawn->chips > 0 ? fmt::format(" modulo {}", drawn->chips) : "");
+    if (table.is_grid) page["grids"] = grids_document(table);
     page["histograms"] = Json::array(), page["normal_plots"] = Json::array(), page["extremes"] = Json::array();
     ShownRows shown(table);
     for (const auto& values : table.measure_values) {

@@ -45,6 +45,14 @@ std::uint64_t mark_of(const Circuit& c) {
     return hash;
 }
 
+/// Unknowns between whose points something is looked for: spikes, probes, ranges.
+std::vector<int> reported_of(const CircuitDesign& design) {
+    std::vector<int> out = {design.output.of.plus, design.output.of.minus};
+    for (const auto& kept : design.kept) out.push_back(kept.what.of.plus), out.push_back(kept.what.of.minus);
+    for (const auto& shown : design.shown) out.push_back(shown.of.plus), out.push_back(shown.of.minus);
+    return out;
+}
+
 class CircuitAfferent final : public Afferent {
     std::shared_ptr<const CircuitDesign> design_;
     double T_;
@@ -80,7 +88,7 @@ public:
     CircuitAfferent(std::shared_ptr<const CircuitDesign> design, double dt, bool sampled, std::optional<Draw> chip)
         : design_(std::move(design)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
           delay_(static_cast<std::int64_t>(std::ceil(2.1 * design_->plan.longest / dt)) + Trace::lag + 2),
-          format_(fmt::format("netlist {:016x}/1{}, T = {} s", design_->mark,
+          format_(fmt::format("netlist {:016x}/2{}, T = {} s", design_->mark,
                               chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
         for (const auto& s : design_->shown) probes_.push_back({s.name, s.is_voltage() ? "V" : "A"});
         for (const auto& w : design_->kept) ranges_.push_back(w.range());
@@ -192,6 +200,7 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     if (shown->empty()) shown->push_back({output->value().text, output->value().of});
     design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown),
     design->kept = std::move(*kept);
+    design->plan.reported = reported_of(*design);
     design->plan.longest = design->times.longest.value_or(longest_step);
     design->mark = mark_of(*design->circuit);
     return std::shared_ptr<const CircuitDesign>(std::move(design));

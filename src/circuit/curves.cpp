@@ -18,13 +18,23 @@ std::complex<double> seen_as(std::string_view view, std::complex<double> x) {
     return x;
 }
 
-int index_of(const Plot& plot, std::string_view name) {
+int index_of(const Plot& plot, std::string_view name, const CurveNames* names = nullptr) {
+    if (names) return names->index_of(name);
     for (std::size_t k = 0; k < plot.curves.size(); ++k)
         if (plot.curves[k].name == name) return static_cast<int>(k);
     return -1;
 }
 
 }  // namespace
+
+CurveNames::CurveNames(const Plot& plot) {
+    for (std::size_t k = 0; k < plot.curves.size(); ++k) at_.try_emplace(plot.curves[k].name, static_cast<int>(k));
+}
+
+int CurveNames::index_of(std::string_view name) const {
+    const auto at = at_.find(name);
+    return at == at_.end() ? -1 : at->second;
+}
 
 std::complex<double> CurveView::seen(std::complex<double> difference) const { return seen_as(view_, difference); }
 
@@ -64,12 +74,12 @@ std::optional<CurveView> CurveView::par(const Plot& plot, std::string_view name)
     return out;
 }
 
-std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name) {
+std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name, const CurveNames* names) {
     if (name.starts_with("par(")) return par(plot, name);
     CurveView out;
     const auto open = name.find('(');
     out.plain_ = open <= 1;
-    out.plus_ = index_of(plot, name);
+    out.plus_ = index_of(plot, name, names);
     if (out.plus_ >= 0) return out;
     if (open == std::string_view::npos || !name.ends_with(')') || (name[0] != 'v' && name[0] != 'i')) return {};
     const auto* view = std::find(std::begin(view_names), std::end(view_names), name.substr(1, open - 1));
@@ -79,7 +89,7 @@ std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name) 
     const auto comma = inside.find(',');
     const auto found = [&](std::string_view node, int& index) {
         if (node == "0" || node == "gnd") return true;
-        index = index_of(plot, std::string(1, name[0]) + "(" + std::string(node) + ")");
+        index = index_of(plot, std::string(1, name[0]) + "(" + std::string(node) + ")", names);
         return index >= 0;
     };
     if (!found(inside.substr(0, comma), out.plus_)) return {};

@@ -4,11 +4,21 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <unordered_map>
 
 #include "circuit/netlist/formula.hpp"
 #include "circuit/points.hpp"
 
 namespace corpuscle::circuit {
+
+/// Where each curve of a plot stands, for many look-ups. The plot must outlive it.
+class CurveNames {
+    std::unordered_map<std::string_view, int> at_;
+
+public:
+    explicit CurveNames(const Plot&);
+    int index_of(std::string_view name) const;  ///< -1: none
+};
 
 /// What a name means in a plot, looked up once: a curve, v(a,b), or a view of a complex one: vm (magnitude), vdb, vp (phase, radians, as
 /// ngspice has it), vr, vi, and the same of currents: im, idb, ip ... Of a real plot also par('FORMULA') of voltages, currents and time.
@@ -26,7 +36,7 @@ class CurveView {
 
 public:
     /// Nothing: the plot has no such curve.
-    static std::optional<CurveView> of(const Plot&, std::string_view name);
+    static std::optional<CurveView> of(const Plot&, std::string_view name, const CurveNames* = nullptr);
 
     std::complex<double> in(const PlotRow& row) const {
         if (formula_) return worked_out(row);

@@ -11,8 +11,10 @@ namespace {
 
 bool is_formula(const Command& c) { return c.words.size() > 2 && c.words[2].starts_with("param="); }
 
+using KnownNumbers = std::vector<std::pair<std::string, double>>;
+
 /// param='expression' of earlier measures.
-Result<double> worked_out(const Command& c, const std::vector<std::pair<std::string, double>>& numbers) {
+Result<Formula> formula_of(const Command& c, const KnownNumbers& numbers) {
     FormulaScope scope;
     scope.parameter = [&](std::string_view name) -> std::optional<double> {
         for (const auto& [known, value] : numbers)
@@ -23,10 +25,11 @@ Result<double> worked_out(const Command& c, const std::vector<std::pair<std::str
     for (const auto& [known, value] : numbers) scope.known.push_back(known);
     auto inside = c.words[2].substr(6);
     if (inside.size() > 1 && (inside.front() == '\'' || inside.front() == '{')) inside = inside.substr(1, inside.size() - 2);
-    const auto formula = Formula::parse(inside, c.place, scope);
-    if (!formula) return formula.error();
-    return formula->value();
+    return Formula::parse(inside, c.place, scope);
 }
+
+Error without_analysis(const Command& c) { return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.place); }
+Error incomplete_measure(const Command& c) { return bad_input(".meas: it is .meas op|dc|ac|noise|tran NAME WHAT ...", c.place); }
 
 }  // namespace
 
@@ -58,17 +61,33 @@ Result<void> Measures::see(std::string_view word, const Plot& plot) {
     return {};
 }
 
+Result<void> Measures::check(const std::vector<std::string>& numbers) const {
+    KnownNumbers known;
+    for (const auto& name : numbers) known.emplace_back(name, 1.0);
+    for (const auto& [command, gauge] : all_) {
+        const auto& c = *command;
+        if (c.words.size() < 3) return incomplete_measure(c);
+        if (is_formula(c)) {
+            if (const auto formula = formula_of(c, known); !formula) return formula.error();
+        } else if (!gauge) {
+            return without_analysis(c);
+        }
+        known.emplace_back(c.words[1], 1.0);
+    }
+    return {};
+}
+
 Result<void> Measures::finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& remarks) const {
     for (const auto& [command, gauge] : all_) {
         const auto& c = *command;
-        if (c.words.size() < 3) return bad_input(".meas: it is .meas op|dc|ac|noise|tran NAME WHAT ...", c.place);
+        if (c.words.size() < 3) return incomplete_measure(c);
         if (is_formula(c)) {
-            const auto value = worked_out(c, numbers);
-            if (!value) return value.error();
-            numbers.emplace_back(c.words[1], *value);
+            const auto formula = formula_of(c, numbers);
+            if (!formula) return formula.error();
+            numbers.emplace_back(c.words[1], formula->value());
             continue;
         }
-        if (!gauge) return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.place);
+        if (!gauge) return without_analysis(c);
         const double value = gauge->value();
         if (std::isnan(value)) remarks.push_back(bad_input(fmt::format(".meas {}: nothing was found", c.words[1]), c.place));
         numbers.emplace_back(c.words[1], value);

@@ -22,6 +22,8 @@ public:
 
     /// A plot of an analysis of this word begins. One that is ill-formed, or of a curve that is not there, is an error.
     Result<void> begin(std::string_view word, const Plot& head);
+    /// Once every analysis has begun: refuses what finish() would, by names alone. `numbers`: those that analyses may give.
+    Result<void> check(const std::vector<std::string>& numbers) const;
     void point(double x, const PlotRow& row) {
         for (auto* gauge : at_work_) gauge->point(x, row);
     }

@@ -10,8 +10,9 @@ struct Chosen {
 
 std::vector<Chosen> chosen(const Plot& plot, const std::vector<std::string>& names) {
     std::vector<Chosen> out;
+    const CurveNames known(plot);
     for (const auto& name : names)
-        if (const auto view = CurveView::of(plot, name)) out.push_back({name, *view});
+        if (const auto view = CurveView::of(plot, name, &known)) out.push_back({name, *view});
     return out;
 }
 

@@ -24,7 +24,11 @@ std::vector<Column> columns_of(const Command& c, std::string_view word, const Pl
     if (c.name != "print" || (named && c.words[0] != word)) return out;
     if (plot.swept) out.push_back({plot.curves[0].name, *CurveView::of(plot, plot.curves[0].name)});
     for (std::size_t w = named ? 1 : 0; w < c.words.size(); ++w)
-        if (const auto view = CurveView::of(plot, c.words[w])) out.push_back({c.words[w], *view});
+        if (c.words[w] == "all")
+            for (std::size_t k = plot.swept; k < plot.curves.size(); ++k)
+                out.push_back({plot.curves[k].name, *CurveView::of(plot, plot.curves[k].name)});
+        else if (const auto view = CurveView::of(plot, c.words[w]))
+            out.push_back({c.words[w], *view});
     if (out.size() < (plot.swept ? 2U : 1U)) out.clear();
     return out;
 }

@@ -76,7 +76,7 @@ Result<void> Rig::begin(std::span<const double> force) {
         return error;
     }
     start_ = std::move(x->x);
-    return transient_->begin(start_, x->settled);
+    return transient_->begin(start_, x->settled, x->charge);
 }
 
 Result<void> Rig::step() {
@@ -158,7 +158,8 @@ void Rig::save(std::vector<double>& out) {
     put(out, start_);
     put(out, std::vector<double>{static_cast<double>(s.past.size()), static_cast<double>(s.order), static_cast<double>(s.since_choice),
                                  static_cast<double>(s.failures), static_cast<double>(s.calming), static_cast<double>(s.starting),
-                                 static_cast<double>(s.bent), s.h, s.bend, static_cast<double>(s.work.steps),
+                                 static_cast<double>(s.bent), static_cast<double>(s.count), static_cast<double>(s.curve),
+                                 static_cast<double>(s.opening), s.h, s.bend, s.calm, static_cast<double>(s.work.steps),
                                  static_cast<double>(s.work.rejected), static_cast<double>(s.work.lost),
                                  static_cast<double>(s.work.iterations)});
     for (const auto& point : s.past) out.push_back(point.t), put(out, point.x), put(out, point.q);
@@ -174,7 +175,9 @@ void Rig::read(Numbers& in, TransientState& s) {
     s.order = static_cast<int>(in.whole(1, design_.plan.order));
     s.since_choice = static_cast<int>(in.whole(0, 1e9)), s.failures = static_cast<int>(in.whole(0, 1e9));
     s.calming = static_cast<int>(in.whole(0, 2)), s.starting = in.whole(0, 1) != 0, s.bent = in.whole(0, 1) != 0;
-    s.h = in.next(), s.bend = in.next();
+    s.count = static_cast<int>(in.whole(1, static_cast<double>(points)));
+    s.curve = static_cast<int>(in.whole(0, static_cast<double>(points))), s.opening = static_cast<int>(in.whole(0, 2));
+    s.h = in.next(), s.bend = in.next(), s.calm = in.next();
     for (long* n : {&s.work.steps, &s.work.rejected, &s.work.lost, &s.work.iterations}) *n = in.whole(0, most);
     for (std::size_t k = 0; k < points; ++k) {
         s.past.push_back({in.next(), in.many(size), in.many(size)});
@@ -183,7 +186,7 @@ void Rig::read(Numbers& in, TransientState& s) {
     s.scale = in.many(size), s.rate = in.many(size), s.turn = in.many(size), s.fastest = in.many(size),
     s.memory = in.many(bench_->system.fresh_memory().size());
     for (std::size_t n = 0; n < size; ++n) s.alternations.push_back(static_cast<int>(in.whole(0, 1e9)));
-    in.good &= s.h > 0 && s.bend > 0;
+    in.good &= s.h > 0 && s.bend > 0 && s.calm >= 0;
 }
 
 bool Rig::restore(std::span<const double> values, std::int64_t samples) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "circuit/analyses.hpp"
 #include "circuit/curves.hpp"
@@ -11,8 +12,10 @@
 #include "circuit/netlist/number.hpp"
 #include "circuit/own_currents.hpp"
 #include "circuit/print.hpp"
+#include "circuit/requests.hpp"
 #include "circuit/saved.hpp"
 #include "circuit/solve/topology.hpp"
+#include "circuit/warnings.hpp"
 #include "signal/field.hpp"
 
 namespace corpuscle::circuit {
@@ -161,11 +164,14 @@ Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
     if (!bench.brief) {
         out.remarks = circuit->remarks;
         for (auto& s : suspicious(*circuit)) out.remarks.push_back(std::move(s));
+        for (auto& s : warnings_of(*circuit)) out.remarks.push_back(std::move(s));
     }
     const auto saved = saved_of(bench.system);
     if (!saved) return saved.error();
     for (const auto& curve : *saved) out.saved.push_back(curve.name);
     const OwnCurrents currents(bench.system, *saved);
+    if (!std::exchange(bench.requests_checked, true))
+        if (auto ok = check_requests(bench.system, currents, out.remarks); !ok) return ok.error();
     Measures measures(*circuit);
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);

@@ -2,19 +2,38 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <unordered_set>
+
+#include "circuit/devices.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
+bool asks_to_save(const Command& c) { return c.name == "save" || c.name == "probe"; }
+
+/// "all", and of .probe also "alli" and "allv".
+bool asks_for_all(const Command& c, const std::string& word) {
+    return word == "all" || (c.name == "probe" && (word == "alli" || word == "allv"));
+}
+
 /// Of "i(x1.m1)" the element; -1: it is none whose current is told so.
-int device_in(const System& system, std::string_view word) {
-    if (!word.starts_with("i(") || !word.ends_with(')') || system.unknown(word) >= 0) return -1;
-    const auto& circuit = system.circuit();
+int device_in(const UnknownNames& names, const Circuit& circuit, std::string_view word) {
+    if (!word.starts_with("i(") || !word.ends_with(')') || names.index_of(word) >= 0) return -1;
     const int k = circuit.element(word.substr(2, word.size() - 3));
     return k >= 0 && has_own_current(circuit.elements[static_cast<std::size_t>(k)]) ? k : -1;
 }
 
 }  // namespace
+
+bool is_left_out(const Circuit& circuit, const Command& c, std::string_view word) {
+    if (c.name != "probe" || asks_for_all(c, std::string(word))) return false;
+    const auto open = word.find('(');
+    if (open != std::string_view::npos && open != 1) return true;  // vd(r2), p(x1)
+    if (!word.starts_with("i(") || !word.ends_with(')')) return false;
+    const int k = circuit.element(word.substr(2, word.size() - 3));
+    return k >= 0 && !has_branch(circuit.elements[static_cast<std::size_t>(k)]) &&
+           !has_own_current(circuit.elements[static_cast<std::size_t>(k)]);
+}
 
 double Saved::current_into(const Device& d, std::span<const double> v) {
     const auto n = v.size();
@@ -28,25 +47,32 @@ double Saved::current_into(const Device& d, std::span<const double> v) {
 
 Result<std::vector<Saved>> saved_of(const System& system) {
     std::vector<Saved> out;
+    const auto& commands = system.circuit().commands;
+    if (std::none_of(commands.begin(), commands.end(), asks_to_save)) return out;
+    const UnknownNames names(system);
+    std::unordered_set<std::string> seen;
     bool all = false;
-    for (const auto& c : system.circuit().commands) {
-        if (c.name != "save") continue;
+    for (const auto& c : commands) {
+        if (!asks_to_save(c)) continue;
+        all = all || c.words.empty();
         for (std::size_t k = 0; k < c.words.size(); ++k) {
             const auto& word = c.words[k];
-            if (word == "all") {
+            if (asks_for_all(c, word)) {
                 all = true;
                 continue;
             }
-            auto named = c;
-            named.words[k] = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
-            if (std::any_of(out.begin(), out.end(), [&](const Saved& s) { return s.name == named.words[k]; })) continue;
-            if (const int device = device_in(system, named.words[k]); device >= 0) {
-                out.push_back({named.words[k], {}, device});
+            if (is_left_out(system.circuit(), c, word)) continue;
+            const auto name = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
+            if (!seen.insert(name).second) continue;
+            if (const int device = device_in(names, system.circuit(), name); device >= 0) {
+                out.push_back({name, {}, device});
                 continue;
             }
-            const auto of = wanted_of(system, named, k);
+            Command one{c.name, {name}, {}, c.place};
+            if (k < c.columns.size()) one.columns = {c.columns[k]};
+            const auto of = wanted_of(names, one, 0);
             if (!of) return of.error();
-            out.push_back({named.words[k], *of});
+            out.push_back({name, *of});
         }
     }
     return all ? std::vector<Saved>{} : out;

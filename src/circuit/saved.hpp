@@ -33,4 +33,7 @@ inline bool has_own_current(const Element& e) { return e.letter == 'm' || e.lett
 /// What .save names; "out" is v(out). Empty: everything, as it is without .save, or with "all".
 Result<std::vector<Saved>> saved_of(const System&);
 
+/// Whether a word of .probe asks for what is not told here: the current of a capacitor, vd(r2), p(x1).
+bool is_left_out(const Circuit&, const Command& probe, std::string_view word);
+
 }  // namespace corpuscle::circuit

@@ -5,8 +5,10 @@
 #include <charconv>
 #include <span>
 
+#include "io/heading.hpp"
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"
+#include "signal/text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -18,8 +20,16 @@ std::optional<std::size_t> whole_number(std::string_view text) {
     return n;
 }
 
+/// By its name, its name and unit, or as its heading reads: "Zeit [s]".
 bool called(const Column& column, std::string_view name) {
-    return column.name == name || (!column.unit.empty() && column.name + "_" + column.unit == name);
+    if (column.name == name || (!column.unit.empty() && column.name + "_" + column.unit == name)) return true;
+    const auto heading = parse_heading(name);
+    return !heading.unit.empty() && column.name == heading.name && column.unit == heading.unit;
+}
+
+std::string_view without_quotes(std::string_view s) {
+    s = trimmed(s);
+    return s.size() > 2 && (s.front() == '\'' || s.front() == '"') && s.back() == s.front() ? s.substr(1, s.size() - 2) : s;
 }
 
 /// The columns of a table that are channels, and how they are asked for.
@@ -43,32 +53,88 @@ struct Chooser {
                          {path});
     }
 
-    Result<void> add(std::string_view wanted, std::vector<std::size_t>& chosen) const {
-        for (const auto c : data) {
-            const auto& column = table.columns()[c];
-            if (called(column, wanted)) return chosen.push_back(c), Result<void>{};
+    /// Where a column of this name stands among the data.
+    std::optional<std::size_t> named(std::string_view wanted) const {
+        for (std::size_t k = 0; k < data.size(); ++k)
+            if (called(table.columns()[data[k]], wanted)) return k;
+        return {};
+    }
+
+    std::string name_of(std::size_t k) const { return fmt::format("'{}'", table.columns()[data[k]].name); }
+
+    /// From one to another of the data; what the table leaves out is left out of a range.
+    void add_range(std::size_t from, std::size_t to, std::vector<std::size_t>& chosen) const {
+        for (std::size_t k = from; k <= to; ++k)
+            if (from == to || table.columns()[data[k]].left_out.empty()) chosen.push_back(data[k]);
+    }
+
+    /// "fx-fz", "'Channel 4'-'Channel 7'"; false if it is none.
+    bool add_named_range(std::string_view wanted, std::vector<std::size_t>& chosen) const {
+        for (auto dash = wanted.find('-'); dash != wanted.npos; dash = wanted.find('-', dash + 1)) {
+            const auto from = named(without_quotes(wanted.substr(0, dash))), to = named(without_quotes(wanted.substr(dash + 1)));
+            if (from && to && *from <= *to) return add_range(*from, *to, chosen), true;
         }
+        return false;
+    }
+
+    Result<void> add(std::string_view wanted, std::vector<std::size_t>& chosen, std::vector<std::string>* remarks) const {
+        for (const auto name : {wanted, without_quotes(wanted)})
+            if (const auto k = named(name)) return chosen.push_back(data[*k]), Result<void>{};
+        if (add_named_range(wanted, chosen)) return {};
         const auto dash = wanted.find('-');
         const auto from = whole_number(wanted.substr(0, dash)),
                    to = dash == std::string_view::npos ? from : whole_number(wanted.substr(dash + 1));
         if (!from || !to || *from < 1 || *to > data.size() || *from > *to) return unknown(wanted);
-        for (std::size_t n = *from; n <= *to; ++n) chosen.push_back(data[n - 1]);
+        add_range(*from - 1, *to - 1, chosen);
+        if (remarks)
+            remarks->push_back(*from == *to ? fmt::format("--channel {} is {}", wanted, name_of(*from - 1))
+                                            : fmt::format("--channel {} is {} to {}", wanted, name_of(*from - 1), name_of(*to - 1)));
         return {};
     }
 
-    Result<std::vector<std::size_t>> choose(const std::vector<std::string>& wanted) const {
+    /// All that may hold force.
+    Result<std::vector<std::size_t>> usual(std::vector<std::string>* remarks) const {
+        std::vector<std::size_t> chosen, other;  // other: of a unit that is no force
+        for (const auto c : data)
+            if (table.columns()[c].left_out.empty()) (is_never_force(table.columns()[c].unit) ? other : chosen).push_back(c);
+        if (chosen.empty() && other.empty())
+            return bad_input(
+                fmt::format("no column holds readings: '{}' {}", table.columns()[data[0]].name, table.columns()[data[0]].left_out), {path});
+        if (chosen.empty()) return other;
+        for (std::size_t k = 0; remarks && k < data.size(); ++k) {
+            const auto& c = table.columns()[data[k]];
+            if (remarks->size() > 16) continue;
+            if (c.left_out.empty() && is_never_force(c.unit))
+                remarks->push_back(
+                    fmt::format("{} is in {}, which is no force: left out (if the header is wrong, --channel {} --unit N takes it)",
+                                name_of(k), c.unit, k + 1));
+            else if (c.left_out.starts_with("counts") || c.left_out.starts_with("tells"))
+                remarks->push_back(fmt::format("{} {}: left out (--channel {} takes it)", name_of(k), c.left_out, k + 1));
+            else if (!c.left_out.empty())
+                remarks->push_back(fmt::format("{} {}: left out", name_of(k), c.left_out));
+        }
+        return chosen;
+    }
+
+    Result<std::vector<std::size_t>> choose(const std::vector<std::string>& wanted, std::vector<std::string>* remarks) const {
         std::vector<std::size_t> chosen;
         if (data.empty()) return bad_input("there is no channel besides the time", {path});
-        if (wanted.empty()) return data;
-        for (const auto& list : wanted)
+        if (wanted.empty()) return usual(remarks);
+        for (const auto& list : wanted) {
+            if (const auto whole = named(list)) {  // a name may hold commas
+                chosen.push_back(data[*whole]);
+                continue;
+            }
             for (std::size_t at = 0; at <= list.size();) {
                 const auto end = std::min(list.find(',', at), list.size());
-                if (auto ok = add(std::string_view(list).substr(at, end - at), chosen); !ok) return ok.error();
+                if (auto ok = add(std::string_view(list).substr(at, end - at), chosen, remarks); !ok) return ok.error();
                 at = end + 1;
             }
+        }
         std::vector<std::size_t> once;
         for (const auto c : chosen)
             if (std::find(once.begin(), once.end(), c) == once.end()) once.push_back(c);
+        if (once.empty()) return bad_input(fmt::format("--channel {} takes only columns that hold no readings", wanted[0]), {path});
         return once;
     }
 };
@@ -76,8 +142,8 @@ struct Chooser {
 }  // namespace
 
 Result<std::vector<std::size_t>> choose_columns(const Table& table, std::optional<std::size_t> time, const std::vector<std::string>& wanted,
-                                                const std::string& path) {
-    return Chooser(table, time, path).choose(wanted);
+                                                const std::string& path, std::vector<std::string>* remarks) {
+    return Chooser(table, time, path).choose(wanted, remarks);
 }
 
 Result<std::optional<std::size_t>> choose_time(const Table& table, const std::optional<std::string>& wanted, const std::string& path) {
@@ -87,7 +153,12 @@ Result<std::optional<std::size_t>> choose_time(const Table& table, const std::op
     const auto named = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return called(c, *wanted); });
     if (named != columns.end()) return std::optional(static_cast<std::size_t>(named - columns.begin()));
     if (const auto number = whole_number(*wanted); number && *number >= 1 && *number <= columns.size()) return std::optional(*number - 1);
-    return bad_input(fmt::format("no column '{}' to take as time; give its name, its number or 'none'", *wanted), {path});
+    std::vector<std::string_view> names;
+    for (const auto& c : columns) names.push_back(c.name);
+    const auto shown = std::span(names).first(std::min<std::size_t>(names.size(), 12));
+    return bad_input(fmt::format("no column '{}' to take as time{}; give its name, its number or 'none'; there are {}{}", *wanted,
+                                 did_you_mean(*wanted, names), fmt::join(shown, ", "), shown.size() < names.size() ? " ..." : ""),
+                     {path});
 }
 
 Result<double> newtons_per_unit(const Column& column, const RecordingOptions& options, const std::string& path) {
@@ -109,14 +180,11 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
 Result<double> seconds_per_unit(const Column& column, const RecordingOptions& options, const std::string& path) {
     const std::string& unit = options.time_unit ? *options.time_unit : column.unit;
     if (unit.empty()) return 1.0;
-    constexpr std::pair<std::string_view, double> words[] = {{"sec", 1},     {"secs", 1},      {"second", 1},    {"seconds", 1},
-                                                             {"msec", 1e-3}, {"msecs", 1e-3},  {"millis", 1e-3}, {"milliseconds", 1e-3},
-                                                             {"usec", 1e-6}, {"micros", 1e-6}, {"h", 3600}};
-    for (const auto& [word, factor] : words)
-        if (word == unit) return factor;
-    const auto known = parse_unit(unit);
-    if (known && known->same_kind(*parse_unit("s"))) return known->factor;
-    if (options.time_unit) return bad_usage(fmt::format("--time-unit {}: no unit of time; say s, ms, us or min", unit));
+    if (column.stamps && options.time_unit)
+        return bad_usage(
+            fmt::format("--time-unit {}: '{}' holds dates or times of day, which have no unit; leave it out", unit, column.name));
+    if (const auto seconds = seconds_in(unit)) return *seconds;
+    if (options.time_unit) return bad_usage(fmt::format("--time-unit {}: no unit of time; say s, ms, us, ns or min", unit));
     return bad_input(
         fmt::format(
             "the time column '{}' is in '{}', which is no time; --time-unit says what it is in, --time names another column, or none",

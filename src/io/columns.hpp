@@ -9,10 +9,11 @@
 
 namespace corpuscle {
 
-/// The columns asked for, by name, name and unit ("fz_N"), number or range ("2-5") among those other than the time; all of
-/// them if nothing is asked for.
+/// The columns asked for, by name, name and unit ("fz_N"), number, or range ("2-5", "fx-fz") among those other than the time. If nothing
+/// is asked for all of them, but what the table leaves out and what is in a unit that no force sensor has. `remarks` gets what was
+/// left out and, where they were counted, what they are called.
 Result<std::vector<std::size_t>> choose_columns(const Table&, std::optional<std::size_t> time, const std::vector<std::string>& wanted,
-                                                const std::string& path);
+                                                const std::string& path, std::vector<std::string>* remarks = nullptr);
 
 /// The time column: the one asked for by name or number, none, or the one the file shows.
 Result<std::optional<std::size_t>> choose_time(const Table&, const std::optional<std::string>& wanted, const std::string& path);

@@ -17,8 +17,11 @@ std::string_view unquoted(std::string_view s) {
 /// Where the field that begins at `at` ends; a separator within quotes does not end it.
 std::size_t end_of_field(std::string_view line, std::size_t at, char separator) {
     const auto quote = line.find_first_not_of(" \t", at);
-    if (quote != std::string_view::npos && line[quote] == '"')
-        if (const auto close = line.find('"', quote + 1); close != std::string_view::npos) return line.find(separator, close);
+    if (quote != std::string_view::npos && line[quote] == '"') {
+        auto close = line.find('"', quote + 1);
+        while (close != std::string_view::npos && line.substr(close + 1).starts_with('"')) close = line.find('"', close + 2);  // "": one
+        if (close != std::string_view::npos) return line.find(separator, close);
+    }
     return line.find(separator, at);
 }
 

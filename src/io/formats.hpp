@@ -19,7 +19,8 @@ struct Format {
 };
 
 inline constexpr Format formats[] = {
-    {"text", ".csv .tsv .txt .dat", "numbers in columns: commas, tabs, semicolons or blanks; header or none; decimal point or comma",
+    {"text", ".csv .tsv .txt .dat .lvm .gz .json .jsonl .ndjson",
+     "numbers in columns: commas, tabs, semicolons or blanks; header or none; decimal point or comma; JSON; packed with gzip or not",
      open_text_table},
     {"npy", ".npy", "NumPy's array: rows and channels, or a structure with a field a column", open_npy_table},
     {"npz", ".npz", "NumPy's arrays in one file: one of them, with its rate (fs) and times (t)", open_npz_table},

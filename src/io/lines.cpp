@@ -2,23 +2,17 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <utility>
-
-#include "signal/input_files.hpp"
 
 namespace corpuscle {
 
 Result<Lines> Lines::open(const std::string& path) {
-    std::error_code status;
-    if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a recording", {path});
+    auto input = open_text_input(path);
+    if (!input) return input.error();
     Lines lines;
     lines.path_ = path;
-    lines.file_.reset(open_input(path));
-    if (!lines.file_) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
-    if (const auto size = std::filesystem::file_size(path, status); !status) lines.size_ = static_cast<double>(size);
+    lines.input_ = std::move(*input);
     return lines;
 }
 
@@ -30,14 +24,13 @@ Result<bool> Lines::fill() {
     filled_ -= std::exchange(at_, 0);
     if (filled_ > longest) return bad_input(fmt::format("a line of more than {} MB", longest >> 20), {path_, number_ + 1});
     if (buffer_.size() < filled_ + block + behind) buffer_.resize(filled_ + block + behind);
-    const auto read = read_input(file_.get(), {buffer_.data() + filled_, block}, path_);
-    if (!read) return Error{read.error().code, read.error().sentence, {path_, number_ + 1}};
-    const auto got = *read;
-    filled_ += got;
+    const auto got = input_->read(buffer_.data() + filled_, block);
+    if (!got) return Error{got.error().code, got.error().sentence, {path_, number_ + 1}};
+    filled_ += *got;
     std::memset(buffer_.data() + filled_, 0, behind);
-    read_ += static_cast<double>(got);
-    if (got < block) ended_ = true;
-    return got > 0;
+    read_ += static_cast<double>(*got);
+    ended_ = *got < block;
+    return *got > 0;
 }
 
 Result<bool> Lines::next(std::string_view& line) {
@@ -67,7 +60,7 @@ Result<bool> Lines::next(std::string_view& line) {
 
 Result<void> Lines::rewind() {
     if (!lost_) return at_ = 0, number_ = 0, Result<void>{};  // all that was read is still here: a pipe can do this, too
-    if (std::fseek(file_.get(), 0, SEEK_SET) != 0) return bad_input("this input cannot be read twice; save it to a file", {path_});
+    if (auto ok = input_->rewind(); !ok) return ok;
     filled_ = 0, at_ = 0, number_ = 0, read_ = 0, ended_ = false, lost_ = false;
     return {};
 }

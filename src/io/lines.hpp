@@ -1,26 +1,23 @@
 #pragma once
 // A text file line by line, read in blocks; memory is bounded by the longest line allowed.
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include "io/text_input.hpp"
 #include "signal/error.hpp"
 
 namespace corpuscle {
 
 class Lines {
-    struct Close {
-        void operator()(std::FILE* f) const { std::fclose(f); }
-    };
     std::string path_;
-    std::unique_ptr<std::FILE, Close> file_;
+    std::unique_ptr<TextInput> input_;
     std::string buffer_;                 // what was read, and `behind` bytes more
     std::size_t filled_ = 0;             // of the buffer
     std::size_t at_ = 0;                 // of the next line, in the buffer
     long number_ = 0;                    // of the last line given
-    double size_ = 0, read_ = 0;         // bytes
+    double read_ = 0;                    // bytes
     bool ended_ = false, lost_ = false;  // lost_: the beginning is no longer in the buffer
 
     Result<bool> fill();
@@ -35,7 +32,7 @@ public:
     Result<void> rewind();
     long number() const { return number_; }
     const std::string& path() const { return path_; }
-    double done() const { return size_ > 0 ? std::min(1.0, (read_ - static_cast<double>(filled_ - at_)) / size_) : 1; }
+    double done() const { return read_ > 0 ? input_->done() * (read_ - static_cast<double>(filled_ - at_)) / read_ : input_->done(); }
 };
 
 }  // namespace corpuscle

@@ -96,19 +96,17 @@ int owned(const char* name) {
 /// A file system or a device that knows no fsync has done what it can.
 bool is_on_disk(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
-/// The directory's entry, too. A directory that may not be read is left to the system.
-bool is_entered(const std::string& path) {
+}  // namespace
+
+Result<void> sync_directory_of(const std::string& path) {
     const auto above = std::filesystem::path(path).parent_path().string();
     const int directory = ::open(above.empty() ? "." : above.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (directory < 0) return true;
+    if (directory < 0) return {};  // one that may not be read is left to the system
     const bool done = is_on_disk(directory);
     const int why = errno;
     ::close(directory);
-    errno = why;
-    return done;
+    return done ? Result<void>() : bad_input(fmt::format("cannot be kept on the disk: {}", std::strerror(why)), {path});
 }
-
-}  // namespace
 
 Result<OutputFile> OutputFile::create(const std::string& path) {
     auto out = prepare(path);
@@ -164,7 +162,6 @@ Result<void> OutputFile::commit() {
     if (std::rename(part_.c_str(), path_.c_str()) != 0)
         return bad_input(fmt::format("cannot be put in its place: {}", std::strerror(errno)), {path_});
     part_.clear();
-    if (!is_entered(path_)) return broken();
     if (grows_ && !close()) return broken();
     return {};
 }

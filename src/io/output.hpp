@@ -38,11 +38,15 @@ public:
     /// Over what stands there; of one that grows.
     Result<void> rewrite(std::size_t at, std::string_view text);
     std::size_t size() const { return size_; }  ///< what was written
-    /// Puts the file in its place once it is on the disk; refuses if a byte could not be written.
+    /// Puts the file in its place once its bytes are on the disk; refuses if one could not be written. Behind the last of a directory,
+    /// sync_directory_of() keeps the names, too.
     Result<void> commit();
     const std::string& path() const { return path_; }
     /// For a library that writes into a file that is open.
     std::FILE* stream() { return file_; }
 };
+
+/// Names in the directory of `path` outlast a power failure from now on.
+Result<void> sync_directory_of(const std::string& path);
 
 }  // namespace corpuscle

@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -46,25 +45,26 @@ bool is_abandoned(const std::string& path) {
     return abandoned;
 }
 
-/// "spikes.csv.part-123", "spikes.csv.part-123-2" of "spikes.csv".
-bool is_part_of(std::string_view name, std::string_view output) {
+/// "spikes.csv" of "spikes.csv.part-123" and "spikes.csv.part-123-2"; "": it is no part.
+std::string_view output_of_part(std::string_view name) {
     constexpr std::string_view part = ".part-";
-    if (!name.starts_with(output) || !name.substr(output.size()).starts_with(part)) return false;
-    const auto number = name.substr(output.size() + part.size());
-    return !number.empty() && number.find_first_not_of("0123456789-") == number.npos && number.front() != '-';
+    const auto at = name.rfind(part);
+    if (at == name.npos) return "";
+    const auto number = name.substr(at + part.size());
+    const bool is_number = !number.empty() && number.front() != '-' && number.find_first_not_of("0123456789-") == number.npos;
+    return is_number ? name.substr(0, at) : "";
 }
 
-void remove_dead_parts_in(const std::string& directory, std::span<const std::string> names) {
+void remove_dead_parts_in(const std::string& directory, const std::function<bool(std::string_view)>& is_output) {
     struct Close {
         void operator()(::DIR* d) const { ::closedir(d); }
     };
     const std::unique_ptr<::DIR, Close> open(::opendir(directory.empty() ? "." : directory.c_str()));
     while (const auto* const entry = open ? ::readdir(open.get()) : nullptr) {
         const std::string_view name = entry->d_name;
-        if (name.find(".part-") == name.npos) continue;
+        const auto output = output_of_part(name);
         const auto path = (std::filesystem::path(directory) / name).string();
-        if (std::any_of(names.begin(), names.end(), [&](const auto& n) { return is_part_of(name, n); }) && is_abandoned(path))
-            ::unlink(path.c_str());
+        if (!output.empty() && is_output(output) && is_abandoned(path)) ::unlink(path.c_str());
     }
 }
 
@@ -83,8 +83,7 @@ std::string beginning_of(const std::string& path) {
 
 void remove_dead_parts(const std::string& path) {
     const std::filesystem::path output(path);
-    const std::array names = {output.filename().string()};
-    remove_dead_parts_in(output.parent_path().string(), names);
+    remove_dead_parts_in(output.parent_path().string(), [&](std::string_view name) { return name == output.filename().string(); });
 }
 
 /// Two outputs of one command are two files.
@@ -116,20 +115,22 @@ Result<void> OutputCheck::growing_file(const std::string& path, Signature ours) 
 }
 
 Result<void> OutputCheck::directory(const std::string& path, std::span<const std::string> names,
-                                    const std::function<bool(const std::string&)>& is_listed, Signature page) {
+                                    const std::function<bool(const std::string&)>& is_listed, bool (*is_output)(std::string_view),
+                                    Signature page) {
+    for (const auto& name : names) {
+        if (auto ok = enter(path + "/" + name); !ok) return ok;
+        if (const auto standing = replaceable(path + "/" + name); !standing) return standing.error();
+    }
     for (const auto& name : names) {
         const auto output = path + "/" + name;
-        if (auto ok = enter(output); !ok) return ok;
-        const auto standing = replaceable(output);
-        if (!standing) return standing.error();
-        if (!is_foreign(*standing) || overwrite_ || is_listed(name)) continue;
+        if (!is_foreign(standing_at(output)) || overwrite_ || is_listed(name)) continue;
         if (name.ends_with(".html") && page(beginning_of(output))) continue;
         return bad_input(
             "no earlier run of corpuscle wrote this file (no summary.json beside it lists it); name another directory with --out, or "
             "add --overwrite to replace it",
             {output});
     }
-    remove_dead_parts_in(path, names);
+    remove_dead_parts_in(path, is_output);
     return {};
 }
 

@@ -28,9 +28,11 @@ public:
     Result<void> file(const std::string& path, Signature);
     /// The same of one that grows as path.part.
     Result<void> growing_file(const std::string& path, Signature);
-    /// Outputs in a directory, of which its summary.json has listed those of an earlier run.
+    /// Outputs in a directory, of which its summary.json has listed those of an earlier run. What killed runs have left there of any
+    /// output is removed.
     Result<void> directory(const std::string& path, std::span<const std::string> names,
-                           const std::function<bool(const std::string& name)>& is_listed, Signature page);
+                           const std::function<bool(const std::string& name)>& is_listed, bool (*is_output)(std::string_view name),
+                           Signature page);
 };
 
 /// The first bytes of a regular file, links followed; "" if it cannot be read.

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <unordered_map>
 #include <utility>
 
 #include "io/columns.hpp"
 #include "io/force_rows.hpp"
+#include "io/foreign_format.hpp"
 #include "io/formats.hpp"
 #include "io/layout.hpp"
 #include "io/row_clock.hpp"
@@ -21,6 +23,11 @@ namespace {
 
 constexpr std::size_t most_channels = std::size_t{1} << 17;
 
+/// "press" of "trials/press.csv.gz"
+std::string name_of_recording(const std::filesystem::path& path) {
+    return (lower(path.extension().string()) == ".gz" ? path.stem().stem() : path.stem()).string();
+}
+
 class Recording final : public Source {
     std::unique_ptr<Table> table_;
     RecordingOptions options_;
@@ -28,8 +35,8 @@ class Recording final : public Source {
     RowClock row_clock_;
     Clock clock_;
     std::vector<Channel> channels_;
-    std::unordered_map<std::string, int> called_;  // how many channels have a name
-    std::vector<std::string> remarks_;
+    std::unordered_map<std::string, int> called_;        // how many channels have a name
+    std::vector<std::string> remarks_, choice_remarks_;  // the latter: of the columns chosen
     std::unique_ptr<HumTable> hum_table_;
     std::optional<ForceRows> rows_;
     std::int64_t row_number_ = 0, samples_ = 0;  // rows taken, samples given so far
@@ -47,7 +54,7 @@ class Recording final : public Source {
             if (options_.channels.empty()) return std::move(layout->sensors);
             chosen = std::move(layout->sensors);
         }
-        const auto columns = choose_columns(*table_, time, options_.channels, path_);
+        const auto columns = choose_columns(*table_, time, options_.channels, path_, &choice_remarks_);
         if (!columns) return columns.error();
         std::vector<Placed> out;
         for (const auto c : *columns) {
@@ -97,7 +104,8 @@ class Recording final : public Source {
     bool holds_spikes(std::optional<std::size_t> time) const {
         const auto& columns = table_->columns();
         return time && options_.channels.empty() && columns.size() <= 3 && std::any_of(columns.begin(), columns.end(), [](const Column& c) {
-                   return same_letters(c.name, "unit") || same_letters(c.name, "afferent");
+                   constexpr std::string_view words[] = {"unit", "afferent", "cluster", "cluster_id", "unit_id", "neuron", "neuron_id"};
+                   return std::any_of(std::begin(words), std::end(words), [&](auto w) { return same_letters(c.name, w); });
                });
     }
 
@@ -127,8 +135,8 @@ class Recording final : public Source {
         before_ = at_, t_before_ = t_at_;
         at_.resize(channels_.size());
         for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = rows_->force(c);
-        t_at_ = row_clock_.by_times ? rows_->time() * row_clock_.seconds_per_unit
-                                    : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
+        t_at_ =
+            row_clock_.by_times ? row_clock_.seconds(rows_->time()) : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
         rows_->next();
         ++row_number_;
         return true;
@@ -167,12 +175,14 @@ class Recording final : public Source {
 
 public:
     Recording(std::string path, std::unique_ptr<Table> table, RecordingOptions options)
-        : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)),
-          name_(std::filesystem::path(path_).stem().string()) {}
+        : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)) {}
 
     Result<void> open() {
+        remarks_ = table_->remarks();
         const auto time = choose_time(*table_, options_.time, path_);
         if (!time) return time.error();
+        if (*time == table_->time_column() || !table_->time_column())
+            for (auto& remark : table_->column_remarks()) remarks_.push_back(std::move(remark));
         if (holds_spikes(*time)) return bad_input("this is a file of spikes, not of force; 'corpuscle compare' reads it", {path_});
         const auto chosen = choose(*time);
         if (!chosen) return chosen.error();
@@ -185,6 +195,7 @@ public:
         std::vector<std::size_t> columns;
         for (const auto& p : *chosen) columns.push_back(p.column);
         if (auto ok = set_clock(*time, columns); !ok) return ok;
+        remarks_.insert(remarks_.end(), choice_remarks_.begin(), choice_remarks_.end());
         add_channels(*chosen);
         auto paths = paths_of(*gains);
         if (!paths) return paths.error();
@@ -239,7 +250,7 @@ public:
     }
 };
 
-const Format& format_of(const std::string& path) {
+const Format& format_of_recording(const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
     if (!extension.empty())
         for (const auto& f : formats)
@@ -251,7 +262,15 @@ const Format& format_of(const std::string& path) {
 
 Result<std::unique_ptr<Source>> open_recording(const std::string& path, const RecordingOptions& options) {
     if (options.unit && options.scale && *options.unit != "raw") return bad_usage("--unit and --scale both say what is read: give one");
-    auto table = format_of(path).open(path, options.table);
+    const auto& format = format_of_recording(path);
+    if (options.table.skip > 0 && format.name != "text")
+        return bad_usage(fmt::format("--skip {}: lines are of files of text, and {} is {}", options.table.skip, path, format.name));
+    if (format.name != "text") {  // MATLAB's older files are called as its HDF5 files are
+        std::string first(512, '\0');
+        std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+        if (auto refusal = foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
+    }
+    auto table = format.open(path, options.table);
     if (!table) return table.error();
     remember_input(path);
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);

@@ -7,6 +7,7 @@
 #include "io/clock_check.hpp"
 #include "io/columns.hpp"
 #include "io/rows.hpp"
+#include "io/time_stamp.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle {
@@ -23,7 +24,7 @@ struct Times : ClockCheck {
 };
 
 /// One pass over the times; they may go back only where the rows' own times do not matter.
-Result<Times> check_times(Table& table, Rows rows, double unit, const RecordingOptions& options) {
+Result<Times> check_times(Table& table, Rows rows, const RowClock& clock, const RecordingOptions& options) {
     Times check;
     std::vector<std::vector<double>> block;
     for (double last = 0;;) {
@@ -31,14 +32,17 @@ Result<Times> check_times(Table& table, Rows rows, double unit, const RecordingO
         if (!count) return count.error();
         if (*count == 0) break;
         for (std::size_t k = 0; k < *count; ++k) {
-            const double t = block.back()[k] * unit;
+            const double t = clock.seconds(block.back()[k]);
             if (std::isnan(t)) {
                 check.skip();
                 continue;
             }
-            if (check.count() > 0 && t < last && !options.rate)
-                return bad_input(fmt::format("time goes back, from {:g} s to {:g} s; --rate takes the rows as evenly spaced", last, t),
+            if (check.count() > 0 && t < last && !options.rate) {
+                const auto trials = table.one_trial();
+                return bad_input(fmt::format("time goes back, from {:g} s to {:g} s{}", last, t,
+                                             trials.empty() ? "; --rate takes the rows as evenly spaced" : ": " + trials),
                                  rows.place(k));
+            }
             if (check.count() > 0 && t == last && !check.twice)
                 check.twice =
                     bad_input(fmt::format("the time {:g} s stands twice; --rate takes the rows as evenly spaced", t), rows.place(k));
@@ -87,7 +91,8 @@ Result<Clock> by_own_times(const std::string& name, const Times& times, const Re
 /// With --rate the times need not be readable: what was wrong with them is told, and the rows count from 0 s.
 Result<RowClock> without_times(Table& table, double rate, const Error& why, RowClock& out) {
     if (auto ok = table.rewind(); !ok) return ok.error();
-    out.remarks.push_back(fmt::format("the times were not read ({}); the rows count from 0 s", why.sentence));
+    out.remarks.push_back(
+        fmt::format("the times were not read ({}); the rows count from 0 s", why.sentence.substr(0, why.sentence.find("; --"))));
     const auto clock = clock_of(rate);
     if (!clock) return clock.error();
     out.clock = *clock;
@@ -95,10 +100,33 @@ Result<RowClock> without_times(Table& table, double rate, const Error& why, RowC
 }
 
 /// Times without a unit are seconds; a rate that no sensor of force has is told.
-void doubt_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, std::vector<std::string>& remarks) {
-    if (column.unit.empty() && !options.time_unit && !options.rate && clock.rate() < 5)
+void doubt_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, bool since_1970,
+                   std::vector<std::string>& remarks) {
+    if (column.unit.empty() && !options.time_unit && !options.rate && clock.rate() < 5 && !since_1970)
         remarks.push_back(fmt::format("no unit for '{}': taken as seconds, which makes {}; say --time-unit ms if they are milliseconds",
                                       column.name, hertz(clock.rate())));
+}
+
+/// Times since 1970 (2001 to 2065), by their size and step: in s, ms, us or ns, and counted from the first.
+Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit_is_known, RowClock& out) {
+    std::vector<std::vector<double>> first(1);
+    const auto rows = table.read({column}, 64, first);
+    if (auto ok = table.rewind(); !ok) return ok;
+    if (!rows) return {};  // the error is met again where all are read
+    std::vector<double> times;
+    for (std::size_t k = 0; k < *rows; ++k)
+        if (std::isfinite(first[0][k])) times.push_back(first[0][k]);
+    if (times.size() < 2) return {};
+    const double step = (times.back() - times[0]) / static_cast<double>(times.size() - 1);
+    for (const auto& [name, seconds] : {std::pair{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
+        const double factor = unit_is_known ? unit : seconds, since = times[0] * factor;
+        if (!(since >= 1e9 && since < 3e9 && step >= 0 && step * factor <= 10)) continue;
+        out.seconds_per_unit = factor, out.origin = times[0];
+        out.remarks.push_back(fmt::format("the times in '{}' are {} since 1970; 0 s is {} (UTC), the first of them",
+                                          table.columns()[column].name, unit_is_known ? "counted" : name, format_instant(since)));
+        return {};
+    }
+    return {};
 }
 
 }  // namespace
@@ -126,19 +154,28 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
         out.remarks.push_back("no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
     const auto unit = seconds_per_unit(table.columns()[*out.column], options, path);
     const bool drop = options.bad_fields == BadFields::drop;
-    const auto times = unit ? check_times(table, Rows(table, options, drop ? channels : std::vector<std::size_t>(), column), *unit, options)
+    if (unit) {
+        const auto& heading = table.columns()[*column];
+        out.seconds_per_unit = *unit;
+        if (options.time_unit && !heading.unit.empty() && *options.time_unit != heading.unit)
+            out.remarks.push_back(fmt::format("the header says '{}' is in {}; read as {}, as --time-unit says", heading.name, heading.unit,
+                                              *options.time_unit));
+        Rows rows(table, options, {}, column);  // says whether gaps are allowed
+        if (!heading.stamps)
+            if (auto ok = find_epoch(table, *column, *unit, options.time_unit || !heading.unit.empty(), out); !ok) return ok.error();
+    }
+    const auto times = unit ? check_times(table, Rows(table, options, drop ? channels : std::vector<std::size_t>(), column), out, options)
                             : Result<Times>(unit.error());
     if (!times && times.error().code == Code::interrupted) return times.error();
     if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
-    out.seconds_per_unit = *unit;
     if (times->gaps() * 20 < times->count()) out.gaps = times->gaps();  // more than that is how this clock runs
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.column].name;
     auto clock = options.rate ? by_rate(*options.rate, name, *times, out.remarks) : by_own_times(name, *times, options, out);
     if (!clock) return bad_input(clock.error().sentence, clock.error().place.file.empty() ? Place{path} : clock.error().place);
     out.clock = *clock;
-    doubt_seconds(table.columns()[*out.column], options, out.clock, out.remarks);
+    doubt_seconds(table.columns()[*out.column], options, out.clock, out.origin != 0, out.remarks);
     return out;
 }
 

@@ -1,10 +1,12 @@
 #include "io/spikes.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <fstream>
 
 #include "io/address_events.hpp"
 #include "io/trains.hpp"
+#include "io/utf8.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -44,7 +46,8 @@ std::vector<NamedTrain> Trains::in_order() && {
     return out;
 }
 
-std::string csv_field(const std::string& name) {
+std::string csv_field(const std::string& text) {
+    const auto name = utf8_text(text);
     if (name.find_first_of(",;\t\"\r\n") == name.npos && trimmed(name).size() == name.size() && !name.starts_with('#') &&
         !name.starts_with('%'))
         return name;
@@ -53,13 +56,18 @@ std::string csv_field(const std::string& name) {
     return quoted + "\"";
 }
 
-Result<std::vector<NamedTrain>> read_spikes(const std::string& path) {
-    std::string first(12, '\0');
+Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& columns) {
+    std::string first(512, '\0');
     std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
-    return first.starts_with("PK")                    ? read_npz_spikes(path)
-           : first.starts_with(address_events::magic) ? read_aer_spikes(path)
-           : first.starts_with("#!AER-DAT2.0")        ? read_aedat2_spikes(path)
-                                                      : read_text_spikes(path);
+    for (const auto& [magic, what] : {std::pair{"\x89HDF", "an HDF5 file"}, {"RIFF", "a sound"}, {"fLaC", "a sound"}})
+        if (first.starts_with(magic))
+            return bad_input(fmt::format("this is {}, no file of spikes: these are CSV, JSON lines, .npy, .npz or address events", what),
+                             {path});
+    if (first.starts_with("PK") && (first.find(".npy") != first.npos || path.ends_with(".npz"))) return read_npz_spikes(path);
+    if (first.starts_with("\x93NUMPY")) return read_npy_spikes(path, columns);
+    return first.starts_with(address_events::magic) ? read_aer_spikes(path)
+           : first.starts_with("#!AER-DAT2.0")      ? read_aedat2_spikes(path)
+                                                    : read_text_spikes(path, columns);
 }
 
 }  // namespace corpuscle

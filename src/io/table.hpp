@@ -14,6 +14,9 @@ namespace corpuscle {
 struct Column {
     std::string name;
     std::string unit;  ///< as the file says it; "" if it says none
+    /// Why it is no channel unless it is asked for by name, as a sentence says it ("holds words"); "": it may be one.
+    std::string left_out = {};
+    bool stamps = false;  ///< dates or times of day, read as seconds from the first
 };
 
 inline constexpr std::size_t rows_a_block = 4096;
@@ -21,7 +24,7 @@ inline constexpr std::size_t rows_a_block = 4096;
 /// What a format may need to know besides the path.
 struct TableOptions {
     std::optional<std::string> dataset = {};  ///< which of a file's arrays is meant: "/force/data" in HDF5, "force" in NPZ
-    std::size_t skip = 0;                             ///< lines of a file of text before its table
+    std::size_t skip = 0;                     ///< lines of a file of text before its table
 };
 
 class Table {
@@ -33,6 +36,8 @@ public:
     virtual const std::vector<Column>& columns() const = 0;
     /// Rows a second, if the file says it; Hz.
     virtual std::optional<double> rate() const { return {}; }
+    /// What the user should know of how the file is read.
+    virtual std::vector<std::string> remarks() const { return {}; }
     /// With gaps allowed a field that is no finite number reads as NaN; else it is an error that names its place.
     void allow_gaps(bool allowed) { gaps_allowed_ = allowed; }
     /// Which column is the time, if the file shows it ...
@@ -42,6 +47,10 @@ public:
     /// Reads up to `rows` rows of the columns `wanted` into out[i]; fewer than asked for only at the end.
     virtual Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) = 0;
     virtual Result<void> rewind() = 0;
+    /// How columns were taken without being named: one as the time, one left out.
+    virtual std::vector<std::string> column_remarks() const { return {}; }
+    /// If the rows of several trials may stand one under another: what makes a file of one of them. Else "".
+    virtual std::string one_trial() const { return {}; }
     /// How much of the file has been read, 0 to 1.
     virtual double done() const = 0;
     /// Where row number `row` of the last block stands, for messages.

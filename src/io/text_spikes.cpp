@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "io/columns.hpp"
+#include "io/dialect.hpp"
+#include "io/heading.hpp"
+#include "io/json_records.hpp"
 #include "io/lines.hpp"
-#include "io/text_table.hpp"
+#include "io/spike_columns.hpp"
 #include "io/trains.hpp"
 #include "signal/text.hpp"
 
@@ -20,6 +23,14 @@ struct Field {
 /// A line's fields; quotes may hold separators, and a doubled quote is one. False if a quote is left open.
 bool split(std::string_view line, char separator, std::vector<Field>& out) {
     out.clear();
+    if (separator == ' ') {
+        for (std::size_t at = line.find_first_not_of(" \t"); at < line.size();) {
+            const auto end = std::min(line.find_first_of(" \t", at), line.size());
+            out.push_back({std::string(line.substr(at, end - at)), static_cast<long>(at) + 1});
+            at = line.find_first_not_of(" \t", end);
+        }
+        return true;
+    }
     for (std::size_t at = 0;;) {
         const auto begin = std::min(line.find_first_not_of(separator == '\t' ? " " : " \t", at), line.size());
         Field field{"", static_cast<long>(begin) + 1};
@@ -46,18 +57,32 @@ bool split(std::string_view line, char separator, std::vector<Field>& out) {
     }
 }
 
+bool is_time(std::string_view text, char separator, double& value) { return Dialect{separator, separator != ','}.number(text, value); }
+
 /// A table of text with a row a spike.
 class TextSpikes {
     Lines lines_;
+    SpikeColumns wanted_;
     char separator_ = ',';
     std::vector<Field> fields_;
-    std::optional<std::size_t> time_, afferent_, channel_;
+    std::string comment_;  // the last before the table
+    SpikeColumnsFound found_;
     std::size_t columns_ = 0;
-    double seconds_ = 1;  // that one unit of the time column is
     Trains trains_;
 
     Error at(std::string sentence, long column = 0) const {
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
+    }
+
+    /// Blanks separate only numbers, or names of which the first is the time: other names may hold some.
+    static char separator_of(std::string_view line) {
+        for (const char c : {'\t', ';', ','})
+            if (line.find(c) != line.npos) return c;
+        std::vector<Field> fields;
+        double value;
+        split(line, ' ', fields);
+        const bool blanks = fields.size() > 1 && (is_time(fields[0].text, ' ', value) || names_time(parse_heading(fields[0].text).name));
+        return blanks ? ' ' : ',';
     }
 
     /// The next line that is not empty or a comment, in fields.
@@ -67,55 +92,56 @@ class TextSpikes {
             const auto more = lines_.next(line);
             if (!more || !*more) return more;
             const auto plain = trimmed(line);
-            if (!plain.empty() && plain.front() != '#' && plain.front() != '%') break;
+            if (plain.empty()) continue;
+            if (plain.front() != '#' && plain.front() != '%') break;
+            if (columns_ == 0) comment_ = trimmed(plain.substr(1));
         }
-        if (columns_ == 0) separator_ = line.find('\t') != line.npos ? '\t' : line.find(';') != line.npos ? ';' : ',';
+        if (columns_ == 0) separator_ = separator_of(line);
         if (!split(line, separator_, fields_)) return at("a quote that is opened here does not end", fields_.back().column);
         return true;
     }
 
-    Result<void> read_header() {
+    /// Headings in the first line, or in a comment above numbers, or none. True if the first line is a row.
+    Result<bool> read_header() {
         columns_ = fields_.size();
-        for (std::size_t c = 0; c < columns_; ++c) {
-            const auto heading = parse_heading(fields_[c].text);
-            const auto name = lower(heading.name);
-            if (!time_ && (name == "time" || name == "times" || name == "t" || name == "timestamp" || name == "spike_time")) {
-                const auto seconds = seconds_per_unit(heading, {}, lines_.path());
-                if (!seconds) return at(fmt::format("'{}' is no unit of time; write s, ms, us or min", heading.unit), fields_[c].column);
-                time_ = c, seconds_ = *seconds;
-            }
-            if (name == "afferent" || (name == "unit" && !afferent_)) afferent_ = c;
-            if (name == "channel") channel_ = c;
-        }
-        if (time_ && (afferent_ || channel_ || columns_ == 1)) return {};
-        std::vector<std::string> names;
-        for (const auto& f : fields_) names.push_back("'" + f.text.substr(0, 40) + "'");
-        if (names.size() > 12) names.resize(12), names.push_back("...");
-        const auto wanted = time_ ? "that says whose each spike is; one is to be called unit, afferent or channel"
-                                  : "of spike times; one is to be called time_s (or time, t [ms] ...)";
-        return at(fmt::format("no column {}; there are {}", wanted, fmt::join(names, ", ")));
+        double value;
+        const bool row = std::all_of(fields_.begin(), fields_.end(), [&](const Field& f) { return is_time(f.text, separator_, value); });
+        std::vector<std::string> headings;
+        for (const auto& f : fields_) headings.push_back(row ? "" : f.text);
+        std::vector<Field> commented;
+        if (row && !comment_.empty() && split(comment_, separator_of(comment_), commented) && commented.size() == columns_)
+            for (std::size_t c = 0; c < columns_; ++c) headings[c] = commented[c].text;
+        if (row && columns_ > 1 && headings[0].empty() && !(wanted_.time && wanted_.unit))
+            return at(fmt::format("{} columns without a header; --time 1 --unit 2 says which hold the times and the units", columns_));
+        std::size_t column = 0;
+        const auto found = find_spike_columns(headings, wanted_, column);
+        if (!found) return at(found.error().sentence, column > 0 ? fields_[column - 1].column : 0);
+        found_ = *found;
+        return row;
     }
 
     Result<void> add_row() {
         if (fields_.size() != columns_) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_));
-        const auto& [text, column] = fields_[*time_];
+        const auto& [text, column] = fields_[found_.time];
         double t = 0;
-        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), t);
-        if (status != std::errc{} || end != text.data() + text.size() || !std::isfinite(t * seconds_))
+        if (!is_time(text, separator_, t) || !std::isfinite(t * found_.seconds))
             return at(fmt::format("'{}' where a time should be", text.substr(0, 40)), column);
         const auto word = [this](const std::optional<std::size_t>& c) { return c ? fields_[*c].text : std::string(); };
-        trains_.of(word(afferent_), word(channel_)).push_back(t * seconds_);
+        trains_.of(word(found_.afferent), word(found_.channel)).push_back(t * found_.seconds);
         return {};
     }
 
 public:
-    explicit TextSpikes(Lines lines) : lines_(std::move(lines)) {}
+    TextSpikes(Lines lines, SpikeColumns wanted) : lines_(std::move(lines)), wanted_(std::move(wanted)) {}
 
     Result<std::vector<NamedTrain>> read() {
         const auto header = next();
         if (!header) return header.error();
         if (!*header) return bad_input("no header and no spikes in this file", {lines_.path()});
-        if (auto ok = read_header(); !ok) return ok.error();
+        const auto row = read_header();
+        if (!row) return row.error();
+        if (*row)
+            if (auto ok = add_row(); !ok) return ok.error();
         for (;;) {
             const auto more = next();
             if (!more) return more.error();
@@ -125,12 +151,52 @@ public:
     }
 };
 
+/// JSON with a record a spike, as our own events are.
+class JsonSpikes {
+    Lines& lines_;
+    SpikeColumns wanted_;
+    std::vector<std::string> headings_;
+    SpikeColumnsFound found_;
+    Trains trains_;
+
+    static std::string word_of(const nlohmann::ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+    Result<void> add(std::span<const JsonField> fields, long line) {
+        const auto wrong = [&](std::string sentence) { return bad_input(std::move(sentence), {lines_.path(), line}); };
+        if (headings_.empty()) {
+            for (const auto& f : fields) headings_.push_back(f.name == "ch1" && fields.size() == 1 ? "" : f.name);
+            std::size_t column = 0;
+            const auto found = find_spike_columns(headings_, wanted_, column);
+            if (!found) return wrong(found.error().sentence);
+            found_ = *found;
+        }
+        if (fields.size() != headings_.size()) return wrong(fmt::format("{} fields where {} should be", fields.size(), headings_.size()));
+        const auto& time = *fields[found_.time].value;
+        const double t = time.is_number() ? time.get<double>() * found_.seconds : std::nan("");
+        if (!std::isfinite(t)) return wrong(fmt::format("{} where a time should be", time.dump(-1, ' ', true).substr(0, 40)));
+        const auto word = [&](const std::optional<std::size_t>& c) { return c ? word_of(*fields[*c].value) : std::string(); };
+        trains_.of(word(found_.afferent), word(found_.channel)).push_back(t);
+        return {};
+    }
+
+public:
+    JsonSpikes(Lines& lines, SpikeColumns wanted) : lines_(lines), wanted_(std::move(wanted)) {}
+
+    Result<std::vector<NamedTrain>> read() {
+        if (auto ok = read_json_records(lines_, [this](auto fields, long line) { return add(fields, line); }); !ok) return ok.error();
+        return std::move(trains_).in_order();
+    }
+};
+
 }  // namespace
 
-Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path) {
+Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path, const SpikeColumns& wanted) {
     auto lines = Lines::open(path);
     if (!lines) return lines.error();
-    return TextSpikes(std::move(*lines)).read();
+    const auto json = begins_like_json(*lines);
+    if (!json) return json.error();
+    if (*json) return JsonSpikes(*lines, wanted).read();
+    return TextSpikes(std::move(*lines), wanted).read();
 }
 
 }  // namespace corpuscle

@@ -6,94 +6,84 @@
 #include <cstring>
 #include <limits>
 
-#include "io/dialect.hpp"
-#include "signal/quantity.hpp"
+#include "io/foreign_format.hpp"
+#include "io/json_records.hpp"
+#include "io/json_table.hpp"
+#include "io/text_form.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
 namespace {
 
-bool is_comment(std::string_view line) {
-    const auto s = trimmed(line);
-    return s.empty() || s.front() == '#' || s.front() == '%';
-}
-
-/// What may stand behind the last '_' of a heading and be a unit; not a letter that more often means something else (left_F).
-bool known_unit(std::string_view s) {
-    constexpr std::string_view words[] = {"counts", "count",  "raw",  "adc",    "lsb",    "deg",     "degC",   "kg",
-                                          "g",      "Pa",     "kPa",  "mmHg",   "bar",    "psi",     "sec",    "seconds",
-                                          "msec",   "millis", "usec", "micros", "newton", "newtons", "Newton", "Newtons"};
-    constexpr std::string_view letters[] = {"", "1", "%", "F", "A", "S", "T"};
-    if (std::find(std::begin(letters), std::end(letters), s) != std::end(letters)) return false;
-    return std::find(std::begin(words), std::end(words), s) != std::end(words) || parse_unit(s);
-}
-
 class TextTable final : public Table {
     Lines lines_;
+    TextForm form_;
     Dialect dialect_;
     std::vector<Column> columns_;
     std::optional<std::size_t> time_;
-    bool header_ = false, commented_ = false, skip_header_ = false;
-    std::string comment_;  // the last before the data
+    std::size_t skip_;
     Fields fields_;
-    std::vector<long> numbers_;   // line numbers of the last block's rows
-    std::vector<double*> to_;     // of each column: where its block of numbers goes, or nowhere
-    std::size_t wanted_end_ = 0;  // behind the last column wanted
+    std::vector<long> numbers_;         // line numbers of the last block's rows
+    std::vector<double*> to_;           // of each column: where its block of numbers goes, or nowhere
+    std::size_t wanted_end_ = 0;        // behind the last column wanted
+    double last_stamp_ = 0, days_ = 0;  // s: of the time of day read last, and the days that have passed
 
     Error at(std::string sentence, long column = 0) const {
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
     }
 
-    std::string called(std::size_t c) const {
-        return header_ || commented_ ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1);
-    }
+    std::string called(std::size_t c) const { return form_.named ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
 
     /// The next line that holds data.
     Result<bool> next_row(std::string_view& line) {
         for (;;) {
             const auto more = lines_.next(line);
             if (!more || !*more) return more;
-            if (is_comment(line)) {
-                if (columns_.empty()) comment_ = trimmed(trimmed(line).substr(trimmed(line).empty() ? 0 : 1));
-                continue;
-            }
-            if (!std::exchange(skip_header_, false)) return true;
+            if (lines_.number() >= form_.first_row && !is_comment(line)) return true;
         }
     }
 
-    Result<double> number_in(std::string_view line, std::size_t c) const {
+    /// Seconds from the first stamp; times of day go on after midnight.
+    std::optional<double> stamp_in(std::size_t c) {
+        const auto stamp = parse_time_stamp(fields_[c]);
+        if (!stamp || !form_.first_stamp || stamp->dated != form_.first_stamp->dated) return {};
+        double t = seconds_between(*form_.first_stamp, *stamp) + days_;
+        if (stamp->dated || c != time_) return t;
+        constexpr double day = 86'400;
+        if (t < last_stamp_ - day / 2) days_ += day, t += day;
+        return last_stamp_ = t;
+    }
+
+    /// What to do about a field that cannot be read.
+    std::string remedy(std::size_t c) const {
+        if (c == time_) return "; --rate, such as --rate 1kHz, takes the rows as evenly spaced, --time names another column";
+        const bool first = lines_.number() <= form_.first_row;
+        return fmt::format("; --bad-fields interpolate fills it in, --bad-fields drop leaves its row out{}",
+                           first ? ", --skip LINES passes over lines before the table" : "");
+    }
+
+    Result<double> number_in(std::string_view line, std::size_t c) {
         double value = 0;
-        if (dialect_.number(fields_[c], value)) return value;
-        if (gaps_allowed_) return std::numeric_limits<double>::quiet_NaN();
-        const auto column = fields_[c].data() - line.data() + 1;
-        const auto what = fields_[c].empty() ? std::string("nothing") : fmt::format("'{}'", fields_[c].substr(0, 40));
-        return at(fmt::format("column {}: {} where a number should be", called(c), what), column);
-    }
-
-    /// The first line that is no comment: a header, or data under a commented header or none.
-    void read_header(std::string_view line) {
-        dialect_ = Dialect::of(line);
-        split(line);
-        double value;
-        header_ = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !dialect_.number(f, value, true); });
-        const std::size_t columns = fields_.size();
-        if (!header_ && !comment_.empty()) {  // numpy's savetxt, and others, write the header as a comment
-            Dialect::of(comment_).split(comment_, fields_);
-            commented_ = fields_.size() == columns;
+        if (columns_[c].stamps) {
+            if (const auto t = stamp_in(c)) return *t;
+        } else if (dialect_.number(fields_[c], value)) {
+            return value;
         }
-        for (std::size_t c = 0; c < columns; ++c) columns_.push_back(header_ || commented_ ? parse_heading(fields_[c]) : Column{});
-        for (std::size_t c = columns; c-- > 0;)
-            if (names_time(columns_[c].name)) time_ = c;
+        if (gaps_allowed_) return std::numeric_limits<double>::quiet_NaN();
+        const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;
+        const auto what = fields_[c].empty() ? std::string("nothing") : fmt::format("'{}'", fields_[c].substr(0, 40));
+        return at(fmt::format("column {}: {} where a {} should be{}", called(c), what, columns_[c].stamps ? "time" : "number", remedy(c)),
+                  column);
     }
 
-    /// A separator at the end of a line makes no column.
     void split(std::string_view line) {
-        dialect_.split(line, fields_);
-        if (fields_.size() > 1 && fields_.back().empty() && (columns_.empty() || fields_.size() == columns_.size() + 1)) fields_.pop_back();
+        split_row(dialect_, line, columns_.size(), fields_);
+        if (form_.last_may_be_missing && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
     }
 
     /// Without a header: does the first column rise by like steps over the first rows?
     Result<void> look_for_time() {
+        if (!columns_[0].left_out.empty()) return {};
         std::vector<std::vector<double>> first(1);
         const auto rows = read({0}, 64, first);
         if (!rows) return rows.error();
@@ -147,8 +137,13 @@ class TextTable final : public Table {
         if (read_plain_row(line, row)) return {};
         split(line);
         if (fields_.size() != columns_.size()) {
-            if (!gaps_allowed_) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_.size()));
-            for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // which is which nobody knows
+            if (!gaps_allowed_)
+                return at(fmt::format("{} columns where {} should be; {}", fields_.size(), columns_.size(),
+                                      form_.last_may_be_missing && line.starts_with("Channels")
+                                          ? fmt::format("another segment begins here; keep the first: head -n {} {} > first.lvm",
+                                                        lines_.number() - 1, shell_word(lines_.path()))
+                                          : "--bad-fields drop leaves such rows out"));
+            for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // which field is whose is not known
             return {};
         }
         for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -172,17 +167,14 @@ class TextTable final : public Table {
     }
 
 public:
-    explicit TextTable(Lines lines) : lines_(std::move(lines)) {}
+    TextTable(Lines lines, std::size_t skip) : lines_(std::move(lines)), skip_(skip) {}
 
     Result<void> open() {
-        std::string_view line;
-        const auto first = next_row(line);
-        if (!first) return first.error();
-        if (!*first) return bad_input("no data in this file", {lines_.path()});
-        if (line.find('\0') != std::string_view::npos) return at("this is no text: it has NUL bytes (a binary file, or UTF-16?)");
-        read_header(line);
-        if (auto ok = rewind(); !ok) return ok;
-        if (!header_ && !commented_)
+        auto form = find_text_form(lines_, skip_);
+        if (!form) return form.error();
+        form_ = std::move(*form);
+        dialect_ = form_.dialect, columns_ = form_.columns, time_ = form_.roles.time;
+        if (!form_.named && !time_)
             if (auto ok = look_for_time(); !ok) return ok;
         name_columns();
         return {};
@@ -190,7 +182,41 @@ public:
 
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return time_; }
-    bool time_is_guessed() const override { return time_ && !header_ && !commented_; }
+    bool time_is_guessed() const override { return time_ && (!form_.named || form_.roles.time_is_guessed); }
+    std::optional<double> rate() const override { return form_.rate; }
+    std::vector<std::string> column_remarks() const override {
+        auto all = form_.roles.remarks;
+        if (time_ && columns_[*time_].stamps && form_.first_stamp) {
+            const auto& s = *form_.first_stamp;
+            const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
+            all.push_back(fmt::format("0 s is {}, the first time in '{}'", s.dated ? instant : instant.substr(11), columns_[*time_].name));
+        }
+        return all;
+    }
+
+    /// awk does it, but for quotes and what is packed.
+    std::string one_trial() const override {
+        if (!form_.trial || form_.dialect.separator == '"') return "";
+        const auto& name = columns_[*form_.trial].name;
+        const auto& value = form_.first_trial;
+        const auto said = fmt::format(
+            "the rows of several trials seem to stand one under another, told apart by '{}', and trials are not read "
+            "together yet",
+            name);
+        const bool plain = !value.empty() && std::all_of(value.begin(), value.end(), [](unsigned char c) {
+            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '-';
+        });
+        if (!plain) return said + "; make a file of each";
+        double number;
+        const char separator = dialect_.separator;
+        const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F'{}'", separator);
+        const auto awk = fmt::format("awk{} 'NR<{} || ${}=={}'", fields, form_.first_row, *form_.trial + 1,
+                                     dialect_.number(value, number) ? value : "\"" + value + "\"");
+        const bool packed = lines_.path().ends_with(".gz");
+        return fmt::format("{}; make a file of one: {} > trial.csv", said,
+                           packed ? fmt::format("zcat {} | {}", shell_word(lines_.path()), awk) : awk + " " + shell_word(lines_.path()));
+    }
+
     double done() const override { return lines_.done(); }
     Place place(std::size_t row) const override { return {lines_.path(), row < numbers_.size() ? numbers_[row] : 0}; }
 
@@ -210,32 +236,21 @@ public:
     }
 
     Result<void> rewind() override {
-        skip_header_ = header_;
+        last_stamp_ = days_ = 0;
         return lines_.rewind();
     }
 };
 
 }  // namespace
 
-bool names_time(std::string_view name) {
-    const auto word = lower(name);
-    return word == "time" || word == "timestamp" || word == "t" || word == "times" || word == "timestamps" || word == "time stamp";
-}
-
-Column parse_heading(std::string_view field) {
-    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})
-        if (const auto at = field.rfind(open); at != std::string_view::npos && field.ends_with(close) && at > 0)
-            return {std::string(trimmed(field.substr(0, at))), std::string(trimmed(field.substr(at + 1, field.size() - at - 2)))};
-    if (const auto at = field.rfind('_'); at != std::string_view::npos && at > 0 && known_unit(field.substr(at + 1)))
-        return {std::string(field.substr(0, at)), std::string(field.substr(at + 1))};
-    return {std::string(field), ""};
-}
-
 Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a file of text has only one table", *options.dataset));
     auto lines = Lines::open(path);
     if (!lines) return lines.error();
-    auto table = std::make_unique<TextTable>(std::move(*lines));
+    const auto json = begins_like_json(*lines);
+    if (!json) return json.error();
+    if (*json) return open_json_table(std::move(*lines));
+    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip);
     if (auto ok = table->open(); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }

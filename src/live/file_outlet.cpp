@@ -120,7 +120,11 @@ Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const E
     if (!opened) return opened.error();
     const auto file = std::make_shared<OutputFile>(std::move(*opened));
     return std::unique_ptr<EventOutlet>(std::make_unique<FileOutlet>(
-        format, ring, path, [file](std::string_view text) { return file->write(text); }, [file] { return file->commit(); }));
+        format, ring, path, [file](std::string_view text) { return file->write(text); },
+        [file] {
+            const auto done = file->commit();
+            return done ? sync_directory_of(file->path()) : done;
+        }));
 }
 
 }  // namespace corpuscle

@@ -45,6 +45,11 @@ LiveSkin& LiveSkin::operator=(LiveSkin&&) noexcept = default;
 LiveSkin::~LiveSkin() = default;
 
 std::size_t LiveSkin::sites() const { return held_->stream->sites(); }
+LiveSkin::Site LiveSkin::site(std::size_t number) const {
+    if (number >= sites()) throw Refused("there is no site " + std::to_string(number) + "; the last is " + std::to_string(sites() - 1));
+    const auto& all = held_->stream->innervation().plan.sites;
+    return {all.names[number], all.at[number].x, all.at[number].y};
+}
 std::size_t LiveSkin::units() const { return held_->units.names.size(); }
 std::int64_t LiveSkin::frames() const { return held_->stream->frames(); }
 std::string LiveSkin::name(std::uint32_t unit) const {

@@ -9,6 +9,7 @@
 struct corpuscle_skin {
     corpuscle::LiveSkin skin;
     std::vector<std::string> names = {};
+    std::vector<corpuscle::LiveSkin::Site> sites = {};
     std::string error = {};
 };
 
@@ -70,6 +71,7 @@ corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, si
         }
         auto made = std::unique_ptr<corpuscle_skin>(new corpuscle_skin{corpuscle::LiveSkin(population, rate_hz, channels, texts)});
         for (std::uint32_t u = 0; u < made->skin.units(); ++u) made->names.push_back(made->skin.name(u));
+        for (std::size_t s = 0; s < made->skin.sites(); ++s) made->sites.push_back(made->skin.site(s));
         return made.release();
     } catch (const std::exception& e) {
         corpuscle::copy_text(e.what(), error, error_size);
@@ -82,6 +84,15 @@ corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, si
 void corpuscle_destroy(corpuscle_skin* skin) { delete skin; }
 
 size_t corpuscle_sites(const corpuscle_skin* skin) { return skin ? skin->skin.sites() : 0; }
+const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site) {
+    return skin && site < skin->sites.size() ? skin->sites[site].name.c_str() : nullptr;
+}
+int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, double* y) {
+    if (!skin || site >= skin->sites.size()) return -1;
+    if (x) *x = skin->sites[site].x;
+    if (y) *y = skin->sites[site].y;
+    return 0;
+}
 size_t corpuscle_units(const corpuscle_skin* skin) { return skin ? skin->names.size() : 0; }
 const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t unit) {
     return skin && unit < skin->names.size() ? skin->names[unit].c_str() : nullptr;

@@ -5,11 +5,13 @@
 
 #include "io/bytes.hpp"
 #include "io/output.hpp"
+#include "signal/checksum.hpp"
 
 namespace corpuscle {
 namespace {
 
 constexpr std::string_view state_magic = "corplive";
+constexpr std::uint32_t state_version = 2;  // ends with a checksum of all before it; version 1, which has none, is read
 
 /// What stands before the forces and the skin's bytes; little-endian.
 struct StateHead {
@@ -21,25 +23,45 @@ struct StateHead {
 }  // namespace
 
 std::vector<std::byte> packed(const StreamState& state) {
-    StateHead head = {
-        {}, 1, state.number.has_value(), state.number.value_or(0), static_cast<std::uint32_t>(state.force.size()), state.skin.size()};
+    StateHead head = {{},
+                      state_version,
+                      state.number.has_value(),
+                      state.number.value_or(0),
+                      static_cast<std::uint32_t>(state.force.size()),
+                      state.skin.size()};
     std::memcpy(head.magic, state_magic.data(), sizeof head.magic);
     std::vector<std::byte> out(sizeof head + state.force.size() * sizeof(double));
     std::memcpy(out.data(), &head, sizeof head);
     if (!state.force.empty()) std::memcpy(out.data() + sizeof head, state.force.data(), state.force.size() * sizeof(double));
     out.insert(out.end(), state.skin.begin(), state.skin.end());
+    const auto sum = checksum_of(out);
+    const auto* const bytes = reinterpret_cast<const std::byte*>(&sum);
+    out.insert(out.end(), bytes, bytes + sizeof sum);
     return out;
 }
 
 Result<StreamState> unpacked(std::span<const std::byte> bytes, const std::string& file) {
     StateHead head;
     if (bytes.size() < sizeof head || std::memcmp(bytes.data(), state_magic.data(), sizeof head.magic) != 0)
-        return bad_input("this is no saved state of a stream (it does not begin with 'corplive')", {file});
+        return bad_input("not a saved state of a stream: it does not begin with 'corplive'", {file});
     std::memcpy(&head, bytes.data(), sizeof head);
-    if (head.version != 1) return bad_input(fmt::format("a saved state of version {}; this program reads version 1", head.version), {file});
-    const auto rest = bytes.subspan(sizeof head);
+    if (head.version < 1 || head.version > state_version)
+        return bad_input(fmt::format("a saved state of version {}; this program reads versions 1 to {}. Start without --resume, or use the "
+                                     "program that saved it",
+                                     head.version, state_version),
+                         {file});
+    auto rest = bytes.subspan(sizeof head);
+    if (head.version >= 2) {
+        std::uint64_t sum = 0;
+        if (rest.size() < sizeof sum) return bad_input("this saved state is cut short; start without --resume", {file});
+        std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
+        if (sum != checksum_of(bytes.first(bytes.size() - sizeof sum)))
+            return bad_input("this saved state is damaged: its checksum is wrong; start without --resume", {file});
+        rest = rest.first(rest.size() - sizeof sum);
+    }
     const auto forces = head.sites * std::uint64_t{sizeof(double)};
-    if (rest.size() < forces || rest.size() - forces != head.skin) return bad_input("this saved state is cut short or too long", {file});
+    if (rest.size() < forces || rest.size() - forces != head.skin)
+        return bad_input("this saved state is cut short or too long; start without --resume", {file});
     StreamState state;
     state.force.resize(head.sites);
     if (forces > 0) std::memcpy(state.force.data(), rest.data(), forces);
@@ -55,7 +77,8 @@ Result<void> save_stream(const std::string& path, const StreamState& state) {
     if (!file) return file.error();
     const auto bytes = packed(state);
     if (auto ok = file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok) return ok;
-    return file->commit();
+    if (auto ok = file->commit(); !ok) return ok;
+    return sync_directory_of(path);
 }
 
 Result<StreamState> load_stream(const std::string& path) {

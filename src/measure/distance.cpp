@@ -22,7 +22,12 @@ public:
     enum Choice : unsigned char { skip_a, skip_b, move };
     struct Row {
         std::size_t from = 0, to = 0;  // the columns of b, [from, to)
-        std::size_t choices = 0;       // where theirs begin
+        std::size_t cells = 0;         // of all rows before
+    };
+    /// All that the rows from `row` on depend on.
+    struct Checkpoint {
+        std::size_t row, from, known;
+        std::vector<double> best;  // of [from, known]
     };
 
     Savings(std::span<const double> a, std::span<const double> b, double q) : a_(a), b_(b), q_(q), best_(b.size() + 1) {}
@@ -51,34 +56,62 @@ public:
             diagonal = above;
             const Choice choice = moved > above && moved > best_[j] ? move : above >= best_[j] ? skip_a : skip_b;
             best_[j + 1] = choice == move ? moved : choice == skip_a ? above : best_[j];
-            if (choices) (*choices)[row.choices + j - row.from] = choice;
+            if (choices) choices->push_back(choice);
         }
+    }
+
+    Checkpoint checkpoint(std::size_t row, std::size_t from) const {
+        const auto begin = best_.begin() + static_cast<std::ptrdiff_t>(std::min(from, known_));
+        return {row, std::min(from, known_), known_, {begin, best_.begin() + static_cast<std::ptrdiff_t>(known_) + 1}};
+    }
+    void go_back_to(const Checkpoint& there) {
+        known_ = there.known;
+        std::copy(there.best.begin(), there.best.end(), best_.begin() + static_cast<std::ptrdiff_t>(there.from));
     }
 
     double total() const { return best_[known_]; }
 };
 
-Result<Alignment> align(std::span<const double> a, std::span<const double> b, double q, bool with_moves) {
-    Savings savings(a, b, q);
-    const auto rows = savings.rows();
-    const std::size_t cells = rows.empty() ? 0 : rows.back().choices + rows.back().to - rows.back().from;
-    if (cells > (with_moves ? most_candidates() / 4 : most_candidates()))
-        return bad_input(fmt::format("at a cost of {:g} a second, {} and {} spikes are {} pairs within reach of each other; raise the cost",
-                                     q, a.size(), b.size(), cells));
-    std::vector<Savings::Choice> choices(with_moves ? cells : 0);
-    for (std::size_t i = 0; i < rows.size(); ++i) savings.answer(i, rows[i], with_moves ? &choices : nullptr);
-    Alignment out{static_cast<double>(a.size() + b.size()) - savings.total(), {}};
-    if (!with_moves) return out;
-    std::size_t j = b.size();
-    for (std::size_t i = a.size(); i-- > 0;)
+constexpr std::size_t cells_kept = std::size_t{1} << 22;  // choices at once
+
+/// The moves of rows [from, to), whose choices are at hand, in falling order.
+void follow_back(std::span<const Savings::Row> rows, std::size_t from, std::size_t to, const std::vector<Savings::Choice>& choices,
+                 std::size_t& j, std::vector<Match>& moved) {
+    for (std::size_t i = to; i-- > from;)
         for (j = std::min(j, rows[i].to); j > rows[i].from;) {
-            const auto choice = choices[rows[i].choices + j - 1 - rows[i].from];
+            const auto choice = choices[rows[i].cells - rows[from].cells + j - 1 - rows[i].from];
             if (choice == Savings::skip_a) break;
             --j;
             if (choice == Savings::skip_b) continue;
-            out.moved.push_back({i, j});
+            moved.push_back({i, j});
             break;
         }
+}
+
+Result<Alignment> align(std::span<const double> a, std::span<const double> b, double q, bool with_moves) {
+    Savings savings(a, b, q);
+    const auto rows = savings.rows();
+    const std::size_t cells = rows.empty() ? 0 : rows.back().cells + rows.back().to - rows.back().from;
+    if (cells > (with_moves ? most_candidates() / 4 : most_candidates()))
+        return bad_input(fmt::format("at a cost of {:g} a second, {} and {} spikes are {} pairs within reach of each other; raise the cost",
+                                     q, a.size(), b.size(), cells));
+    // Choices are kept of as many rows as go into a fixed room; those before are worked out again, from where their rows began.
+    std::vector<Savings::Choice> choices;
+    std::vector<Savings::Checkpoint> blocks;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (with_moves && (blocks.empty() || rows[i].cells + rows[i].to - rows[i].from - rows[blocks.back().row].cells > cells_kept))
+            blocks.push_back(savings.checkpoint(i, rows[i].from)), choices.clear();
+        savings.answer(i, rows[i], with_moves ? &choices : nullptr);
+    }
+    Alignment out{static_cast<double>(a.size() + b.size()) - savings.total(), {}};
+    std::size_t j = b.size(), end = rows.size();
+    for (auto block = blocks.rbegin(); block != blocks.rend(); end = block->row, ++block) {
+        if (block != blocks.rbegin()) {
+            savings.go_back_to(*block), choices.clear();
+            for (std::size_t i = block->row; i < end; ++i) savings.answer(i, rows[i], &choices);
+        }
+        follow_back(rows, block->row, end, choices, j, out.moved);
+    }
     std::reverse(out.moved.begin(), out.moved.end());
     return out;
 }

@@ -24,6 +24,14 @@ using Measures = MeasureList<SpikeCount, MeanRate, PeakRate, FirstRate, LastRate
 
 inline constexpr auto& measures = Measures::rows;
 
+/// Where a measure stands among `measures`.
+template <class M>
+inline constexpr std::size_t place_of_measure = [] {
+    std::size_t k = 0;
+    while (measures[k].name != M::row.name) ++k;
+    return k;
+}();
+
 /// Every measure of every train in every stretch.
 class Tally {
     struct Train {

@@ -3,12 +3,15 @@
 
 #include <cmath>
 
+#include "measure/pauses.hpp"
 #include "measure/stretch.hpp"
 
 namespace corpuscle {
 
 /// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), drawn at t[k] (3.3). Two spikes on one sample have none.
 inline double rate_between(double from, double to) { return to > from ? 1 / (to - from) : no_value; }
+/// The same of two spikes that belong together: none over a pause.
+inline double firing_rate_between(double from, double to) { return to - from > Pauses::longest ? no_value : rate_between(from, to); }
 
 struct SpikeCount : Deaf {
     static constexpr Measure row{"spikes", "spikes", "", 0, "spikes in the phase"};
@@ -28,7 +31,7 @@ struct PeakRate : Deaf {
     static constexpr Measure row{"peak_rate", "peak", "Hz", 1, "highest instantaneous frequency at a spike of the phase"};
     double peak = no_value;
     void interval(double from, double to, bool) {
-        if (const double rate = rate_between(from, to); rate > peak || std::isnan(peak)) peak = rate;
+        if (const double rate = firing_rate_between(from, to); rate > peak || std::isnan(peak)) peak = rate;
     }
     double value(const Stretch&) const { return peak; }
 };
@@ -38,7 +41,7 @@ struct FirstRate : Deaf {
     bool seen = false;
     double first = no_value;
     void interval(double from, double to, bool) {
-        if (!seen) first = rate_between(from, to);
+        if (!seen) first = firing_rate_between(from, to);
         seen = true;
     }
     double value(const Stretch&) const { return first; }
@@ -47,8 +50,9 @@ struct FirstRate : Deaf {
 struct LastRate : Deaf {
     static constexpr Measure row{"last_rate", "last", "Hz", 1, "last instantaneous frequency between two spikes of the phase"};
     double last = no_value;
+    Pauses pauses;
     void interval(double from, double to, bool inside) {
-        if (inside) last = rate_between(from, to);
+        if (inside) last = pauses.add(to - from) ? no_value : rate_between(from, to);
     }
     double value(const Stretch&) const { return last; }
 };

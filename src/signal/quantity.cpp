@@ -156,7 +156,7 @@ std::string format_quantity(double value, std::string_view unit) {
         i = std::clamp(static_cast<int>(std::floor(std::log10(rounded) / 3)) + 5, 0, 9);
         value /= std::pow(10.0, 3 * (i - 5));
     }
-    return fmt::format("{:.4g}{}{}{}", value, unit.empty() ? "" : " ", names[i], unit);
+    return fmt::format("{:.4g}{}{}{}", value + 0.0, unit.empty() ? "" : " ", names[i], unit);
 }
 
 }  // namespace corpuscle

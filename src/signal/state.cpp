@@ -6,12 +6,15 @@
 #include <cstring>
 
 #include "signal/afferent.hpp"
+#include "signal/checksum.hpp"
 
 namespace corpuscle {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "packed states are little-endian");
-constexpr std::array<char, 8> magic = {'c', 'o', 'r', 'p', 's', 't', '1', '\n'};
+/// "corpst", the version and a line break. Version 2 ends with a checksum of all before it; version 1, which has none, is read.
+constexpr std::array<char, 8> magic = {'c', 'o', 'r', 'p', 's', 't', '2', '\n'};
+constexpr std::size_t version_at = 6;
 constexpr std::uint64_t longest = 1U << 26;  // of format text or values: far above any afferent, far below trouble
 
 constexpr std::int64_t last_step = std::int64_t{1} << 53;  // beyond it a double no longer counts samples
@@ -28,6 +31,22 @@ bool take(std::span<const std::byte>& in, T* data, std::size_t count) {
     if (count > 0) std::memcpy(data, in.data(), count * sizeof(T));
     in = in.subspan(count * sizeof(T));
     return true;
+}
+
+/// What stands behind the magic of a state, without the checksum at the end, which must be right.
+Result<void> take_checksum(std::span<const std::byte> all, const std::array<char, 8>& head, std::span<const std::byte>& in) {
+    if (head[version_at] == '1' && head.back() == '\n') return {};
+    if (head != magic)
+        return bad_input(
+            "a saved state of an afferent of a later version than 2, the last that this program reads; start from the "
+            "beginning, or use the program that saved it");
+    std::uint64_t sum = 0;
+    if (in.size() < sizeof sum) return bad_input("a saved state of an afferent is cut short");
+    std::memcpy(&sum, all.data() + all.size() - sizeof sum, sizeof sum);
+    if (sum != checksum_of(all.first(all.size() - sizeof sum)))
+        return bad_input("a saved state of an afferent is damaged: its checksum is wrong; start from the beginning");
+    in = in.first(in.size() - sizeof sum);
+    return {};
 }
 
 }  // namespace
@@ -58,6 +77,8 @@ std::vector<std::byte> pack(const State& s) {
     put(out, &s.step, 1);
     put(out, s.format.data(), s.format.size());
     put(out, s.values.data(), s.values.size());
+    const auto sum = checksum_of(out);
+    put(out, &sum, 1);
     return out;
 }
 
@@ -65,8 +86,10 @@ Result<State> unpack(std::span<const std::byte> in) {
     State s;
     std::array<char, 8> head = {};
     std::array<std::uint64_t, 2> sizes = {};
-    if (!take(in, head.data(), head.size()) || head != magic)
-        return bad_input("these bytes are no saved state of an afferent (they do not begin with 'corpst1')");
+    const auto all = in;
+    if (!take(in, head.data(), head.size()) || !std::equal(head.begin(), head.begin() + version_at, magic.begin()))
+        return bad_input("not a saved state of an afferent: it does not begin with 'corpst'");
+    if (auto ok = take_checksum(all, head, in); !ok) return ok.error();
     if (!take(in, sizes.data(), 2) || !take(in, &s.step, 1) || sizes[0] > longest || sizes[1] > longest ||
         in.size() != sizes[0] + sizes[1] * sizeof(double))
         return bad_input("a saved state of an afferent is cut short or too long");

@@ -13,6 +13,59 @@
 
 namespace corpuscle {
 
+/// Where keys or values are nested so deep that toml++, which goes down by recursion, would run out of stack; nothing: nowhere.
+/// Counted are the dots of a key and the brackets that are open.
+inline std::optional<Error> too_deep(std::string_view text, const std::string& file) {
+    constexpr std::size_t most_dots = 32, most_open = 64;
+    std::size_t dots = 0, open = 0, line = 1, line_at = 0;
+    const auto wrong = [&](std::size_t k, std::string_view what, std::size_t most) {
+        return bad_input(fmt::format("{} nested more than {} deep", what, most),
+                         {file, static_cast<long>(line), static_cast<long>(k - line_at + 1)});
+    };
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (c == '#') {
+            k = std::min(text.find('\n', k), text.size()) - 1;
+        } else if (c == '"' || c == '\'') {
+            const auto quotes = text.substr(k, 3) == std::string(3, c) ? 3U : 1U;
+            for (k += quotes; k < text.size() && text.substr(k, quotes) != std::string(quotes, c); ++k) {
+                if (c == '"' && text[k] == '\\') ++k;
+                if (k < text.size() && text[k] == '\n') {
+                    if (quotes == 1) {  // it is not closed; the parser says so
+                        --k;
+                        break;
+                    }
+                    ++line, line_at = k + 1;
+                }
+            }
+            k += quotes - 1;
+        } else if (c == '\n') {
+            ++line, line_at = k + 1, dots = 0;
+        } else if (c == '.') {
+            if (++dots > most_dots) return wrong(k, "keys", most_dots);
+        } else if (c == '[' || c == '{') {
+            dots = 0;
+            if (++open > most_open) return wrong(k, "lists and tables", most_open);
+        } else if (c == ']' || c == '}') {
+            dots = 0, open -= open > 0;
+        } else if (c == ',' || c == '=') {
+            dots = 0;
+        }
+    }
+    return {};
+}
+
+/// The one way in which TOML is read: for sweeps and populations.
+inline Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
+    if (auto wrong = too_deep(text, file)) return *wrong;
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        const auto& at = error.source().begin;
+        return bad_input(std::string(error.description()), {file, static_cast<long>(at.line), static_cast<long>(at.column)});
+    }
+}
+
 /// Reads tables; the first thing that is wrong is kept, and what comes after it does not matter.
 class TomlReading {
     const std::string& file_;

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "signal/text.hpp"
+#include "skin/memory.hpp"
 
 namespace corpuscle {
 namespace {
@@ -42,6 +43,10 @@ bool is_grid(std::string_view text) {
 Result<SkinPlan> plan_grid(std::string_view text) {
     const auto size = rows_by_columns(trimmed(text).substr(std::min<std::size_t>(5, trimmed(text).size())));
     if (!size) return bad_usage(fmt::format("'{}' is no grid; write rows and columns, such as 'grid 8x8'", text));
+    const double count = static_cast<double>(size->first) * static_cast<double>(size->second);
+    if (count <= static_cast<double>(most_sites))
+        if (auto ok = check_memory(fmt::format("grid {}x{}", size->first, size->second), count, 2 * count, 18 * count); !ok)
+            return ok.error();
     auto sites = grid_sites(size->first, size->second, grid_pitch);
     if (!sites) return sites.error();
     SkinPlan plan;

@@ -1,8 +1,10 @@
 #include "skin/innervation.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
+#include "skin/memory.hpp"
 #include "skin/placing.hpp"
 
 namespace corpuscle {
@@ -27,6 +29,24 @@ std::optional<Error> refused(const SkinPlan& plan) {
     return {};
 }
 
+/// Before anything is placed: whether there is memory for it.
+Result<void> check_room(const SkinPlan& plan) {
+    double left = plan.sites.at[0].x, right = left, low = plan.sites.at[0].y, high = low;
+    for (const auto& p : plan.sites.at)
+        left = std::min(left, p.x), right = std::max(right, p.x), low = std::min(low, p.y), high = std::max(high, p.y);
+    const auto sites = static_cast<double>(plan.sites.size());
+    const double a_site = plan.sites.area > 0 ? plan.sites.area : std::max((right - left) * (high - low) / sites, 1e-12);
+    double units = 0, weights = 0;
+    for (std::uint32_t c = 0; c < plan.classes.size(); ++c) {
+        const auto& k = plan.classes[c];
+        double all = 0;
+        for (const auto n : units_by_region(plan, c)) all += static_cast<double>(n);
+        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // of most of a field
+        units += all, weights += all * std::clamp(3 * reach * reach / a_site, 1.0, sites);
+    }
+    return check_memory(plan.name, sites, units, weights);
+}
+
 }  // namespace
 
 std::string Innervation::unit_name(std::size_t unit) const {
@@ -36,6 +56,7 @@ std::string Innervation::unit_name(std::size_t unit) const {
 
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
     if (auto wrong = refused(plan)) return *wrong;
+    if (auto ok = check_room(plan); !ok) return ok.error();
     auto out = std::make_shared<Innervation>();
     out->plan = std::move(plan);
     const auto& p = out->plan;

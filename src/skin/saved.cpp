@@ -4,12 +4,15 @@
 #include <array>
 #include <cstring>
 
+#include "signal/checksum.hpp"
 #include "skin/held.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr std::array<char, 8> skin_magic = {'c', 'o', 'r', 'p', 's', 'k', '1', '\n'};
+/// "corpsk", the version and a line break. Version 2 ends with a checksum of all before it; version 1, which has none, is read.
+constexpr std::array<char, 8> skin_magic = {'c', 'o', 'r', 'p', 's', 'k', '2', '\n'},
+                              skin_magic_1 = {'c', 'o', 'r', 'p', 's', 'k', '1', '\n'};
 
 /// What a state belongs to, as a number: the units, what they feel and how they are run (FNV-1a).
 class Likeness {
@@ -97,6 +100,26 @@ struct PackedSpike {
     std::uint64_t unit;
 };
 
+/// What stands between a state's magic and its checksum, which must be right.
+Result<std::span<const std::byte>> checked_body(std::span<const std::byte> saved) {
+    const auto begins = [&](const std::array<char, 8>& magic, std::size_t length) {
+        return saved.size() >= magic.size() && std::memcmp(saved.data(), magic.data(), length) == 0;
+    };
+    if (!begins(skin_magic, 6)) return bad_input("not a saved state of a skin: it does not begin with 'corpsk'");
+    const auto body = saved.subspan(skin_magic.size());
+    if (begins(skin_magic_1, skin_magic_1.size())) return body;
+    if (!begins(skin_magic, skin_magic.size()))
+        return bad_input(
+            "a saved state of a skin of a later version than 2, the last that this program reads; start from the beginning, "
+            "or use the program that saved it");
+    std::uint64_t sum = 0;
+    if (body.size() < sizeof sum) return bad_input("a saved state of a skin is cut short; start from the beginning");
+    std::memcpy(&sum, saved.data() + saved.size() - sizeof sum, sizeof sum);
+    if (sum != checksum_of(saved.first(saved.size() - sizeof sum)))
+        return bad_input("a saved state of a skin is damaged: its checksum is wrong; start from the beginning");
+    return body.first(body.size() - sizeof sum);
+}
+
 }  // namespace
 
 std::vector<std::byte> Skin::save() const {
@@ -113,19 +136,19 @@ std::vector<std::byte> Skin::save() const {
     const auto late = h.conduction.on_their_way();
     to.put(std::uint64_t{late.size()});
     for (const auto& s : late) to.put(PackedSpike{s.step, s.offset, s.unit});
+    to.put(checksum_of(out));
     return out;
 }
 
 Result<void> Skin::resume(std::span<const std::byte> saved) {
     auto& h = *held_;
-    BytesIn from(saved);
-    std::array<char, 8> magic = {};
+    auto body = checked_body(saved);
+    if (!body) return body.error();
+    BytesIn from(*body);
     std::uint64_t of = 0;
     std::int64_t step = 0;
     SkinWork work;
-    if (!from.take(magic.data(), magic.size()) || magic != skin_magic)
-        return bad_input("these bytes are no saved state of a skin (they do not begin with 'corpsk1')");
-    const auto damaged = bad_input("a saved state of a skin is damaged or cut short");
+    const auto damaged = bad_input("a saved state of a skin is damaged or cut short; start from the beginning");
     if (!from.take(of) || !from.take(step)) return damaged;
     if (of != likeness(h))
         return bad_input(

@@ -147,16 +147,13 @@ SkinText skin_from(const toml::table& top, SkinReading& reading) {
 }  // namespace
 
 Result<SkinText> read_skin_text(std::string_view text, const std::string& file) {
+    const auto top = parse_toml(text, file);
+    if (!top) return top.error();
     SkinReading reading(file);
-    try {
-        const toml::table top = toml::parse(text);
-        auto out = skin_from(top, reading);
-        if (reading.wrong) return *reading.wrong;
-        out.file = file;
-        return out;
-    } catch (const toml::parse_error& error) {
-        return bad_input(std::string(error.description()), reading.place(error.source()));
-    }
+    auto out = skin_from(*top, reading);
+    if (reading.wrong) return *reading.wrong;
+    out.file = file;
+    return out;
 }
 
 }  // namespace corpuscle::skins

@@ -5,7 +5,16 @@
 #include <iterator>
 #include <utility>
 
+#include "signal/quantity.hpp"
+
 namespace corpuscle {
+
+Result<void> EvenBins::check(const Clock& clock, double bin) {
+    const double least = 0.01 * clock.T();
+    if (bin >= least * (1 - 1e-9)) return {};
+    return bad_usage(fmt::format("--bin {}: shorter than a hundredth of the {} between samples; write {} or more",
+                                 format_quantity(bin, "s"), format_quantity(clock.T(), "s"), format_quantity(least, "s")));
+}
 
 EvenBins::EvenBins(std::vector<Row> rows, const Clock& clock, double bin)
     : rows_(std::move(rows)), since_start_(clock), bin_(bin), t0_(std::exchange(since_start_.t0, 0.0)), now_(rows_.size()) {}

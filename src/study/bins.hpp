@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "signal/error.hpp"
 #include "signal/spike.hpp"
 
 namespace corpuscle {
@@ -19,6 +20,9 @@ public:
         std::string name;
         double units = 1;
     };
+
+    /// Refuses a bin shorter than a hundredth of the samples' period: there are more lines of it than spikes can fill.
+    static Result<void> check(const Clock&, double bin);
 
     EvenBins() = default;
     EvenBins(std::vector<Row> rows, const Clock& clock, double bin);

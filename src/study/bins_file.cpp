@@ -7,6 +7,7 @@ BinsFile::BinsFile(OutputFile file, double bin) : file_(std::move(file)), bin_(b
 }
 
 Result<void> BinsFile::begin(const Input& input) {
+    if (auto ok = EvenBins::check(input.source.clock(), bin_); !ok) return ok;
     std::vector<EvenBins::Row> rows;
     for (auto& name : unit_names(input)) rows.push_back({std::move(name)});
     bins_ = EvenBins(std::move(rows), input.source.clock(), bin_);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "measure/distance.hpp"
@@ -21,21 +22,11 @@ std::string listed(const Trains& trains) {
     return fmt::format("{}{}", fmt::join(names, "; "), names.size() < trains.size() ? " ..." : "");
 }
 
-const NamedTrain* find(const Trains& trains, const std::string& afferent, const std::string& channel) {
-    const auto found =
-        std::find_if(trains.begin(), trains.end(), [&](const NamedTrain& t) { return t.afferent == afferent && t.channel == channel; });
-    return found == trains.end() ? nullptr : &*found;
-}
-
 /// The trains of a file by their names.
 class TrainIndex {
     std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_name_;
+    std::unordered_map<std::string, const NamedTrain*> by_shown_name_;
     std::map<std::string_view, std::vector<const NamedTrain*>> by_afferent_;
-
-    const NamedTrain* of_name(std::string_view afferent, std::string_view channel) const {
-        const auto found = by_name_.find({afferent, channel});
-        return found == by_name_.end() ? nullptr : found->second;
-    }
 
     const NamedTrain* only_of(const std::string& afferent) const {
         const auto found = by_afferent_.find(afferent);
@@ -45,8 +36,16 @@ class TrainIndex {
 public:
     explicit TrainIndex(const Trains& trains) {
         for (const auto& t : trains)
-            by_name_.emplace(std::pair<std::string_view, std::string_view>(t.afferent, t.channel), &t),
-                by_afferent_[t.afferent].push_back(&t);
+            by_name_.try_emplace({t.afferent, t.channel}, &t), by_shown_name_.try_emplace(t.name(), &t), by_afferent_[t.afferent].push_back(&t);
+    }
+
+    const NamedTrain* of_name(std::string_view afferent, std::string_view channel) const {
+        const auto found = by_name_.find({afferent, channel});
+        return found == by_name_.end() ? nullptr : found->second;
+    }
+    const NamedTrain* of_shown_name(const std::string& name) const {
+        const auto found = by_shown_name_.find(name);
+        return found == by_shown_name_.end() ? nullptr : found->second;
     }
 
     /// The train of the same name; where one of the two files does not tell channels (address events), the only train of this afferent.
@@ -75,11 +74,10 @@ std::vector<const NamedTrain*> called(const Trains& trains, const std::string& n
 }
 
 /// What in B answers a train of A that goes by `from`, when that is `to` there: the same train with the name changed.
-const NamedTrain* renamed(const Trains& b, const NamedTrain& train, const std::string& from, const std::string& to) {
-    for (const auto& t : b)
-        if (train.name() == from && t.name() == to) return &t;
-    const auto* found = train.afferent == from ? find(b, to, train.channel) : nullptr;
-    return found || train.channel != from ? found : find(b, train.afferent, to);
+const NamedTrain* renamed(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
+    if (const auto* found = train.name() == from ? b.of_shown_name(to) : nullptr) return found;
+    const auto* found = train.afferent == from ? b.of_name(to, train.channel) : nullptr;
+    return found || train.channel != from ? found : b.of_name(train.afferent, to);
 }
 
 /// One --pair: the only two trains of these names, or all whose names differ in just this.
@@ -94,8 +92,9 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
                 fmt::format("--pair {}: no train of the {} file is called '{}'; there are {}", text, file, *name, listed(*all)));
     if (in_a.size() == 1 && in_b.size() == 1) return out.push_back(paired(in_a[0], in_b[0])), Result<void>();
     const std::size_t before = out.size();
+    const TrainIndex index(b);
     for (const auto* train : in_a)
-        if (const auto* other = renamed(b, *train, from, to)) out.push_back(paired(train, other));
+        if (const auto* other = renamed(index, *train, from, to)) out.push_back(paired(train, other));
     if (out.size() > before) return {};
     return bad_usage(
         fmt::format("--pair {}: {} trains of the first file and {} of the second are meant, and no two differ in this name "

@@ -12,6 +12,7 @@ SkinBinsFile::SkinBinsFile(OutputFile file, double bin) : file_(std::move(file))
 }
 
 Result<void> SkinBinsFile::begin(const SkinInput& input) {
+    if (auto ok = EvenBins::check(input.clock, bin_); !ok) return ok;
     const auto& [plan, units, first, fields] = input.skin;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> units_of;  // by class and region
     for (const auto& u : units) ++units_of[{u.of, u.region}];

@@ -90,9 +90,9 @@ Json skin_row_document(const SkinSummary& s, const SkinRow& r) {
             {"touched", r.touched},
             {"active", r.active},
             {"spikes", r.spikes},
-            {"rate_of_active_Hz", r.rate()},
+            {"rate_of_active_Hz", json_number(r.rate())},
             {"rate_while_touched_Hz", json_number(r.touched_rate)},
-            {"busiest_Hz", r.busiest},
+            {"busiest_Hz", json_number(r.busiest)},
             {"first_spike_s", json_number(r.first)},
             {"median_first_spike_s", json_number(r.median_first)}};
 }

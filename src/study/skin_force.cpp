@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "signal/settings.hpp"
+#include "skin/site_map.hpp"
 #include "study/skin_run.hpp"
 
 namespace corpuscle {
@@ -59,19 +59,6 @@ public:
     }
 };
 
-/// The place of each channel's name among the sites'; nothing if one is not there.
-std::optional<std::vector<std::uint32_t>> by_name(const Sites& sites, const std::vector<Channel>& channels) {
-    std::map<std::string_view, std::uint32_t> places;
-    for (std::size_t s = 0; s < sites.size(); ++s) places.emplace(sites.names[s], static_cast<std::uint32_t>(s));
-    std::vector<std::uint32_t> found;
-    for (const auto& c : channels) {
-        const auto at = places.find(c.name);
-        if (at == places.end()) return {};
-        found.push_back(at->second);
-    }
-    return found;
-}
-
 }  // namespace
 
 std::unique_ptr<SkinForce> pressed_force(Source& source, Contact& contact) { return std::make_unique<PressedForce>(source, contact); }
@@ -80,7 +67,9 @@ std::unique_ptr<SkinForce> site_force(Source& source, std::vector<std::uint32_t>
 }
 
 Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const Source& source) {
-    if (auto named = by_name(plan.sites, source.channels())) return *named;
+    std::vector<std::string> names;
+    for (const auto& c : source.channels()) names.push_back(c.name);
+    if (auto named = sites_named(plan.sites, names)) return *named;
     if (source.channels().size() != plan.sites.size())
         return bad_input(
             fmt::format("{} has {} channels, and {} has {} sites, which are called {} ...; name the channels after sites with "

@@ -58,6 +58,8 @@ Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer
         if (!block) return block.error();
         const std::size_t steps = block->total.size();
         if (steps == 0) break;
+        if (options.spool)
+            if (auto ok = options.spool->force(*block, samples); !ok) return ok.error();
         if (auto ok = skin_block(*block, samples, skin, options.spool, spikes); !ok) return ok.error();
         for (auto* l : listeners)
             if (auto ok = l->block(input, {samples, steps, block->force, block->total, spikes}); !ok) return ok.error();
@@ -68,6 +70,8 @@ Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer
         if (stop) return Error{Code::interrupted, "interrupted"};
     }
     if (samples == 0) return bad_input("no samples of force", {input.name});
+    if (options.spool)
+        if (auto ok = options.spool->ended(samples); !ok) return ok.error();
     spikes.clear();
     if (auto ok = skin.last(spikes); !ok) return ok.error();
     for (auto* l : listeners)

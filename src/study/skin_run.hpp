@@ -74,12 +74,16 @@ class SkinSpool {
 public:
     virtual ~SkinSpool() = default;
     virtual std::int64_t step() const = 0;  ///< answered before this run
+    /// The force of the next block, answered before or not; refuses one that is not what it was before.
+    virtual Result<void> force(const SkinForce::Block&, std::int64_t first) = 0;
     /// Of those, the spikes of the next block.
     virtual Result<void> told(std::int64_t end, std::vector<Spike>&) = 0;
     /// A block answered now.
     virtual Result<void> answered(std::span<const Spike>) = 0;
     /// Nothing is lost of what was answered so far.
     virtual Result<void> keep() = 0;
+    /// The force had so many samples.
+    virtual Result<void> ended(std::int64_t samples) = 0;
 };
 
 struct SkinRunOptions {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace corpuscle {
 namespace {
@@ -37,6 +38,7 @@ Result<void> SkinSummary::begin(const SkinInput& input) {
     if (phases_.size() * units > most_phase_counts) phases_.clear();
     samples_ = all_spikes_ = 0, least_ = greatest_ = 0, touched_from_ = no_value;
     counts_.assign(units, 0), first_times_.assign(units, no_value);
+    last_times_.assign(units, -INFINITY), shortest_.assign(units, INFINITY);
     phase_counts_.assign(phases_.size() * units, 0);
     site_touched_.assign((phases_.size() + 1) * skin_->plan.sites.size(), 0);
     while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * skin_->plan.sites.regions.size(), 0);
@@ -64,6 +66,7 @@ void SkinSummary::add(std::span<const Spike> spikes, const SkinAnswered* answere
         const double t = since_start_.time(s.step, s.offset);
         const auto phase = phase_of(t);
         if (counts_[s.unit]++ == 0) first_times_[s.unit] = t;
+        shortest_[s.unit] = std::min(shortest_[s.unit], t - std::exchange(last_times_[s.unit], t));
         if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.unit];
         if (answered && touches(*answered, s.unit, s.step)) ++while_touched_[group(skin_->units[s.unit], phase)];
     }
@@ -136,8 +139,11 @@ SkinRow SkinSummary::row(std::size_t of, std::size_t region, std::size_t phase, 
         most = std::max(most, spikes), touched += samples;
         if (phase == SkinRow::all && spikes > 0) firsts.push_back(first_times_[u]);
     }
-    if (r.seconds > 0) r.busiest = static_cast<double>(most) / r.seconds;
-    if (touched > 0) r.touched_rate = static_cast<double>(spikes_while_touched(r)) / since_start_.time(touched);
+    if (most == 1)
+        r.busiest = no_value;
+    else if (r.seconds > 0)
+        r.busiest = static_cast<double>(most) / r.seconds;
+    if (touched > 0 && r.spikes != 1) r.touched_rate = static_cast<double>(spikes_while_touched(r)) / since_start_.time(touched);
     if (!firsts.empty()) r.first = *std::min_element(firsts.begin(), firsts.end());
     r.median_first = median_of(firsts);
     return r;
@@ -165,6 +171,13 @@ Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<
             if (!of_region[r].empty()) add_rows(c, r, of_region[r]);
     }
     return {};
+}
+
+std::pair<std::size_t, double> SkinSummary::faster_than(std::size_t of, double rate) const {
+    const auto from = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[of]),
+               to = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[of + 1]);
+    const auto units = std::count_if(from, to, [&](double interval) { return interval < 1 / rate; });
+    return {static_cast<std::size_t>(units), from == to ? 0 : 1 / *std::min_element(from, to)};
 }
 
 std::vector<SkinSummary::First> SkinSummary::first_spikes(std::size_t most) const {

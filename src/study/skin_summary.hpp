@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "measure/stretch.hpp"
@@ -31,10 +32,14 @@ struct SkinRow {
     std::int64_t spikes = 0;
     double seconds = 0;              ///< of the phase
     double touched_rate = no_value;  ///< Hz: spikes that arrived while their unit was touched, by the time that units were touched
-    double busiest = 0;              ///< Hz: the unit with most spikes, over the phase
+    double busiest = 0;              ///< Hz: the unit with most spikes, over the phase; none if it has one spike
     double first = no_value;         ///< s since the start: the earliest spike of them; of rows over all phases
     double median_first = no_value;  ///< ... the median of the units' own first spikes
-    double rate() const { return seconds > 0 && active > 0 ? static_cast<double>(spikes) / (static_cast<double>(active) * seconds) : 0; }
+    /// Hz, of one active unit; one spike alone has none.
+    double rate() const {
+        if (spikes == 1) return no_value;
+        return seconds > 0 && active > 0 ? static_cast<double>(spikes) / (static_cast<double>(active) * seconds) : 0;
+    }
 };
 
 class SkinSummary final : public SkinListener {
@@ -72,6 +77,9 @@ public:
     const std::vector<double>& first_times() const { return first_times_; }  ///< s since the start; NaN: none
     const std::vector<double>& touched_times() const { return unit_touched_; }  ///< s that the site each unit feels most had force
 
+    /// How many units of a class had two spikes closer than such a rate has them, and the highest rate between two; Hz.
+    std::pair<std::size_t, double> faster_than(std::size_t of, double rate) const;
+
     /// As a document: versions, parameters, seed, classes, rows, first spikes. The same run gives the same bytes.
     nlohmann::ordered_json document(const SkinTold&) const;
     /// As a table for a terminal: its heading, then a line a class, then by phase if there are phases, then by region if there are several.
@@ -87,6 +95,7 @@ private:
     std::vector<std::int64_t> counts_;
     std::vector<std::uint32_t> phase_counts_;  // [phase][unit]
     std::vector<double> first_times_, unit_touched_;
+    std::vector<double> last_times_, shortest_;  // of each unit: its last spike, and its shortest interval; s
     std::vector<std::uint32_t> felt_most_;    // of each unit, the site
     std::vector<std::int64_t> site_touched_;  // [phase; behind the last: no phase][site], samples
     std::vector<SkinRow> rows_;

@@ -58,7 +58,9 @@ std::vector<std::string> earlier_outputs(const std::string& directory) {
     if (!is_plain_file(summary) || std::filesystem::file_size(summary, status) > most_of_a_summary) return {};
     std::ifstream file(summary, std::ios::binary);
     const auto earlier = nlohmann::json::parse(file, nullptr, false);
-    if (!earlier.is_object() || earlier.value("program", nlohmann::json()) != "corpuscle" || !earlier.contains("files")) return {};
+    if (!earlier.is_object() || earlier.value("program", nlohmann::json()) != "corpuscle" || !earlier.contains("files") ||
+        !earlier["files"].is_array())
+        return {};
     std::vector<std::string> all = {"summary.json"};
     for (const auto& entry : earlier["files"]) {
         if (!entry.is_string()) continue;
@@ -74,7 +76,8 @@ std::vector<std::string> remove_stale(const std::string& directory, const std::v
     std::vector<std::string> removed;
     for (const auto& name : earlier_outputs(directory)) {
         const auto path = (std::filesystem::path(directory) / name).string();
-        if (std::find(written.begin(), written.end(), name) != written.end() || input_at(path) || !is_plain_file(path)) continue;
+        const bool stays = name == "summary.json" || std::find(written.begin(), written.end(), name) != written.end();
+        if (stays || input_at(path) || !is_plain_file(path)) continue;
         std::error_code status;
         if (std::filesystem::remove(path, status)) removed.push_back(name);
     }

@@ -168,7 +168,10 @@ RateRow Summary::row(const Input& input, std::size_t channel, std::size_t from, 
     const std::size_t first = channel * input.afferents.size();
     RateRow row{base_name(input.afferents[from]), facts.channels[channel], facts.phases.empty() ? "all" : facts.phases[phase].name,
                 tally_.values(first + from, phase)};
-    if (input.afferents[from].copy == 0) return row;
+    if (input.afferents[from].copy == 0) {
+        if (row.values[place_of_measure<SpikeCount>] == 1) row.values[place_of_measure<MeanRate>] = no_value;  // one spike is no rate
+        return row;
+    }
     row.over.resize(std::size(measures));
     for (std::size_t a = from; a < to; ++a) {
         const auto values = tally_.values(first + a, phase);

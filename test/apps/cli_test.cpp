@@ -22,8 +22,7 @@ TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
     const Folder folder;
     const auto ran = run(folder, "respond press");
     EXPECT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(ran.out.find("sa1       press    plateau           9       36.0       49.0        49.0       29.8"), std::string::npos)
-        << ran.out;
+    EXPECT_NE(ran.out.find("sa1       press    plateau           9  36.0  49.0   49.0  29.8"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("Nothing was written"), std::string::npos);
     EXPECT_EQ(ran.err, "");
     EXPECT_TRUE(folder.names().empty());
@@ -35,9 +34,9 @@ TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
     const auto ran = run(folder, "respond press --afferent sa1 --afferent '" + chip + "' --afferent fa1 --out answer");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto table = ran.out.substr(std::min(ran.out.find("version "), ran.out.size()));
-    EXPECT_NE(table.find("by phase   differ (%)  matched  shift (ms)  Victor-Purpura  van Rossum\n"), std::string::npos) << ran.out;
+    EXPECT_NE(table.find("by phase   differ  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;
     EXPECT_NE(table.find(" 15  0 5 9 1 0\n"), std::string::npos) << "what it is held against\n" << table;
-    EXPECT_NE(table.find(" 14  0 5 8 1 0          -7       14 "), std::string::npos) << table;
+    EXPECT_NE(table.find(" 14  0 5 8 1 0      -7       14 "), std::string::npos) << table;
     EXPECT_NE(table.find("Against the first of each; matched within 20 ms"), std::string::npos) << table;
     EXPECT_EQ(table.find("fa1"), std::string::npos) << "has one version\n" << table;
     const auto said = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
@@ -193,8 +192,7 @@ TEST(Program, CompareTellsWhatMatches) {
     EXPECT_LE(same["total"]["largest_s"], 0.51e-9) << "CSV is rounded to the nanosecond";
     const auto text = run(folder, "compare a/spikes.csv b/spikes.csv");
     EXPECT_EQ(text.status, 0) << text.err;
-    EXPECT_NE(text.out.find("sa1-kim,press  -            16     0        0       16      0             -         -           16.00"),
-              std::string::npos)
+    EXPECT_NE(text.out.find("sa1-kim,press  -          16   0        0       16      0        -      -    16.00"), std::string::npos)
         << text.out;
     EXPECT_NE(text.out.find("Matched within 5 ms; Victor-Purpura at 100 a second; van Rossum with 10 ms."), std::string::npos);
     const auto two = Json::parse(run(folder, "compare a/spikes.csv --pair sa1=sa1-kim --window 1s --json").out);
@@ -267,7 +265,9 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         int status;
         const char* said;
     } cases[] = {
-        {"respond bad.csv --out answer", 1, "bad.csv:4:6: column 'fz': 'oops' where a number should be"},
+        {"respond bad.csv --out answer", 1,
+         "bad.csv:4:6: column 'fz': 'oops' where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves its "
+         "row out"},
         {"respond nm.csv --out answer", 1,
          "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons, --unit N if the header is "
          "wrong, or --channel if it is another column that holds the force"},
@@ -303,7 +303,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"compare", 2, "compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'"},
         {"compare bad.csv", 2, "compare bad.csv: with what? Name a second file, or two trains of this one: --pair sa1=fa1"},
         {"compare bad.csv none.csv", 1,
-         "bad.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel; there are 'time_s', 'fz_N'"},
+         "bad.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel, or named with --unit; there "
+         "are 'time_s', 'fz_N'"},
         {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be longer than nothing"},
         {"compare bad.csv none.csv --cost=-1", 2, "--cost -1: must be 0 or more"},
         {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be made: Not a directory"},
@@ -314,7 +315,6 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         EXPECT_EQ(ran.err, "corpuscle: " + std::string(c.said) + "\n") << c.words;
         EXPECT_EQ(ran.out, "") << c.words;
     }
-    EXPECT_EQ(run(folder, "").status, 2);
     EXPECT_EQ(run(folder, "respond press --sampeld").status, 2);
     for (const auto* n : {"0", "-1", "1000001", "ten"}) EXPECT_EQ(run(folder, "respond press --copies " + std::string(n)).status, 2) << n;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));

@@ -5,11 +5,13 @@ Makes reports with the program, opens them in headless Chromium, uses them as a 
 show with the data they carry. Leaves OUTDIR/press.png and OUTDIR/press-zoomed.png to look at.
 """
 import base64
+import contextlib
 import json
 import math
 import pathlib
 import re
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -197,6 +199,18 @@ class Page(unittest.TestCase):
                 return [name, count];
             }))""")
 
+    @contextlib.contextmanager
+    def screen(self, width, height, pixel_ratio):
+        """The page anew on a screen of this size."""
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": width, "height": height, "deviceScaleFactor": pixel_ratio, "mobile": width < 600})
+        try:
+            self.browser.get(self.path.as_uri())
+            self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+            yield
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
     def screenshot(self, name):
         self.browser.set_window_size(1200, 900)
         height = self.js("scrollTo(0, 0); return document.documentElement.scrollHeight")
@@ -227,7 +241,7 @@ class Press(Page):
 
     def test_every_panel_is_there_and_drawn(self):
         inked = self.inked()
-        self.assertEqual(self.panels(), ["force", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane", "raster", "frequency"])
+        self.assertEqual(self.panels(), ["force", "raster", "frequency", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane"])
         self.assertEqual({name: count for name, count in inked.items() if count < 80}, {})
         self.screenshot("press.png")
 
@@ -352,6 +366,25 @@ class Press(Page):
         self.assertLessEqual(self.js("return document.documentElement.scrollWidth - innerWidth"), 0)
         self.browser.set_window_size(1200, 900)
 
+    def test_the_first_screen_shows_force_spikes_and_rate(self):
+        with self.screen(1400, 900, 1):
+            for panel in ("force", "raster", "frequency"):
+                self.assertLess(self.js("return document.querySelector(arguments[0]).getBoundingClientRect().bottom", f'[data-panel="{panel}"]'), 900)
+
+    def test_on_a_telephone_the_page_is_as_wide_as_the_screen_and_the_plots_nearly_so(self):
+        with self.screen(390, 844, 2):
+            self.assertEqual(self.js("return document.documentElement.scrollWidth"), 390)
+            self.assertGreater(min(drawn["width"] for drawn in self.js("return corpuscle.pointsDrawn()").values()), 0.7 * 390)
+
+    def test_curves_are_drawn_to_the_screens_own_pixels(self):
+        """Two points for each pixel of the screen, not for each pixel of the layout: else slopes are stairs."""
+        rows = []
+        for ratio in (1, 2):
+            with self.screen(390, 844, ratio):
+                rows.append(self.js("return corpuscle.pointsDrawn()")["force"]["rows"])
+                self.assertEqual(self.js("const canvas = document.querySelector('.plot canvas'); return canvas.width / canvas.clientWidth"), ratio)
+        self.assertGreater(rows[1], 1.5 * rows[0])
+
 
 class Versions(Page):
     """Both receptors as a model and as a chip."""
@@ -378,8 +411,8 @@ class Versions(Page):
             return Array.from({length: chart.numRows()}, (_, row) => [chart.getValue(row, 0), chart.getValue(row, arguments[1])])""", panel, column)
 
     def test_each_quantity_has_a_panel_for_both(self):
-        self.assertEqual(self.panels(), ["force", "sa1 I", "sa1 I_A", "sa1 I_B", "sa1 I_C", "sa1 u", "circuits/sa1.cir nodes", "fa1 I", "fa1 I_A", "fa1 I_B",
-                                         "fa1 u", "circuits/fa1.cir nodes", "raster", "sa1 frequency", "fa1 frequency"])
+        self.assertEqual(self.panels(), ["force", "raster", "sa1 frequency", "fa1 frequency", "sa1 I", "sa1 I_A", "sa1 I_B", "sa1 I_C", "sa1 u",
+                                         "circuits/sa1.cir nodes", "fa1 I", "fa1 I_A", "fa1 I_B", "fa1 u", "circuits/fa1.cir nodes"])
         self.assertEqual({name: count for name, count in self.inked().items() if count < 80}, {})
         self.screenshot("versions.png")
 
@@ -742,6 +775,16 @@ class OnASkin(Page):
         self.browser.find_element(By.ID, "time").send_keys(Keys.ARROW_RIGHT)
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped + 1)
 
+    def test_it_begins_at_the_start(self):
+        self.assertEqual(self.js("return corpuscle.frame"), 0)
+        self.assertEqual(self.browser.find_element(By.ID, "time").get_attribute("value"), "0")
+
+    def test_rates_are_of_the_units_that_fire_and_in_hertz(self):
+        active = {row["afferent"]: row["active"] for row in self.data["summary"]["rates"] if row["region"] == "all" and row["phase"] == "all"}
+        self.assertEqual(self.js("return corpuscle.skin.classes.map((one) => one.active)"), [active[one["name"]] for one in self.classes])
+        title = self.browser.find_element(By.CSS_SELECTOR, "[data-panel=population] .panel-title").text
+        self.assertRegex(title, r"^mean rate of the units that fire, in bins of .*Hz")
+
     def test_rasters_hold_every_spike(self):
         spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["units"]) for one in self.classes}
         self.assertEqual(sum(spikes.values()), self.over["spikes"]["count"])
@@ -769,6 +812,11 @@ class OnASkin(Page):
         self.browser.save_screenshot(str(OUT / "skin.png"))
         self.browser.set_window_size(700, 900)
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.documentElement.scrollWidth <= innerWidth"))
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        try:
+            WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.documentElement.scrollWidth <= 390"))
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
         self.browser.set_window_size(1200, 900)
 
 
@@ -802,6 +850,17 @@ class Studies(unittest.TestCase):
             points = browser.execute_script("return charts.map((chart) => chart.numRows())")
             self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
             self.assertGreater(min(points), 2)
+            self.on_a_telephone(browser)
+
+    def on_a_telephone(self, browser):
+        """A claim is as wide as the screen and a few lines high."""
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        browser.refresh()
+        self.assertEqual(browser.execute_script("return document.documentElement.scrollWidth"), 390)
+        boxes = browser.execute_script("""return [...document.querySelectorAll("tbody tr, tbody tr .reason")].map((one) => {
+            const {right, height} = one.getBoundingClientRect(); return [right, height]; })""")
+        self.assertLessEqual(max(right for right, _ in boxes), 390)
+        self.assertLess(max(height for _, height in boxes), 260)
 
 
 class Sweeps(unittest.TestCase):
@@ -846,6 +905,99 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#failed tbody tr")), 120 - summary["all"]["passed"])
             self.assertEqual(browser.get_log("browser"), [])
 
+    def browse(self, path, width=1400):
+        profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.addCleanup(profile.cleanup)
+        options = webdriver.ChromeOptions()
+        options.binary_location = shutil.which("chromium")
+        for flag in [*FLAGS, "--user-data-dir=" + profile.name]:
+            options.add_argument(flag)
+        browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        self.addCleanup(browser.quit)
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 2 if width < 600 else 1, "mobile": False})
+        browser.get(path.as_uri())
+        return browser
+
+    def page_of(self, name, sweep, change=None):
+        """The page of a sweep, its results changed before it is made."""
+        file, results, path = OUT / f"{name}.toml", OUT / f"{name}.sqlite", OUT / f"{name}.html"
+        file.write_text(sweep)
+        results.unlink(missing_ok=True)
+        subprocess.run([CORPUSCLE, "sweep", str(file), "--out", str(results), "--quiet"], check=True, cwd=ROOT)
+        if change:
+            with contextlib.closing(sqlite3.connect(results)) as there, there:
+                change(there)
+        subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--report", str(path), "--quiet"], check=True)
+        return path
+
+    def test_a_plain_grid_shows_every_axis_as_lines_and_a_heat_map_and_nothing_of_chance(self):
+        path = self.page_of("grid", GRID)
+        browser = self.browse(path)
+        self.assertEqual(browser.get_log("browser"), [])
+        matters = browser.find_element(By.ID, "matters").text
+        for axis in ("press.F_max", "sa1.f_B"):
+            self.assertEqual(matters.count(axis), 2, matters)
+        captions = [one.text for one in browser.find_elements(By.CSS_SELECTOR, "#figures figcaption")]
+        self.assertEqual(len(captions), 3, captions)
+        self.assertTrue(captions[0].startswith("spikes over press.F_max"), captions)
+        self.assertTrue(captions[1].startswith("spikes over sa1.f_B"), captions)
+        self.assertEqual(browser.execute_script("return charts.map((chart) => [chart.numRows(), chart.numColumns() - 1])"), [[4, 3], [3, 4]])
+        text = browser.find_element(By.TAG_NAME, "body").text
+        for chance in ("95 %", "±", "normal", "chips", "sigma"):
+            self.assertNotIn(chance, text)
+        colours = browser.execute_script("""
+            const canvas = document.querySelector(".heat canvas"), context = canvas.getContext("2d"), found = new Set();
+            for (let i = 0; i < 4; ++i) for (let j = 0; j < 3; ++j) {
+                const x = HEAT.left + (i + 0.5) / 4 * (canvas.clientWidth - HEAT.left - HEAT.right), y = HEAT.top + (j + 0.5) / 3 * (260 - HEAT.top - HEAT.bottom);
+                found.add(context.getImageData(x * devicePixelRatio, y * devicePixelRatio, 1, 1).data.join());
+            }
+            return found.size""")
+        self.assertGreaterEqual(colours, len({round(v) for row in data_of(path)["grids"][0]["pairs"][0]["means"] for v in row}))
+
+    def test_no_text_of_a_results_file_becomes_a_script(self):
+        payload = '"><img src=x onerror="document.title=1"><script>document.title=1</script>'
+
+        def poison(there):
+            there.execute("UPDATE columns SET unit = ?", (payload,))
+            there.execute("UPDATE columns SET sentence = ?", (payload,))
+            there.execute("UPDATE about SET value = ? WHERE key = 'title'", (payload,))
+            there.execute("UPDATE units SET why = ?, ended = 'lost' WHERE unit = 3", (payload,))
+
+        for name, sweep in (("poisoned", GRID), ("poisoned_chips", SWEEP)):
+            browser = self.browse(self.page_of(name, sweep, poison))
+            self.assertEqual(browser.get_log("browser"), [])
+            self.assertNotEqual(browser.title, "1")
+            self.assertEqual(browser.find_elements(By.CSS_SELECTOR, "img"), [])
+            self.assertEqual(browser.execute_script("return [...document.querySelectorAll('body script')].every((one) => one.id || !one.textContent.includes('document.title=1'))"), True)
+
+    def test_it_fits_a_narrow_window_and_its_subscripts_are_whole(self):
+        for name, sweep in (("narrow_grid", GRID), ("narrow_chips", SWEEP)):
+            browser = self.browse(self.page_of(name, sweep), 390)
+            self.assertLessEqual(browser.execute_script("return document.documentElement.scrollWidth"), 390)
+            sideways = browser.execute_script("return [...document.querySelectorAll('.scroll')].filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.textContent.slice(0, 60))")
+            self.assertEqual(sideways, [])
+        gaps = browser.execute_script("""
+            return [...document.querySelectorAll("figcaption sub")].map((sub) => {
+                const range = document.createRange();
+                range.selectNode(sub.previousSibling);
+                const before = [...range.getClientRects()].at(-1), own = sub.getBoundingClientRect();
+                return own.top < before.bottom ? own.left - before.right : 1e9;
+            })""")
+        self.assertGreater(len(gaps), 0)
+        self.assertLess(max(map(abs, gaps)), 2)
+
+
+GRID = """
+afferent = "sa1"
+force = "press"
+measures = ["spikes", "peak_rate"]
+[[vary]]
+what = "press.F_max"
+list = ["1N", "2N", "3N", "4N"]
+[[vary]]
+what = "sa1.f_B"
+list = ["20Hz", "40Hz", "80Hz"]
+"""
 
 SWEEP = """
 netlist = "circuits/bias.cir"

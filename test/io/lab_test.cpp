@@ -39,7 +39,9 @@ double finding(const LabRead& r, std::string_view name, std::uint32_t channel = 
 TEST(BadFields, AreErrorsUnlessSaidOtherwise) {
     const Folder folder;
     const std::string text = "F_N\n1\n2\nNaN\n4\n";
-    EXPECT_EQ(lab_said(folder, text, {.rate = 10}), "x.csv:4:1: column 'F': 'NaN' where a number should be");
+    EXPECT_EQ(lab_said(folder, text, {.rate = 10}),
+              "x.csv:4:1: column 'F': 'NaN' where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves its "
+              "row out");
     EXPECT_EQ(read_lab(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::interpolate}).force, (LabRows{{1, 2, 3, 4}}));
     EXPECT_EQ(read_lab(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2, 4}}));
 }

@@ -107,12 +107,13 @@ TEST(Recording, ChannelsAreChosenByNameNumberAndRange) {
 
 TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
     const Folder folder;
+    const std::string bad_field = "; --bad-fields interpolate fills it in, --bad-fields drop leaves its row out";
     EXPECT_EQ(said(folder, ""), "x.csv: no data in this file");
     EXPECT_EQ(said(folder, "# only this\n"), "x.csv: no data in this file");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,x\n"), "x.csv:3:3: column 'F': 'x' where a number should be");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number should be");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': nothing where a number should be");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 should be");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,x\n"), "x.csv:3:3: column 'F': 'x' where a number should be" + bad_field);
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number should be" + bad_field);
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': nothing where a number should be" + bad_field);
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 should be; --bad-fields drop leaves such rows out");
     EXPECT_EQ(said(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}),
               "x.csv: 'ch1' is read as mV, which is no force; say --scale S, so that what is read times S is newtons");
     EXPECT_EQ(said(folder, "F_nm\n1\n", {.rate = 10}),
@@ -126,7 +127,8 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(
         said(folder, "t_N,F\n0,1\n1,1\n"),
         "x.csv: the time column 't' is in 'N', which is no time; --time-unit says what it is in, --time names another column, or none");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,1\n", {.time = "z"}), "x.csv: no column 'z' to take as time; give its name, its number or 'none'");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,1\n", {.time = "z"}),
+              "x.csv: no column 'z' to take as time; did you mean 't'?; give its name, its number or 'none'; there are t, F");
     EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}), "--unit and --scale both say what is read: give one");
     EXPECT_EQ(try_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
     EXPECT_EQ(try_recording(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
@@ -147,9 +149,11 @@ TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
     EXPECT_EQ(one("t,left_F,right_F\n0,1,2\n1,3,4\n").names, (std::vector<std::string>{"left_F", "right_F"})) << "no farads";
     EXPECT_EQ(one("t,F_N,\n0,1,\n1,2,\n").names, std::vector<std::string>{"F"}) << "a separator at the end makes no column";
     EXPECT_EQ(one("t,F_lbf\n0,1\n1,2\n").force[0][0], 4.4482216152605);
-    EXPECT_EQ(said(folder, "nan,1\n2,3\n4,5\n", {.rate = 100}), "x.csv:1:1: column 1: 'nan' where a number should be")
+    EXPECT_EQ(said(folder, "nan,1\n2,3\n4,5\n", {.rate = 100}),
+              "x.csv:1:1: column 1: 'nan' where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves its row "
+              "out, --skip LINES passes over lines before the table")
         << "nan is no heading";
-    EXPECT_EQ(said(folder, std::string("t\0,\0F\0\n\0", 9)), "x.csv:1: this is no text: it has NUL bytes (a binary file, or UTF-16?)");
+    EXPECT_EQ(said(folder, std::string("t,F\n\0\0", 6)), "x.csv: this is no text: it has NUL bytes, as binary files have");
     EXPECT_EQ(said(folder, "t,F_furlong\n0,1\n1,2\n", {.unit = "mn"}).substr(0, 91),
               "x.csv: 'F_furlong' is read as mn, which is no unit of force known here (N, mN, gf, kgf, lbf");
 }
@@ -173,10 +177,10 @@ TEST(Recording, MillisecondsWithoutAUnitAreDoubtedAndTheirUnitCanBeSaid) {
 
 TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
     const Folder folder;
-    const auto made = read(folder.write("x.csv", "time,F_N\n2026-01-01T00:00:00,1\n2026-01-01T00:00:01,2\n"), {.rate = 1});
+    const auto made = read(folder.write("x.csv", "time,F_N\n01/02/2026 0:00,1\n01/02/2026 0:01,2\n"), {.rate = 1});
     EXPECT_EQ(made.force, (Rows{{1, 2}}));
     EXPECT_EQ(made.remarks.at(0),
-              "the times were not read (column 'time': '2026-01-01T00:00:00' where a number should be); the rows count from 0 s");
+              "the times were not read (column 'time': '01/02/2026 0:00' where a number should be); the rows count from 0 s");
 }
 
 TEST(Recording, ARateCloseToAWholeNumberIsThatNumber) {

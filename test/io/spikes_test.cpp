@@ -51,14 +51,78 @@ TEST(SpikeFiles, WhatIsWrongIsNamedWithItsPlace) {
         {"afferent,channel,time_s\nsa1,fz,inf\n", "x.csv:2:8: 'inf' where a time should be"},
         {"afferent,channel,time_s\nsa1,0.5\n", "x.csv:2: 2 columns where 3 should be"},
         {"afferent,channel,time_s\nsa1,\"fz,0.5\n", "x.csv:2:5: a quote that is opened here does not end"},
-        {"a,b\n1,2\n", "x.csv:1: no column of spike times; one is to be called time_s (or time, t [ms] ...); there are 'a', 'b'"},
+        {"a,b\n1,2\n",
+         "x.csv:1: no column of spike times; one is to be called time_s (or time, t [ms] ...), or named with --time; there are 'a', 'b'"},
         {"time_s,fz_N\n0,1\n",
-         "x.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel; there are 'time_s', 'fz_N'"},
+         "x.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel, or named with --unit; there "
+         "are 'time_s', 'fz_N'"},
+        {"0.5 3\n0.6 4\n", "x.csv:1: 2 columns without a header; --time 1 --unit 2 says which hold the times and the units"},
         {"unit,time_N\n1,1\n", "x.csv:1:6: 'N' is no unit of time; write s, ms, us or min"},
         {"", "x.csv: no header and no spikes in this file"},
     };
     for (const auto& [text, said] : cases) EXPECT_EQ(refused(folder.write("x.csv", text)), said);
     EXPECT_EQ(refused(folder / "none.csv"), "none.csv: cannot be opened: No such file or directory");
+}
+
+TEST(SpikeFiles, ALoneColumnOfTimesNeedsNoHeader) {
+    const Folder folder;
+    EXPECT_EQ(read_trains(folder, "1.5e-01\n2.5e-01\n")[0].times, (std::vector<double>{0.15, 0.25})) << "as numpy.savetxt writes it";
+    EXPECT_EQ(read_trains(folder, "# times of one unit\n0.5\n")[0].times, std::vector<double>{0.5});
+    EXPECT_EQ(read_trains(folder, "[0.5, 0.25]")[0].times, (std::vector<double>{0.25, 0.5})) << "as JSON";
+}
+
+TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
+    const Folder folder;
+    const auto phy = read_trains(folder, "times,cluster\n0.5,7\n0.25,3\n");
+    ASSERT_EQ(phy.size(), 2U);
+    EXPECT_EQ(phy[1].name(), "7");
+    const auto commented = read_trains(folder, "# time_s unit\n0.5 7\n");
+    EXPECT_EQ(commented[0].name(), "7");
+    const auto asked = [&](const std::string& text, const SpikeColumns& columns) {
+        return sure(read_spikes(folder.write("x.csv", text), columns));
+    };
+    EXPECT_EQ(asked("when,who\n0.5,a\n", {"when", "who"})[0].name(), "a");
+    EXPECT_EQ(asked("0.5 7\n0.25 7\n", {"1", "2"})[0].times, (std::vector<double>{0.25, 0.5}));
+    EXPECT_EQ(asked("when [ms],afferent,who\n500,x,a\n", {"when", "who"})[0].name(), "a") << "over what a column is called";
+    const auto wrong = read_spikes(folder.write("x.csv", "time,unit\n0.5,1\n"), {"when", {}});
+    EXPECT_NE(wrong.error().sentence.find("--time when: there is no such column; there are 'time', 'unit'"), std::string::npos);
+}
+
+TEST(SpikeFiles, JsonLinesAreReadAsTheStreamWritesThem) {
+    const Folder folder;
+    const auto trains = read_trains(
+        folder, "{\"time_s\":0.25,\"afferent\":\"sa1#1\",\"address\":0}\n{\"time_s\":0.5,\"afferent\":\"sa1#2\",\"address\":1}\n");
+    ASSERT_EQ(trains.size(), 2U);
+    EXPECT_EQ(trains[1].name(), "sa1#2");
+    EXPECT_EQ(refused(folder.write("x.jsonl", "{\"time_s\":0.25,\"unit\":1}\n{\"time_s\":null,\"unit\":1}\n")),
+              "x.jsonl:2: null where a time should be");
+}
+
+std::string npy_of(const std::string& kind, const std::string& shape, const std::string& bytes) {
+    std::string header = "{'descr': '" + kind + "', 'fortran_order': False, 'shape': " + shape + ", }";
+    header += std::string(117 - header.size(), ' ') + "\n";
+    return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header + bytes;
+}
+
+TEST(SpikeFiles, NumpysTimesAreReadAndNumbersOfSamplesAreNot) {
+    const Folder folder;
+    const double times[] = {0.5, 0.25};
+    const std::string bytes(reinterpret_cast<const char*>(times), sizeof times);
+    EXPECT_EQ(sure(read_spikes(folder.write("x.npy", npy_of("<f8", "(2,)", bytes))))[0].times, (std::vector<double>{0.25, 0.5}));
+    const std::int64_t samples[] = {3000, 4000};
+    const auto said = refused(folder.write("x.npy", npy_of("<i8", "(2,)", {reinterpret_cast<const char*>(samples), sizeof samples})));
+    EXPECT_NE(said.find("whole numbers, as the numbers of samples are"), std::string::npos) << said;
+    EXPECT_EQ(refused(folder.write("y.npy", npy_of("<f8", "(2, 2)", bytes + bytes))),
+              "y.npy: an array of 2 columns: times of spikes are one; --time 1 --unit 2 says which hold the times and the units");
+    EXPECT_EQ(sure(read_spikes(folder / "y.npy", {"1", "2"}))[0].times.size(), 2U);
+}
+
+TEST(SpikeFiles, OtherBinaryFilesAreNamedWithoutTheirBytes) {
+    const Folder folder;
+    EXPECT_EQ(refused(folder.write("x.h5", "\x89HDF\r\n")),
+              "x.h5: this is an HDF5 file, no file of spikes: these are CSV, JSON lines, .npy, .npz or address events");
+    EXPECT_EQ(refused(folder.write("x.bin", std::string("\x01\0\x02", 3))),
+              "x.bin: this is no text: it has NUL bytes, as binary files have");
 }
 
 std::string npz_of(const std::map<std::string, std::vector<std::int64_t>>& integers, const std::vector<double>& rate = {1e3}) {

@@ -18,9 +18,11 @@
 #include "live/frame_decoder.hpp"
 #include "live/frame_order.hpp"
 #include "live/live_population.hpp"
+#include "live/placed_frames.hpp"
 #include "live/steady_clock.hpp"
 #include "live/stream_state.hpp"
 #include "model/catalog.hpp"
+#include "skin/site_map.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 
@@ -270,6 +272,26 @@ TEST(SkinStream, AStateThatIsDamagedIsRefused) {
     const auto bytes = packed({{0.5, 0.25}, {}, stream->save()});
     EXPECT_TRUE(unpacked(bytes, "x"));
     for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpacked(std::span(bytes).first(size), "x")) << size;
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+        auto damaged = bytes;
+        damaged[bit / 8] ^= std::byte{1} << (bit % 8);
+        EXPECT_FALSE(unpacked(damaged, "x")) << bit;
+    }
+}
+
+TEST(SkinStream, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
+    auto stream = sure(SkinStream::make(sure(innervate(sure(plan_channels("sa1", 2)))), {1000, 1}));
+    auto bytes = packed({{0.5, 0.25}, 7, stream->save()});
+    bytes[8] = std::byte{3};
+    const auto later = unpacked(bytes, "now.state");
+    ASSERT_FALSE(later);
+    EXPECT_NE(later.error().sentence.find("a saved state of version 3"), std::string::npos) << later.error().sentence;
+    bytes[8] = std::byte{1};
+    bytes.resize(bytes.size() - 8);  // version 1 has no checksum
+    const auto before = sure(unpacked(bytes, "now.state"));
+    EXPECT_EQ(before.force, (std::vector<double>{0.5, 0.25}));
+    EXPECT_EQ(before.number, 7U);
+    EXPECT_EQ(before.skin, stream->save());
 }
 
 // --- what stands between
@@ -335,6 +357,74 @@ TEST(Delays, QuantilesAreWithinThreePercent) {
     EXPECT_EQ(d.most(), 1'000'000);
 }
 
+TEST(CHeader, SaysWhereEachSiteIs) {
+    auto* const skin = corpuscle_create("grid 2x3", 1000, 1, nullptr, 0);
+    ASSERT_TRUE(skin);
+    double x = 0, y = 0;
+    EXPECT_STREQ(corpuscle_site_name(skin, 4), "r2c2");
+    EXPECT_EQ(corpuscle_site_position(skin, 4, &x, &y), 0);
+    EXPECT_NEAR(x, 2e-3, 1e-12);
+    EXPECT_NEAR(y, 2e-3, 1e-12);
+    EXPECT_EQ(corpuscle_site_name(skin, 6), nullptr);
+    EXPECT_EQ(corpuscle_site_position(skin, 6, &x, &y), -1);
+    EXPECT_EQ(corpuscle_site_position(nullptr, 0, &x, &y), -1);
+    corpuscle_destroy(skin);
+}
+
+// --- frames of fewer numbers than sites
+
+/// Frames 1, 2, 3 ... of two forces each: {1, 10}, {2, 20} ...
+class CountedFrames final : public FrameSource {
+    int given_ = 0;
+
+public:
+    Result<bool> receive() override { return true; }
+    FrameCounts counts() const override { return {.frames = given_}; }
+    std::string sentence() const override { return "counted"; }
+    Next next(std::span<double> force) override {
+        if (++given_ == 3) return Next::filled;  // holds the last one
+        force[0] = given_, force[1] = 10.0 * given_;
+        return Next::frame;
+    }
+};
+
+TEST(PlacedFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
+    const auto frames = placed_frames(std::make_unique<CountedFrames>(), {4, 1}, 6);
+    std::vector<double> force(6);
+    EXPECT_EQ(frames->next(force), FrameSource::Next::frame);
+    EXPECT_EQ(force, (std::vector<double>{0, 10, 0, 0, 1, 0}));
+    EXPECT_EQ(frames->next(force), FrameSource::Next::frame);
+    EXPECT_EQ(frames->next(force), FrameSource::Next::filled);
+    EXPECT_EQ(force, (std::vector<double>{0, 20, 0, 0, 2, 0}));
+}
+
+TEST(PlacedFrames, OfAllSitesInOrderAreTheFramesThemselves) {
+    auto counted = std::make_unique<CountedFrames>();
+    const auto* const same = counted.get();
+    EXPECT_EQ(placed_frames(std::move(counted), {0, 1}, 2).get(), same);
+}
+
+TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
+    const Folder folder;
+    const auto sites = sure(grid_sites(2, 3, 2e-3));
+    const auto map = [&](const std::string& text) { return read_site_map(folder.write("palm.csv", text), sites); };
+    EXPECT_EQ(sure(map("# of a palm\nchannel,name,gain\n2,r1c2,1\n1,r2c2,1\n")), (std::vector<std::uint32_t>{4, 1}));
+    EXPECT_EQ(sure(map("sensor;name\n1;r1c1\n")), (std::vector<std::uint32_t>{0}));
+    for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
+             {"channel,name\n1,r3c1\n", "palm.csv:2:3: no site is called 'r3c1'; did you mean"},
+             {"channel,name\n1,r1c1\n3,r1c2\n", "channel 2 has no row, and channel 3 has one"},
+             {"channel,name\n1,r1c1\n1,r1c2\n", "palm.csv:3:1: channel 1 has two rows"},
+             {"channel,name\n1,r1c1\n2,r1c1\n", "palm.csv:3:3: site 'r1c1' has two channels"},
+             {"channel,name\n0,r1c1\n", "palm.csv:2:1: channel '0': a number from 1 to 6 is needed"},
+             {"channel,x_mm\n1,2\n", "needs the columns channel and name"},
+             {"channel,name\n", "no channels in this layout"},
+             {"", "needs the columns channel and name"}}) {
+        const auto refused = map(text);
+        ASSERT_FALSE(refused) << text;
+        EXPECT_NE(refused.error().text().find(said), std::string::npos) << refused.error().text();
+    }
+}
+
 TEST(CHeader, TellsWhatIsWrongAndGoesOnFromWhatWasSaved) {
     char error[200];
     EXPECT_EQ(corpuscle_create("nobody", 1000, 1, error, sizeof error), nullptr);
@@ -355,6 +445,11 @@ TEST(CHeader, TellsWhatIsWrongAndGoesOnFromWhatWasSaved) {
             EXPECT_EQ(corpuscle_save(one, state.data(), 3), 0U);
             EXPECT_EQ(corpuscle_resume(other, state.data(), state.size()), 0);
             EXPECT_EQ(corpuscle_resume(other, state.data(), 3), -1);
+            for (std::size_t at = 0; at < state.size(); ++at) {
+                auto damaged = state;
+                damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+                EXPECT_EQ(corpuscle_resume(other, damaged.data(), damaged.size()), -1) << at;
+            }
             second = all;
         }
         EXPECT_EQ(corpuscle_push(one, &force, 1, list, &all), 0);

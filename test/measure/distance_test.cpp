@@ -1,5 +1,6 @@
 #include "measure/distance.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -117,6 +118,29 @@ TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndImpossibleOne
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().sentence.substr(0, 83),
               "at a cost of 0.0001 a second, 100000 and 100000 spikes are 10000000000 pairs within");
+}
+
+// 25 million pairs, of which choices are kept of 4 million at once.
+TEST(VictorPurpura, MovesOfManyCoincidencesAreFoundPartByPart) {
+    std::vector<double> a, b;
+    for (int k = 0; k < 5000; ++k) a.push_back(1e-6 * k), b.push_back(1e-6 * (k + (k * 7919) % 13));
+    std::sort(b.begin(), b.end());
+    b.resize(4990);
+    const double q = 1;
+    const auto found = align(a, b, q);
+    ASSERT_TRUE(found) << found.error().text();
+    ASSERT_EQ(found->moved.size(), b.size());
+    double cost = static_cast<double>(a.size() - b.size());
+    for (std::size_t k = 0; k < found->moved.size(); ++k) {
+        const auto& m = found->moved[k];
+        if (k > 0) {
+            EXPECT_LT(found->moved[k - 1].a, m.a);
+            EXPECT_LT(found->moved[k - 1].b, m.b);
+        }
+        cost += q * std::abs(a[m.a] - b[m.b]);
+    }
+    EXPECT_NEAR(found->distance, cost, 1e-9);
+    EXPECT_NEAR(found->distance, *victor_purpura(a, b, q), 1e-9);
 }
 
 TEST(VanRossum, IsTheSumOverAllPairs) {

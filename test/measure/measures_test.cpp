@@ -52,6 +52,43 @@ TEST(Measures, HaveNoValueWhereThereIsNone) {
     EXPECT_TRUE(std::isnan(measured("mean_rate", train, {0.5, 0.5})));
 }
 
+/// Presses of half a second that fire every 20 ms, slowing down to 40 ms, and nothing for so long between them.
+std::vector<double> presses(int count, double pause) {
+    std::vector<double> spikes;
+    double t = 1;
+    for (int k = 0; k < count; ++k, t += pause)
+        for (double interval = 0.02; interval < 0.04; interval *= 1.05) spikes.push_back(t += interval);
+    return spikes;
+}
+
+TEST(Measures, HaveNoAdaptationAndNoVariationWherePausesAreLongerThanPresses) {
+    const Stretch all{0, 1000};
+    for (const char* name : {"adaptation_ratio", "isi_cv"}) {
+        EXPECT_FALSE(std::isnan(measured(name, presses(1, 0), all))) << name;
+        EXPECT_TRUE(std::isnan(measured(name, presses(13, 9), all))) << name;
+        EXPECT_FALSE(std::isnan(measured(name, presses(13, 0.03), all))) << name << ": no pause";
+        auto late = presses(1, 0);
+        late.insert(late.begin(), {0.1, 0.6});
+        EXPECT_FALSE(std::isnan(measured(name, late, all))) << name << ": an irregular beginning is no pause";
+        auto alone = presses(2, 5);
+        alone.insert(alone.begin(), -8);
+        EXPECT_TRUE(std::isnan(measured(name, alone, {-10, 1000}))) << name << ": a spike alone, then presses";
+    }
+    EXPECT_NEAR(measured("peak_rate", presses(13, 9), all), measured("peak_rate", presses(1, 0), all), 1e-6) << "within a press";
+    auto after = presses(1, 0);
+    EXPECT_FALSE(std::isnan(measured("last_rate", after, all)));
+    after.push_back(after.back() + 7);
+    EXPECT_TRUE(std::isnan(measured("last_rate", after, all))) << "over a pause";
+}
+
+TEST(Measures, AnIntervalOfMoreThanTenSecondsIsNoFrequency) {
+    for (const char* name : {"peak_rate", "first_rate", "last_rate"}) {
+        EXPECT_TRUE(std::isnan(measured(name, {1, 62}, {0, 133}))) << name;
+        EXPECT_NEAR(measured(name, {1, 3}, {0, 133}), 0.5, 1e-12) << name << ": slow, and regular";
+    }
+    EXPECT_EQ(measured("mean_rate", {1, 62}, {0, 100}), 0.02);
+}
+
 TEST(Measures, TwoSpikesOnOneSampleHaveNoFrequency) {
     const std::vector<double> sampled = {0.1, 0.1, 0.2};
     EXPECT_TRUE(std::isnan(measured("first_rate", sampled, {0, 1})));
@@ -87,8 +124,8 @@ TEST(Measures, AdaptationIsTheFirstIntervalOverTheLast) {
 TEST(Measures, VariationIsThatOfAllIntervalsInside) {
     EXPECT_NEAR(measured("isi_cv", {1, 2, 3, 4}, {0, 9}), 0, 1e-12) << "a clock";
     EXPECT_NEAR(measured("isi_cv", {0, 1, 4, 99}, {0, 9}), 0.5, 1e-12) << "1 s and 3 s: a deviation of 1 s about 2 s";
-    EXPECT_TRUE(rc::check("against two passes", [] {
-        const auto steps = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 50), rc::gen::inRange(1, 1000));
+    EXPECT_TRUE(rc::check("against two passes", [] {  // intervals that are no pauses
+        const auto steps = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 50), rc::gen::inRange(1, 500));
         std::vector<double> spikes = {1e3};
         for (const int x : steps) spikes.push_back(spikes.back() + x * 1e-3);
         const auto n = static_cast<double>(steps.size());

@@ -60,6 +60,28 @@ TEST(State, CutShortOrForeignBytesAreRefused) {
     EXPECT_FALSE(unpack(foreign));
 }
 
+TEST(State, AFlippedBitIsFound) {
+    const auto bytes = pack({"sa1b+lif-b/1", 5, {1, 2, 3}});
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+        auto damaged = bytes;
+        damaged[bit / 8] ^= std::byte{1} << (bit % 8);
+        EXPECT_FALSE(unpack(damaged)) << bit;
+    }
+}
+
+TEST(State, OneOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
+    auto bytes = pack({"sa1b+lif-b/1", 5, {1, 2, 3}});
+    bytes[6] = std::byte{'3'};
+    const auto later = unpack(bytes);
+    ASSERT_FALSE(later);
+    EXPECT_NE(later.error().sentence.find("a later version than 2"), std::string::npos) << later.error().sentence;
+    bytes[6] = std::byte{'1'};
+    bytes.resize(bytes.size() - 8);  // version 1 has no checksum
+    const auto before = unpack(bytes);
+    ASSERT_TRUE(before);
+    EXPECT_EQ(before->values, (std::vector<double>{1, 2, 3}));
+}
+
 TEST(Random, PhiloxGivesThePublishedWords) {  // known answers of Random123, kat_vectors
     EXPECT_EQ(philox({0, 0, 0, 0}, 0), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));

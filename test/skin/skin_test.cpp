@@ -153,8 +153,31 @@ TEST(Skin, RefusesAStateThatIsNotItsOwnOrIsCutShort) {
     EXPECT_FALSE(make_skin(small_skin(3, 3, false, 20))->resume(saved));
     for (std::size_t size = 0; size < saved.size(); size += 97) EXPECT_FALSE(make_skin(map)->resume(std::span(saved).first(size)));
     EXPECT_TRUE(make_skin(map)->resume(saved));
+    for (std::size_t at = 0; at < saved.size(); ++at) {
+        auto damaged = saved;
+        damaged[at] ^= std::byte{1} << (at % 8);
+        EXPECT_FALSE(make_skin(map)->resume(damaged)) << at;
+    }
     saved.push_back({});
     EXPECT_FALSE(make_skin(map)->resume(saved));
+}
+
+TEST(Skin, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
+    Pool pool(1);
+    const auto map = small_skin(3, 3, true, 20);
+    const Touch touch(9, 500, 5);
+    auto skin = make_skin(map);
+    (void)whole(*skin, touch, pool);
+    auto saved = skin->save();
+    saved[6] = std::byte{'3'};
+    const auto later = make_skin(map)->resume(saved);
+    ASSERT_FALSE(later);
+    EXPECT_NE(later.error().sentence.find("a later version than 2"), std::string::npos) << later.error().sentence;
+    saved[6] = std::byte{'1'};
+    saved.resize(saved.size() - 8);  // version 1 has no checksum
+    auto resumed = make_skin(map);
+    ASSERT_TRUE(resumed->resume(saved));
+    EXPECT_EQ(resumed->save(), skin->save());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "study/compare.hpp"
 
+#include <chrono>
 #include <cmath>
 
 #include "support/property.hpp"
@@ -72,6 +73,18 @@ TEST(PairTrains, WrongUseGetsTheWordsThatWork) {
               "--by-order: the first file has 2 trains, the second 1; --pair A-NAME=B-NAME names those to compare");
     EXPECT_EQ(pairs(fz, abs, {.pairs = {"fz=fz_abs"}, .by_order = true}),
               "--by-order and --pair both say who is compared with whom: give one");
+}
+
+// Each name is looked up, not searched for among all.
+TEST(PairTrains, OfAHundredThousandTakesWellUnderASecond) {
+    std::vector<NamedTrain> a, b;
+    for (int k = 0; k < 100'000; ++k)
+        a.push_back({"sa1#" + std::to_string(k), "press", {}}), b.push_back({"sa1#" + std::to_string(100'000 - k), "press", {}});
+    const auto begun = std::chrono::steady_clock::now();
+    const auto pairs = pair_trains(a, b, {});
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 5);
+    ASSERT_TRUE(pairs);
+    EXPECT_EQ(pairs->size(), 100'001U) << "all but one of each have a partner";
 }
 
 TEST(Compare, CountsWhatMatchesAndWhatDoesNot) {

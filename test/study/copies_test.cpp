@@ -78,6 +78,18 @@ TEST(OverCopies, AreTheMeanDeviationLeastAndGreatestOfThoseThatHaveAValue) {
     }));
 }
 
+/// Of a row's phase, or of its whole input, s.
+double length_of(const Summary& summary, const RateRow& row) {
+    for (const auto& input : summary.inputs()) {
+        if (std::find(input.channels.begin(), input.channels.end(), row.channel) == input.channels.end()) continue;
+        for (const auto& p : input.phases)
+            if (p.name == row.phase) return p.to - p.from;
+        if (row.phase == "all") return static_cast<double>(input.samples) * input.clock.T();
+    }
+    return no_value;
+}
+
+/// A row of one afferent leaves out the mean rate of a single spike, which a mean over copies has.
 TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
     const auto p = populate({"sa1", "fa1"}, 25, {"sa1.f_B=20%", "sa1.V_th=40%", "fa1.k_A=40%"});
     auto alone = p.copies;  // the same plans as if each had been asked for
@@ -92,7 +104,8 @@ TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
             std::vector<double> values;
             for (const auto& r : each.rows())
                 if (r.afferent.starts_with(row.afferent + "#") && r.channel == row.channel && r.phase == row.phase)
-                    values.push_back(r.values[m]);
+                    values.push_back(m == place_of_measure<MeanRate> ? r.values[place_of_measure<SpikeCount>] / length_of(each, r)
+                                                                     : r.values[m]);
             ASSERT_EQ(values.size(), 25U);
             const auto right = statistics(values);
             const auto& over = row.over[m];

@@ -1,8 +1,11 @@
 // A force through a skin as people run it: stopped and gone on with, on ranks, of a recording's channels; each time the same bytes.
 
+#include <fmt/format.h>
 #include <unistd.h>
+#include <cstring>
 
 #include "io/events.hpp"
+#include "io/npz.hpp"
 #include "signal/stimuli.hpp"
 #include "study/skin_checkpoint.hpp"
 #include "study/skin_events_file.hpp"
@@ -16,15 +19,15 @@ using test::Folder, test::read_file, test::sure;
 
 /// One run of a press on a fingertip into `out`; stopped after so many blocks (none: -1).
 Result<SkinWork> press_fingertip(const Folder& folder, const std::string& out, int blocks, bool keeps,
-                                 const std::string& likeness = "press") {
+                                 const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
     static const auto skin = sure(innervate(sure(plan_skin("fingertip"))));
-    const auto source = sure(make_stimulus("press", {}, 1e3, 0));
+    const auto source = sure(make_stimulus("press", test::wishes({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
     const auto contact = sure(make_contact("sphere", {}, skin->plan.sites, source->clock()));
     const auto force = pressed_force(*source, *contact);
     const auto at_work = sure(Skin::make(skin, {1e-3}, *instruction_set()));
     std::unique_ptr<SkinCheckpoint> spool;
     if (keeps) {
-        auto opened = SkinCheckpoint::open(folder / "state", *at_work, likeness);
+        auto opened = SkinCheckpoint::open(folder / "state", *at_work, fingerprint);
         if (!opened) return opened.error();
         spool = std::move(*opened);
     }
@@ -58,24 +61,164 @@ TEST(SkinRun, StoppedAgainAndAgainItGoesOnToTheSameBytes) {
     EXPECT_FALSE(std::filesystem::exists(folder / "state.spikes"));
 }
 
-TEST(SkinRun, ACheckpointOfAnotherRunOrDamagedIsRefusedAndStays) {
+TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
+    const Folder folder;
+    const RunFingerprint then = {{"FORCE", "touch.csv"}, {"--scale", "1"}, {"--abs", "true"}, {"contents of the recording", "a"}},
+                         now = {{"FORCE", "touch.csv"}, {"--scale", "3"}, {"--despike", "auto"}, {"contents of the recording", "b"}};
+    ASSERT_FALSE(press_fingertip(folder, "a", 5, true, then));
+    const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
+    const auto other = press_fingertip(folder, "a", 5, true, now);
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().code, Code::bad_input);
+    EXPECT_NE(other.error().sentence.find("--scale was 1 and now is 3; --abs was true and now is not given; the contents of the recording "
+                                          "have changed; --despike was not given and now is auto. Repeat the run as it was begun, remove "),
+              std::string::npos)
+        << other.error().sentence;
+    EXPECT_EQ(read_file(folder / "state"), kept);
+    EXPECT_EQ(read_file(folder / "state.spikes"), spikes);
+}
+
+TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
     const Folder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
-    const auto kept = read_file(folder / "state");
-    const auto other = press_fingertip(folder, "a", 5, true, "stroke");
+    const auto other = press_fingertip(folder, "a", -1, true, {{"FORCE", "press"}}, 1.5);
     ASSERT_FALSE(other);
-    EXPECT_NE(other.error().sentence.find("this run is another (stroke); the checkpoint is of: press"), std::string::npos);
-    for (const std::size_t size : {std::size_t{3}, std::size_t{30}, kept.size() / 2, kept.size() - 1}) {
+    EXPECT_NE(other.error().sentence.find("the force up to this checkpoint is not the one that it was made with"), std::string::npos)
+        << other.error().sentence;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+}
+
+TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
+    const Folder folder;
+    ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
+    const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
+    ASSERT_GT(spikes.size(), 100U * 24);
+    const auto refused = [&](const std::string& what) {
+        const auto done = press_fingertip(folder, "a", 0, true);
+        EXPECT_FALSE(done) << what;
+        EXPECT_EQ(done.error().code, Code::bad_input) << what << done.error().sentence;
+        EXPECT_NE(done.error().sentence.find("--checkpoint"), std::string::npos) << done.error().sentence;
+    };
+    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{30}, kept.size() / 2, kept.size() - 1}) {
         folder.write("state", kept.substr(0, size));
-        const auto cut = press_fingertip(folder, "a", 5, true);
-        ASSERT_FALSE(cut);
-        EXPECT_EQ(cut.error().code, Code::bad_input);
+        refused("FILE cut to " + std::to_string(size));
+    }
+    for (std::size_t at = 0; at < kept.size(); at += 1 + kept.size() / 60) {
+        auto damaged = kept;
+        damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+        folder.write("state", damaged);
+        refused("FILE, byte " + std::to_string(at));
     }
     folder.write("state", kept);
-    folder.write("state.spikes", "");
-    const auto fewer = press_fingertip(folder, "a", 5, true);
-    ASSERT_FALSE(fewer);
-    EXPECT_NE(fewer.error().sentence.find("it has fewer spikes than"), std::string::npos) << fewer.error().sentence;
+    for (std::size_t at = 0; at < spikes.size(); at += 1 + spikes.size() / 60) {
+        auto damaged = spikes;
+        damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+        folder.write("state.spikes", damaged);
+        refused("FILE.spikes, byte " + std::to_string(at));
+        EXPECT_EQ(read_file(folder / "state.spikes"), damaged) << "a refused file stays as it is";
+    }
+    folder.write("state.spikes", spikes.substr(0, spikes.size() / 2));
+    refused("FILE.spikes cut to a half");
+    std::filesystem::remove(folder / "state.spikes");
+    refused("FILE.spikes removed");
+    folder.write("state.spikes", spikes);
+    EXPECT_EQ(press_fingertip(folder, "a", 0, true).error().code, Code::interrupted) << "whole, it goes on";
+}
+
+/// Where FILE holds the number of spikes: behind the magic, one pair of texts, and the checksum of the force.
+constexpr std::size_t count_at = 23 + 8 + (8 + 5) + (8 + 5) + 8;
+
+TEST(SkinRun, ACheckpointThatCountsMoreSpikesThanThereAreIsRefusedAndNothingIsCutOff) {
+    const Folder folder;
+    ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
+    const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
+    std::uint64_t count = 0;
+    std::memcpy(&count, kept.data() + count_at, sizeof count);
+    ASSERT_EQ(24 + 24 * count, spikes.size());
+    for (const auto claimed : {count + 1, std::uint64_t{1} << 61, (std::uint64_t{1} << 61) + count, ~std::uint64_t{0}}) {
+        auto more = kept.substr(0, kept.size() - sizeof count);
+        std::memcpy(more.data() + count_at, &claimed, sizeof claimed);
+        const auto sum = checksum_of(std::as_bytes(std::span(more)));
+        more.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+        folder.write("state", more);
+        const auto done = press_fingertip(folder, "a", -1, true);
+        ASSERT_FALSE(done) << claimed;
+        EXPECT_NE(done.error().sentence.find("it has "), std::string::npos) << done.error().sentence;
+        EXPECT_EQ(read_file(folder / "state.spikes"), spikes);
+    }
+}
+
+TEST(SkinRun, ACheckpointOfAnEarlierVersionIsRefusedWithItsVersionAndARemedy) {
+    const Folder folder;
+    folder.write("state", std::string("corpuscle checkpoint 1\n") + std::string(200, '\0')), folder.write("state.spikes", "");
+    const auto done = press_fingertip(folder, "a", 5, true);
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().sentence.find("a checkpoint of version 1;"), std::string::npos) << done.error().sentence;
+    EXPECT_NE(done.error().sentence.find("remove " + folder / "state"), std::string::npos) << done.error().sentence;
+}
+
+TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
+    const Folder folder;
+    const auto map = sure(innervate(sure(plan_skin("grid 2x2"))));
+    const auto one = sure(Skin::make(map, {1e-3}, *instruction_set())), two = sure(Skin::make(map, {1e-3}, *instruction_set()));
+    auto first = sure(SkinCheckpoint::open(folder / "state", *one, {}));
+    const auto second = SkinCheckpoint::open(folder / "state", *two, {});
+    ASSERT_FALSE(second);
+    EXPECT_NE(second.error().sentence.find("another run is using this checkpoint"), std::string::npos) << second.error().sentence;
+    first->done();
+    EXPECT_TRUE(SkinCheckpoint::open(folder / "state", *two, {}));
+}
+
+TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
+    const Folder folder;
+    for (const std::string mine : {"1.5 sorted by hand\n", ""}) {
+        folder.write("mine.spikes", mine);
+        const auto ran = test::run(folder, "respond press --population fingertip --checkpoint mine");
+        EXPECT_EQ(ran.status, 1);
+        EXPECT_NE(ran.err.find("mine.spikes: this file was not written with a checkpoint"), std::string::npos) << ran.err;
+        EXPECT_EQ(read_file(folder / "mine.spikes"), mine);
+        EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes"}));
+    }
+    folder.write("own", "a text\n");
+    EXPECT_NE(test::run(folder, "respond press --population fingertip --checkpoint own").err.find("own: this file is not a checkpoint"),
+              std::string::npos);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes", "own"}));
+    EXPECT_EQ(test::run(folder, "respond press --population fingertip --checkpoint spikes.csv --out . --quiet").status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "spikes.csv")) << "an output of the checkpoint's name stays";
+}
+
+TEST(SkinRun, ARunThatFailsBeforeItsFirstCheckpointLeavesNothingBehind) {
+    const Folder folder;
+    folder.write("touch.csv", "time_s,f_N\n0,1\n0.001,1\n0.002,1\n0.003,here\n");
+    EXPECT_EQ(test::run(folder, "respond touch.csv --population fingertip --rate 1kHz --checkpoint kept --out out").status, 1);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"touch.csv"}));
+}
+
+TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) {
+    const Folder folder;
+    const auto recording = [&](double force) {
+        std::string text = "time_s,f_N\n";
+        for (int k = 0; k < 60'000; ++k) text += fmt::format("{:.3f},{}\n", k / 1000.0, k / 500 % 2 * force);
+        return text;
+    };
+    folder.write("touch.csv", recording(1));
+    const std::string words = "respond touch.csv --population fingertip --scale 2 --checkpoint kept --out out";
+    for (const char* seconds : {"0.4", "1", "3", "8", "20"}) {  // on a busy machine it may not have begun
+        const auto command =
+            "cd '" + folder.path() + "' && timeout -s INT " + seconds + " '" + test::program() + "' " + words + " -j 1 2>said >&2";
+        const int status = WEXITSTATUS(std::system(command.c_str()));
+        if (status == 0) GTEST_SKIP() << "it was over before it could be interrupted";
+        if (std::filesystem::exists(folder / "kept")) break;
+    }
+    ASSERT_TRUE(std::filesystem::exists(folder / "kept")) << read_file(folder / "said");
+    const auto scaled = test::run(folder, "respond touch.csv --population fingertip --scale 3 --checkpoint kept --out out");
+    EXPECT_EQ(scaled.status, 1);
+    EXPECT_NE(scaled.err.find("--scale was 2 and now is 3"), std::string::npos) << scaled.err;
+    folder.write("touch.csv", recording(1.001));
+    const auto other = test::run(folder, words);
+    EXPECT_EQ(other.status, 1);
+    EXPECT_NE(other.err.find("the contents of the recording have changed"), std::string::npos) << other.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
@@ -97,9 +240,28 @@ TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
     EXPECT_FALSE(std::filesystem::exists(folder / "wrong"));
 }
 
+TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
+    const Folder folder;
+    ASSERT_EQ(test::run(folder, "respond press --population fingertip --npz --out a --quiet").status, 0);
+    const auto npz = sure(NpzReader::open(folder / "a/spikes.npz"));
+    const auto labels = sure(npz.integers("spike_labels_seg0")), indexes = sure(npz.integers("spike_indexes_seg0"));
+    const auto times = sure(npz.numbers("spike_times_seg0"));
+    const auto names = sure(npz.words("unit_afferent")), regions = sure(npz.words("unit_channel"));
+    std::string text = "afferent,channel,time_s\n";
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        const auto unit = static_cast<std::size_t>(labels[k]);
+        text += fmt::format("{},{},{:.9f}\n", names[unit], regions[unit], times[k]);
+        EXPECT_NEAR(static_cast<double>(indexes[k]) * 1e-6, times[k], 0.5000001e-6);
+    }
+    EXPECT_EQ(text, read_file(folder / "a/spikes.csv"));
+    EXPECT_EQ(sure(npz.numbers("unit_x_m")).size(), names.size());
+    EXPECT_EQ(test::run(folder, "compare a/spikes.csv a/spikes.npz").status, 0);
+    EXPECT_NE(test::run(folder, "respond press --population fingertip --npz").err.find("--npz needs --out DIR"), std::string::npos);
+}
+
 TEST(SkinRun, WhatIsMeantForAfferentsOnChannelsIsRefused) {
     const Folder folder;
-    for (const char* words : {"--afferent fa2", "--copies 3", "--noise 10nA", "--traces --out x", "--npz --out x", "--corner ss"}) {
+    for (const char* words : {"--afferent fa2", "--copies 3", "--noise 10nA", "--traces --out x", "--corner ss"}) {
         const auto ran = test::run(folder, std::string("respond press --population fingertip ") + words);
         EXPECT_EQ(ran.status, 2) << words << ran.err;
         EXPECT_NE(ran.err.find("does not go with --population"), std::string::npos) << ran.err;

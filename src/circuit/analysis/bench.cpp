@@ -65,7 +65,10 @@ Error error_at(const Command& c, std::size_t word, std::string sentence) {
 
 Result<double> number_of(const Command& c, std::size_t word, std::string_view what) {
     if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.place);
-    if (const auto x = whole_number(c.words[word])) return x->value;
+    if (const auto x = whole_number(c.words[word])) {
+        if (auto why = ambiguous(*x, c.words[word])) return error_at(c, word, fmt::format(".{}: {}", c.name, *why));
+        return x->value;
+    }
     return error_at(c, word, fmt::format(".{}: '{}' is no number; {} was expected", c.name, c.words[word], what));
 }
 
@@ -97,7 +100,19 @@ Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
     return out;
 }
 
-Result<Wanted> wanted_of(const System& system, const Command& c, std::size_t word) {
+UnknownNames::UnknownNames(const System& system) : system_(system) {
+    const auto& names = system.names();
+    for (std::size_t k = 0; k < names.size(); ++k) at_.try_emplace(names[k], static_cast<int>(k));
+}
+
+int UnknownNames::index_of(std::string_view name) const {
+    const auto at = at_.find(name);
+    return at == at_.end() ? -1 : at->second;
+}
+
+Result<Wanted> wanted_of(const System& system, const Command& c, std::size_t word) { return wanted_of(UnknownNames(system), c, word); }
+
+Result<Wanted> wanted_of(const UnknownNames& names, const Command& c, std::size_t word) {
     if (word >= c.words.size())
         return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.place);
     auto place = c.place;
@@ -107,13 +122,13 @@ Result<Wanted> wanted_of(const System& system, const Command& c, std::size_t wor
     if (!closed || !(voltage || text.starts_with("i(")))
         return bad_input(fmt::format(".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text), place);
     const auto inside = text.substr(2, text.size() - 3);
-    std::vector<std::string_view> known(system.names().begin(), system.names().end());
     const auto unknown = [&](const std::string& name) -> Result<int> {
         if (voltage && (name == "0" || name == "gnd")) return -1;
         const auto full = fmt::format("{}({})", voltage ? 'v' : 'i', name);
-        const int found = system.unknown(full);
-        if (found < 0) return bad_input(fmt::format(".{}: there is no {}{}", c.name, full, did_you_mean(full, known)), place);
-        return found;
+        const int found = names.index_of(full);
+        if (found >= 0) return found;
+        const std::vector<std::string_view> known(names.all().begin(), names.all().end());
+        return bad_input(fmt::format(".{}: there is no {}{}", c.name, full, did_you_mean(full, known)), place);
     };
     const auto comma = inside.find(',');
     const auto plus = unknown(inside.substr(0, comma));

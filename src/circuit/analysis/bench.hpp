@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "circuit/points.hpp"
@@ -40,6 +41,7 @@ public:
     PointSink* points = nullptr;               ///< takes what is too long to be kept; null: it is kept
     long most_iterations = 0;                  ///< of a transient: one that takes more is stopped; 0: as many as it takes
     bool capped = false;                       ///< the last one was
+    bool requests_checked = false;             ///< .print, .plot and .meas were checked against the circuit
     bool brief = false;                        ///< one of many: tables for people and warnings are not wanted
 
     static Result<std::unique_ptr<TestBench>> make(std::shared_ptr<const Circuit>);
@@ -73,6 +75,18 @@ struct Wanted {
     double of(std::span<const double> x) const;
 };
 Result<Wanted> wanted_of(const System&, const Command&, std::size_t word);
+
+/// The system's unknowns by name, for many look-ups. The system must outlive it.
+class UnknownNames {
+    const System& system_;
+    std::unordered_map<std::string_view, int> at_;
+
+public:
+    explicit UnknownNames(const System&);
+    int index_of(std::string_view name) const;  ///< -1: none
+    const std::vector<std::string>& all() const { return system_.names(); }
+};
+Result<Wanted> wanted_of(const UnknownNames&, const Command&, std::size_t word);
 
 /// Curves for all unknowns, empty, after the one that is swept.
 Plot plot_of(const System&, std::string name, std::string swept, std::string type);

@@ -53,18 +53,27 @@ public:
     }
 };
 
+/// LONGEST, or STEP between a two hundredth and a fiftieth of the whole: what comes and goes within a step is not seen.
+double longest_of(const TransientTimes& t) {
+    const double whole = t.stop - t.start;
+    return t.longest.value_or(std::clamp(t.step, whole / 200, whole / 50));
+}
+
 /// The spikes of a transient, whose points go to each().
 Result<std::vector<double>> spikes_of(TestBench& bench, const Asked& asked, Transient& t, const Transient::Each& each) {
     std::vector<double> out;
     bool stopped = false;
-    const auto done = t.run(asked.from.x, asked.from.settled, [&](double time, std::span<const double> x) {
-        if (!each(time, x)) return false;
-        if (time < t.time()) return true;  // within a step
-        if (asked.output)
-            if (const auto spike = asked.output->within(t); spike && *spike >= asked.times.start) out.push_back(*spike);
-        bench.capped = bench.most_iterations > 0 && t.work().iterations > bench.most_iterations;
-        return !bench.capped && !(stopped = bench.stopped(time / asked.times.stop));
-    });
+    const auto done = t.run(
+        asked.from.x, asked.from.settled,
+        [&](double time, std::span<const double> x) {
+            if (!each(time, x)) return false;
+            if (time < t.time()) return true;  // within a step
+            if (asked.output)
+                if (const auto spike = asked.output->within(t); spike && *spike >= asked.times.start) out.push_back(*spike);
+            bench.capped = bench.most_iterations > 0 && t.work().iterations > bench.most_iterations;
+            return !bench.capped && !(stopped = bench.stopped(time / asked.times.stop));
+        },
+        asked.from.charge);
     if (!done) return done.error();
     if (stopped) return interruption();
     if (bench.capped)
@@ -128,7 +137,8 @@ Result<Findings> analyse_tran(TestBench& bench, const Command& c) {
         return bad_input(fmt::format(".force: no source carries it; one is written '{}' (60 nA a newton)", "iin 0 fin force 60n"),
                          Place{bench.circuit->file});
     Asked asked{*times, *plan, *output, {}};
-    asked.plan.stop = times->stop, asked.plan.longest = times->longest.value_or((times->stop - times->start) / 50);
+    asked.plan.all_reported = true;
+    asked.plan.stop = times->stop, asked.plan.longest = longest_of(*times);
     KeptPlot kept;
     PointSink& points = bench.points ? *bench.points : kept;
     if (auto ok = points.begin(plot_of(bench.system, "Transient Analysis", "time", "time")); !ok) return ok.error();

@@ -223,4 +223,25 @@ bool ChipMemory::look_at_others(std::size_t chip, const System& system, const In
     return any;
 }
 
+bool ChipMemory::formulas_hold(std::size_t chip, const System& system, const Instant& at, const FormulaTolerance& tolerance) {
+    for (auto& o : others_[chip]) {
+        const Device& d = *system.devices()[o.number];
+        if (!d.jumps()) continue;
+        const auto n = o.unknowns.size();
+        for (std::size_t j = 0; j < n; ++j) o.v[j] = o.unknowns[j] < 0 ? 0 : block.x[o.unknowns[j]].of[chip];
+        std::fill(o.line.begin(), o.line.end(), 0.0);
+        const std::span<double> all(o.line);
+        const auto f = all.first(n);
+        d.eval(o.v, at, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        for (std::size_t row = 0; row < n; ++row) {
+            double line = o.before[row];
+            for (std::size_t column = 0; column < n; ++column) line += o.before[2 * n + row * n + column] * o.v[column];
+            const bool volts = o.unknowns[row] >= 0 && !system.is_voltage(o.unknowns[row]);
+            const double size = volts ? std::abs(o.v[0] - o.v[1]) : std::max(std::abs(f[row]), std::abs(line));
+            if (!tolerance.holds(volts, f[row] - line, size)) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace corpuscle::circuit

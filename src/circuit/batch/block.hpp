@@ -6,6 +6,7 @@
 
 #include "circuit/lanes/chips.hpp"
 #include "circuit/solve/elimination.hpp"
+#include "circuit/solve/step_equations.hpp"
 #include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {
@@ -65,6 +66,8 @@ public:
     void look(const lanes::ChipLanes&, std::uint8_t chips, double gmin);
     /// Looks at a chip's other devices; whether one could not be looked at where it stands.
     bool look_at_others(std::size_t chip, const System&, const Instant&, std::vector<double>& memory);
+    /// Whether its formulas give at x what their straight lines give there.
+    bool formulas_hold(std::size_t chip, const System&, const Instant&, const FormulaTolerance&);
 };
 
 }  // namespace corpuscle::circuit

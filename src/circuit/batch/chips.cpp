@@ -217,8 +217,9 @@ Result<void> run_chips(const std::shared_ptr<const CircuitDesign>& nominal, cons
     const auto& system = (*rig)->bench().system;
     const auto* list = (*rig)->transient().elimination();
     if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf) return one_by_one(next, told, options);
-    return Batch(**kernels, system, *list, far_of(nominal->plan), static_cast<std::size_t>(nominal->plan.order) + 1,
-                 (*rig)->bench().tolerances.gmin, next, told, options)
+    return Batch(**kernels, system, *list, far_of(nominal->plan),
+                 static_cast<std::size_t>(std::max(nominal->plan.order + 1, StepControl::curve_points)), (*rig)->bench().tolerances.gmin,
+                 next, told, options)
         .run();
 }
 

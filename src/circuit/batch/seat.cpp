@@ -33,7 +33,7 @@ Result<bool> Seat::take(const Chip& chip, const BatchOptions& options) {
     const auto start = rig_->transient().save();
     plan_ = rig_->transient().plan();
     pace_ = {}, newton_ = {}, bent_ = false, work_ = Work::nothing, looks_ = 0;
-    pace_.h = start.h, times_ = {}, points_ = 1, newest_ = 0, corner_ = -1;
+    pace_.h = start.h, times_ = {}, points_ = seen_ = 1, newest_ = curve_ = 0, corner_ = -1, jumped_ = false;
     end_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
     const Instant at{0, 1, bench.tolerances.gmin, true};
     memory_.seat(lane_, bench.system, at);
@@ -99,6 +99,7 @@ void Seat::attempt() {
     last_ = now + 1.01 * h >= corner_;
     if (!last_ && now + 2 * h > corner_) h = (corner_ - now) / 2;
     t_ = last_ ? corner_ : now + h;
+    jump_ = !rig_->transient().curves().empty() && t_ - now <= pace_.jump(plan_.reltol, plan_.longest);
     value_ = weights_of_value(times(std::min(pace_.order + 1, points_)), t_);
     newton_.begin();
     begins_ = true;
@@ -138,11 +139,8 @@ void Seat::look_at_others() {
 Seat::Verdict Seat::iterated(double size, bool clamped, bool finite) {
     if (work_ == Work::restart) {
         for (std::size_t n = 0; n < memory_.unknowns(); ++n) memory_.block.rate[n].of[lane_] = -memory_.block.r[n].of[lane_];
-        for (std::size_t n = 0; n < memory_.unknowns() && newest_ != 0; ++n) {
-            auto& b = memory_.block;
-            b.past_x[n].of[lane_] = past(b.past_x, 0, n), b.past_q[n].of[lane_] = past(b.past_q, 0, n);
-        }
-        newest_ = 0, points_ = 1;
+        points_ = 1;
+        if (bent_) seen_ = 1;
         pace_.start_over();
         work_ = Work::nothing;
         return Verdict::goes_on;
@@ -152,7 +150,12 @@ Seat::Verdict Seat::iterated(double size, bool clamped, bool finite) {
         far_ = false;
         return Verdict::fails;
     }
-    const auto way = newton_.after(size, limited_ || clamped);
+    auto way = newton_.after(size, limited_ || clamped);
+    if (way == NewtonControl::Way::arrived && !jump_) {
+        auto& bench = rig_->bench();
+        if (!memory_.formulas_hold(lane_, bench.system, {t_, 1, bench.tolerances.gmin, true}, {plan_.reltol, plan_.vntol, plan_.abstol}))
+            way = newton_.not_yet();
+    }
     if (way == NewtonControl::Way::lost) return Verdict::fails;
     far_ = way == NewtonControl::Way::on;
     return !far_ || newton_.before > far_off ? Verdict::wants_error : Verdict::goes_on;
@@ -172,15 +175,42 @@ void Seat::weigh(int order, lanes::ErrorCall& call, std::span<lanes::Row> of_pas
     for (int k = 0; k < points; ++k) of_past[ring(k)].of[lane_] = -per * weights[static_cast<std::size_t>(k)];
 }
 
+/// As Transient::bend.
+double Seat::bend() {
+    const auto curves = rig_->transient().curves();
+    curve_ = curves.empty() ? 0 : 2;
+    if (curves.empty() || seen_ < 2) return 0;
+    auto& b = memory_.block;
+    std::array<double, 9> all{t_};
+    std::copy(times_.begin(), times_.end(), all.begin() + 1);
+    double least = 0;
+    for (int points = 2; points <= std::min(seen_, StepControl::curve_points); ++points) {
+        const auto w = weights_of_bend(std::span(all).first(static_cast<std::size_t>(points) + 1));
+        double worst = 0;
+        for (const int u : curves) {
+            const auto n = static_cast<std::size_t>(u);
+            double sum = w[0] * b.x[n].of[lane_];
+            for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k) + 1] * past(b.past_x, k, n);
+            const double may = plan_.reltol * b.scale[n].of[lane_] + (b.voltage[n] ? plan_.vntol : plan_.abstol);
+            worst = std::max(worst, std::abs(sum) / may);
+        }
+        if (points == 2 || worst < least) least = worst, curve_ = points;
+    }
+    return least / StepControl::curved;
+}
+
 /// After Newton's steps have gone where they went; error infinite: they did not arrive.
 Seat::Judged Seat::judge(double error) {
     const bool lost = std::isinf(error);
     if (!lost && far_ && !(error > hopeless)) return Judged::goes_on;
-    if (error <= 1) return Judged::accepted;
+    off_ = lost ? 0 : bend();
+    const double worst = jump_ ? error : std::max(error, off_);
+    jumped_ = !lost && worst <= 1 && off_ > 1;
+    if (!lost && worst <= 1) return Judged::accepted;
     ++answer_.work.rejected;
     if (lost) ++answer_.work.lost;
-    work_ = Work::nothing;
-    if (pace_.shorten(t_ - times_[0], lost ? 0 : error, points_ > 1 ? times_[0] - times_[1] : 0)) work_ = Work::restart;
+    work_ = Work::nothing, bent_ = false;
+    if (pace_.shorten(t_ - times_[0], lost ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) work_ = Work::restart;
     return pace_.h >= shortest_part * plan_.stop ? Judged::rejected : Judged::fails;
 }
 
@@ -188,6 +218,8 @@ void Seat::choose(double error, double lower, double higher) {
     const double now = times_[0], wanted = pace_.h;
     const int order = pace_.order;
     pace_.choose(t_ - now, error, points_, std::min(plan_.order, points_ - 1), [&](int other) { return other < order ? lower : higher; });
+    if (!jump_) pace_.hold(t_ - now, off_, curve_);
+    if (jumped_) curve_ = 2;
     if (last_ && t_ - now < wanted) pace_.h = std::max(pace_.h, std::min(wanted, plan_.longest));
 }
 
@@ -195,7 +227,8 @@ void Seat::choose(double error, double lower, double higher) {
 void Seat::advance() {
     auto& b = memory_.block;
     const int most = static_cast<int>(b.points);
-    newest_ = (newest_ + most - 1) % most, points_ = std::min(points_ + 1, most);
+    pace_.took(t_ - times_[0]);
+    newest_ = (newest_ + most - 1) % most, points_ = std::min(points_ + 1, most), seen_ = std::min(seen_ + 1, most);
     std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
     times_[0] = t_;
     const auto at = static_cast<std::size_t>(newest_) * b.unknowns;
@@ -203,7 +236,7 @@ void Seat::advance() {
         x_[n] = b.past_x[at + n].of[lane_] = b.x[n].of[lane_];
         b.past_q[at + n].of[lane_] = b.q[n].of[lane_];
     }
-    bent_ = last_;
+    bent_ = last_ || jumped_;
     ++answer_.work.steps, ++pace_.since_choice, pace_.failures = 0;
     work_ = bent_ ? Work::restart : Work::nothing;
 }
@@ -220,7 +253,8 @@ bool Seat::accepted() {
 
 double Seat::between(double t, int unknown) const {
     if (unknown < 0) return 0;
-    const int points = std::min(std::max(pace_.order + 1, 4), points_);
+    if (const auto source = rig_->transient().given(t, unknown)) return *source;
+    const int points = curve_ > 0 ? curve_ : std::min(std::max(pace_.order + 1, 4), points_);
     const auto w = weights_of_value(times(points), t);
     double sum = 0;
     for (int k = 0; k < points; ++k)
@@ -233,9 +267,8 @@ std::optional<double> Seat::spike() const {
     const auto u = [&](int k, int unknown) { return unknown < 0 ? 0 : past(memory_.block.past_x, k, static_cast<std::size_t>(unknown)); };
     const double sign = o.upwards ? 1 : -1;
     const auto beyond = [&](int k) { return sign * (u(k, o.of.plus) - u(k, o.of.minus) - o.level); };
-    if (!(beyond(1) <= 0 && beyond(0) > 0)) return {};
-    return crossing_between(times_[1], times_[0],
-                            [&](double t) { return sign * (between(t, o.of.plus) - between(t, o.of.minus) - o.level); });
+    return crossing_within(times_[1], times_[0], beyond(1), beyond(0),
+                           [&](double t) { return sign * (between(t, o.of.plus) - between(t, o.of.minus) - o.level); });
 }
 
 /// Of samples that time has come to: what is to be shown, and whether it is where the circuit was designed to be.

@@ -30,14 +30,15 @@ private:
     NewtonControl newton_;
     std::array<double, 8> times_{};  // of the past, newest first
     int points_ = 0, newest_ = 0;    // how many; the ring's place of the newest
+    int seen_ = 0, curve_ = 0;       // points on one smooth curve; of the curve in the last step
     double corner_ = 0;              // the next of the sources, once time_ is before it
-    bool bent_ = false, last_ = false;
+    bool bent_ = false, last_ = false, jump_ = false, jumped_ = false;
     double end_ = 0;  // s: of its force
 
     // the step at work
     Work work_ = Work::nothing;
     bool begins_ = false, limited_ = false, far_ = false;  // far: Newton is not there yet, but its error may tell enough
-    double t_ = 0, a_ = 0;
+    double t_ = 0, a_ = 0, off_ = 0;
     PastWeights value_{};
     std::vector<std::size_t> sources_;  // that go their course
     std::vector<double> v_, stamp_, x_;
@@ -51,6 +52,7 @@ private:
     bool can_be_held() const;
     void set_sources(double t);
     void attempt();
+    double bend();
     void advance();
     double between(double t, int unknown) const;
     std::optional<double> spike() const;

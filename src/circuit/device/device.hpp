@@ -64,6 +64,8 @@ public:
     /// Adds to a stamp that is zero. v: of its unknowns.
     virtual void eval(std::span<const double> v, const Instant&, const Stamp&) const = 0;
     virtual bool linear() const { return true; }
+    /// Whether its currents may jump from one v to the next, as those of a formula.
+    virtual bool jumps() const { return false; }
 
     /// How many numbers it keeps between the steps of an iteration, and what may become of a step: v is changed to where it is to be
     /// looked at, if it would go too far at once. Returns whether it was.

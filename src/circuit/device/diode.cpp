@@ -159,6 +159,10 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
     static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "off", "level"};
     if (auto wrong = unknown_value(e.name, e.values, known, e.place)) return *wrong;
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
+    if (value_or(e.values, "pj", 0) != 0)
+        return bad_input(fmt::format("{}: pj is not part of this diode (level 1 without sidewalls)", e.name), e.place);
+    if (const double level = value_or(model.values, "level", 1); level != 1)
+        return bad_input(fmt::format("{}: a diode of level {:g}; diodes here are of level=1", model.name, level), model.place);
     const auto card = card_from<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});
     if (!card) return card.error();
     DiodeCard c = *card;

@@ -9,17 +9,27 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Value times 1 + tc1 dT + tc2 dT^2, dT from the model's or the usual 27 C.
+/// Value times scale and 1 + tc1 dT + tc2 dT^2, dT from the model's tnom, that of .options, or 27 C.
 double at_temperature(double value, const Element& e, const Setup& setup) {
     const Model* model = e.model < 0 ? nullptr : &setup.circuit().models[static_cast<std::size_t>(e.model)];
     const auto said = [&](std::string_view name, double otherwise) {
         return value_or(e.values, name, model ? value_or(model->values, name, otherwise) : otherwise);
     };
-    const double dT = setup.temperature(e) - zero_celsius - said("tnom", 27);
-    return value * (1 + said("tc1", 0) * dT + said("tc2", 0) * dT * dT);
+    const double dT = setup.temperature(e) - zero_celsius - said("tnom", value_or(setup.circuit().options, "tnom", 27));
+    return value * value_or(e.values, "scale", 1) * (1 + said("tc1", 0) * dT + said("tc2", 0) * dT * dT);
 }
 
 constexpr std::string_view passive_values[] = {"m", "tc1", "tc2", "temp", "dtemp", "ic", "tnom", "scale"};
+constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
+
+/// What its line or its model says and is not read here.
+std::optional<Error> unread(const Element& e, const Setup& setup) {
+    if (auto wrong = unknown_value(e.name, e.values, passive_values, e.place)) return wrong;
+    if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale = 0 leaves nothing of it", e.name), e.place);
+    if (e.model < 0) return {};
+    const Model& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
+    return unknown_value(model.name, model.values, model_values, model.place);
+}
 
 /// i = v / R
 class Resistor final : public Device {
@@ -93,7 +103,7 @@ public:
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, passive_values, e.place)) return *wrong;
+    if (auto wrong = unread(e, setup)) return *wrong;
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
     if (r == 0) return bad_input(fmt::format("{}: a resistance of 0 ohm; a voltage source of 0 V is a wire", e.name), e.place);
     auto device = std::make_unique<Resistor>(r, m, setup.temperature(e));
@@ -102,8 +112,11 @@ Result<std::unique_ptr<Device>> make_resistor(const Element& e, Setup& setup) {
 }
 
 Result<std::unique_ptr<Device>> make_capacitor(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, passive_values, e.place)) return *wrong;
+    if (auto wrong = unread(e, setup)) return *wrong;
     const double m = value_or(e.values, "m", 1);
+    for (const std::string_view name : {"scale", "tc1", "tc2"})
+        if (e.formula && e.values.contains(name))
+            return bad_input(fmt::format("{}: {} does not go with a formula of its charge; write it into q=", e.name, name), e.place);
     const std::vector<int> ends = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     if (e.formula) {
         auto inputs = FormulaInputs::make(*e.formula, e, setup, ends);
@@ -119,7 +132,7 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, Setup& setup) {
 }
 
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, passive_values, e.place)) return *wrong;
+    if (auto wrong = unread(e, setup)) return *wrong;
     auto device = std::make_unique<Inductor>(at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
     device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))};
     return std::unique_ptr<Device>(std::move(device));

@@ -130,6 +130,7 @@ class FormulaCurrent final : public Device {
 public:
     FormulaCurrent(Formula formula, FormulaInputs inputs, double m) : formula_(std::move(formula)), inputs_(std::move(inputs)), m_(m) {}
     bool linear() const override { return false; }
+    bool jumps() const override { return true; }
     void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
         inputs_.eval(formula_, v, at, [&](double i, std::span<const FormulaInputs::Slope> slopes) {
             out.f[0] += m_ * i * at.sources, out.f[1] -= m_ * i * at.sources;
@@ -148,6 +149,7 @@ class FormulaVoltage final : public Device {
 public:
     FormulaVoltage(Formula formula, FormulaInputs inputs) : formula_(std::move(formula)), inputs_(std::move(inputs)) {}
     bool linear() const override { return false; }
+    bool jumps() const override { return true; }
     void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
@@ -159,7 +161,7 @@ public:
     }
 };
 
-constexpr std::string_view source_values[] = {"m", "temp", "dtemp", "tc1", "tc2"};
+constexpr std::string_view source_values[] = {"m", "temp", "dtemp"};
 
 template <class D>
 std::unique_ptr<Device> with(std::unique_ptr<D> device, std::vector<int> unknowns) {

@@ -62,8 +62,9 @@ private:
 
     /// Several in parallel as one. What a .dc sweeps stands as worked out: ngspice would apply the temperature to each value of the sweep.
     std::string passive() const {
-        const double m = said("m", 1), value = e_.letter == 'c' ? e_.value * m : e_.value / m;
-        const double tc1 = said_or_of_model("tc1", 0), tc2 = said_or_of_model("tc2", 0), dT = celsius() - said_or_of_model("tnom", 27);
+        const double m = said("m", 1), scaled = e_.value * said("scale", 1), value = e_.letter == 'c' ? scaled * m : scaled / m;
+        const double tc1 = said_or_of_model("tc1", 0), tc2 = said_or_of_model("tc2", 0),
+                     dT = celsius() - said_or_of_model("tnom", value_or(circuit_.options, "tnom", 27));
         if (swept()) return fmt::format("{} {}{}\n", head_, value * (1 + tc1 * dT + tc2 * dT * dT), temperature());
         std::string out = fmt::format("{} {}", head_, value);
         if (model() && model()->values.contains("tnom")) out += ' ' + names_.model(e_.model);

@@ -42,9 +42,10 @@ std::string header(const Circuit& c, bool transistors) {
 std::string options(const Tolerances& t, const Circuit& c) {
     std::string out = fmt::format(".options reltol={} abstol={} vntol={} gmin={} itl1={} itl2={}", std::min(t.reltol, 1e-7), t.abstol,
                                   std::min(t.vntol, 1e-10), t.gmin, std::max(t.itl1, 500), std::max(t.itl1, 500));
-    for (const std::string_view name : {"chgtol", "trtol", "itl4", "maxord"})
+    for (const std::string_view name : {"chgtol", "trtol", "itl4", "maxord", "tnom"})
         if (const auto said = c.options.find(name); said != c.options.end()) out += fmt::format(" {}={}", name, said->second);
-    if (const auto method = c.option_words.find("method"); method != c.option_words.end()) out += " method=" + method->second;
+    if (const auto method = c.option_words.find("method"); method != c.option_words.end())
+        out += " method=" + method->second;
     else if (std::any_of(c.commands.begin(), c.commands.end(), [](const Command& order) { return order.name == "tran"; }))
         out += " method=gear";
     return fmt::format("{}\n.temp {}\n", out, c.temperature);

@@ -101,6 +101,7 @@ private:
         if (!word.starts_with(name) || word.size() <= name.size() || word[name.size()] != '=') return std::optional<double>();
         const auto number = whole_number(std::string_view(word).substr(name.size() + 1));
         if (!number) return wrong(fmt::format("'{}': a number was expected after '{}='", word, name));
+        if (const auto why = ambiguous(*number, std::string_view(word).substr(name.size() + 1))) return wrong(*why);
         ++at_;
         return std::optional<double>(number->value);
     }

@@ -5,6 +5,7 @@
 
 #include "circuit/netlist/flat.hpp"
 #include "circuit/netlist/number.hpp"
+#include "circuit/netlist/options.hpp"
 #include "circuit/netlist/parsed.hpp"
 #include "signal/field.hpp"
 #include "signal/text.hpp"
@@ -207,18 +208,23 @@ private:
 
     Result<void> options(const Statement& s) {
         Circuit& c = flat_.circuit;
-        for (std::size_t k = 1; k < s.words.size(); ++k) c.options.insert_or_assign(std::string(s.text(k)), 1.0);
+        for (std::size_t k = 1; k < s.words.size(); ++k) {
+            if (auto wrong = wrong_option(s.text(k), {}, {}, s.place(k))) return *wrong;
+            c.options.insert_or_assign(std::string(s.text(k)), 1.0);
+        }
         for (const auto& pair : s.named) {
             const std::string name(s.text(pair.name));
             const auto text = s.text(pair.value);
             const bool word = pair.value.kind == Word::Kind::quoted ||
                               (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
             if (word) {
+                if (auto wrong = wrong_option(name, {}, text, s.place(pair.name))) return *wrong;
                 c.option_words.insert_or_assign(name, std::string(text));
                 continue;
             }
             const auto value = top_.number({&s, pair.value});
             if (!value) return value.error();
+            if (auto wrong = wrong_option(name, *value, {}, s.place(pair.name))) return *wrong;
             c.options.insert_or_assign(name, *value);
         }
         return {};
@@ -283,7 +289,7 @@ private:
             std::erase_if(c.commands, [](const Command& one) { return one.name == "expect"; });
         }
         std::erase_if(c.commands, [&](const Command& one) {
-            return (changes.saved_alone && one.name == "save") || (changes.mismatch && one.name == "mc");
+            return (changes.saved_alone && (one.name == "save" || one.name == "probe")) || (changes.mismatch && one.name == "mc");
         });
         if (!changes.saved.empty()) c.commands.push_back({"save", changes.saved, {}, {c.file}});
     }

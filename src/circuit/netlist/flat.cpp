@@ -81,6 +81,7 @@ Result<int> Flat::model(Frame& frame, const Text& name, std::string_view who, st
         if (!value) return value.error();
         model.values.emplace(s.text(pair.name), *value);
     }
+    if (const auto tnom = circuit.options.find("tnom"); tnom != circuit.options.end()) model.values.try_emplace("tnom", tnom->second);
     const int k = static_cast<int>(circuit.models.size());
     circuit.models.push_back(std::move(model));
     f->models.emplace(name.view(), k);

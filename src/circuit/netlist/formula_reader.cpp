@@ -283,6 +283,7 @@ private:
             name_here();
             return wrong(fmt::format("'{}' is no number", text_.substr(from, std::max<std::size_t>(1, at_ - from))), from);
         }
+        if (auto why = ambiguous(*read, text_.substr(from, end - from))) return wrong(std::move(*why), from);
         at_ = end;
         return number(read->value);
     }

@@ -89,6 +89,7 @@ Result<Formula> Frame::formula(const Text& text, FormulaScope scope) const {
 Result<double> Frame::number(const Text& text) const {
     double value = 0;
     if (const auto plain = text.word.kind == Word::Kind::plain ? whole_number(text.view()) : std::nullopt) {
+        if (auto why = ambiguous(*plain, text.view())) return bad_input(std::move(*why), text.place());
         value = plain->value;
     } else {
         const auto read = formula(text, scope());

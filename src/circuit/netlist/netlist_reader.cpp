@@ -134,6 +134,9 @@ private:
         if (std::find(std::begin(own_words), std::end(own_words), word) == std::end(own_words) &&
             std::find(std::begin(command_words), std::end(command_words), word) == std::end(command_words))
             return unknown(word, line.place());
+        if (word == ".four")
+            return bad_input(".four: spectra of a transient are not computed here; --out x.csv writes the curve for another program",
+                             line.place());
         if (body_->head) return bad_input(fmt::format("{} stands inside .subckt {}; it belongs outside", word, body_->name), line.place());
         return of_top(word, std::move(line));
     }

@@ -1,5 +1,6 @@
 #include "circuit/netlist/number.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -48,8 +49,8 @@ struct Scale {
 Scale scale_of(std::string_view letters) {
     if (same_letters(letters.substr(0, 3), "meg")) return {6};
     if (same_letters(letters.substr(0, 3), "mil")) return {0, 25.4e-6};
-    constexpr std::string_view names = "tgkmunpfa";
-    constexpr int powers[] = {12, 9, 3, -3, -6, -9, -12, -15, -18};
+    constexpr std::string_view names = "tgkmunpf";
+    constexpr int powers[] = {12, 9, 3, -3, -6, -9, -12, -15};
     const auto k = letters.empty() ? std::string_view::npos : names.find(lower(letters[0]));
     return k == std::string_view::npos ? Scale{} : Scale{powers[k]};
 }
@@ -83,6 +84,14 @@ std::optional<SpiceNumber> whole_number(std::string_view text) {
     if (sign && text[0] == '-') number->value = -number->value;
     number->length = text.size();
     return number;
+}
+
+std::optional<std::string> ambiguous(const SpiceNumber& number, std::string_view text) {
+    const auto letters = lower(number.letters);
+    if (letters.size() < 2 || letters[0] != 'a' || letters.starts_with("am")) return {};
+    const auto digits = text.substr(0, text.size() - number.letters.size());
+    return fmt::format("'{}': some simulators read a as 1e-18 and some as no scale; write {}{}", text, digits,
+                       digits.find_first_of("eEdD") == std::string_view::npos ? "e-18" : ", with the exponent that is meant");
 }
 
 }  // namespace corpuscle::circuit

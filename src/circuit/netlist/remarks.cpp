@@ -4,6 +4,7 @@
 
 #include "circuit/netlist/body.hpp"
 #include "circuit/netlist/number.hpp"
+#include "signal/text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -12,6 +13,8 @@ std::string remark_on(char element, const SpiceNumber& number, std::string_view 
     const auto scale = number.letters.substr(0, 3);
     const bool milli = scale.starts_with('m') && scale != "meg" && scale != "mil";
     const auto digits = as_read.substr(0, as_read.size() - number.letters.size());
+    if (element != 'v' && element != 'i' && element != 'b' && same_letters(number.letters, "a"))
+        return fmt::format("{}{} is {}, without a scale; 1e-18 of it is written {}e-18", digits, number.letters, digits, digits);
     if (element == 'r' && milli) return fmt::format("{}M is {} milliohm; a megohm is written {}Meg", digits, digits, digits);
     if (element == 'c' && number.letters == "f") return fmt::format("{}F is {} femtofarad; a farad is written {}", digits, digits, digits);
     if ((element == 'v' || element == 'i') && number.letters == "mhz")
@@ -26,7 +29,8 @@ void remark_on_units(const Statement& s, std::vector<Error>& remarks) {
         if (w.kind != Word::Kind::plain) return;
         const auto text = s.text(w);
         const auto number = whole_number(text);
-        if (!number || number->letters.empty() || !s.line.was_capital(w.at + text.size() - number->letters.size())) return;
+        if (!number || number->letters.empty()) return;
+        if (!same_letters(number->letters, "a") && !s.line.was_capital(w.at + text.size() - number->letters.size())) return;
         const std::string remark = remark_on(s.line.text[0], *number, text);
         if (!remark.empty()) remarks.push_back(bad_input(fmt::format("{}: {}", s.text(std::size_t{0}), remark), s.place(w)));
     };

@@ -146,6 +146,8 @@ private:
             for (std::size_t k = 0; k < out_.numbers.size(); k += 2) out_.numbers[k] += *value;
         else if (name == "r" && out_.shape == Shape::points)
             return refuse("a pwl that repeats (r=) is not read");
+        else if (name == "td" || name == "r")
+            return refuse(fmt::format("{}= goes with pwl alone", name));
         else if (name == "dc" || name == "ac")
             return refuse(fmt::format("a second {} value", name));
         return {};

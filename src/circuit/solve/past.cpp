@@ -6,7 +6,7 @@ namespace corpuscle::circuit {
 
 void Past::accept() {
     first_ = (first_ + room - 1) % room;
-    count_ = std::min(count_ + 1, most);
+    count_ = std::min(count_ + 1, most), seen_ = std::min(seen_ + 1, most);
 }
 
 PastWeights weights_of_value(std::span<const double> times, double t) {
@@ -33,9 +33,23 @@ PastWeights weights_of_slope(std::span<const double> times, double t, double& le
     return w;
 }
 
+PastWeights weights_of_bend(std::span<const double> times) {
+    PastWeights w{};
+    const double half = times[1] + (times[0] - times[1]) / 2;
+    double there = 1;  // the product of all but the last, half way
+    for (std::size_t j = 0; j + 1 < times.size(); ++j) there *= half - times[j];
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        double part = there;
+        for (std::size_t j = 0; j < times.size(); ++j)
+            if (j != k) part /= times[k] - times[j];
+        w[k] = part;
+    }
+    return w;
+}
+
 std::array<double, Past::most> Past::times() const {
     std::array<double, most> out{};
-    for (int k = 0; k < count_; ++k) out[static_cast<std::size_t>(k)] = (*this)[k].t;
+    for (int k = 0; k < seen_; ++k) out[static_cast<std::size_t>(k)] = (*this)[k].t;
     return out;
 }
 

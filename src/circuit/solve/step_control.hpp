@@ -13,9 +13,12 @@ struct StepControl {
     int order = 1, since_choice = 0, failures = 0;
     bool starting = true;  ///< since the start every step has been of the highest order its points allow
     double h = 0;          ///< s
+    double calm = 0;       ///< s: the longest of the last steps, less the longer ago it was
 
     static constexpr double safety = 0.65;  ///< a step that has to be taken again costs more than some shorter ones
     static constexpr double longer = 2;     ///< no step is so many times as long as the last
+    static constexpr double curved = 2;     ///< allowed units: how far a curve between two points may be off
+    static constexpr int curve_points = 5;  ///< at the most, of the polynomial between two points
 
     /// How much longer a step of this order may be, for an error of one allowed unit.
     static double growth(double error, int order) {
@@ -46,6 +49,11 @@ struct StepControl {
         }
         stretch(taken, most, points);
     }
+    /// After choose(): no longer than the curve between two points allows, which is off by so many times what it may be.
+    void hold(double taken, double bend, int curve) { h = std::min(h, taken * std::clamp(growth(bend, curve - 1), 0.3, longer)); }
+    void took(double step) { calm = std::max(step, 0.7 * calm); }
+    /// A step no longer than this may hold a jump: what has no charge then counts at its ends alone, and a straight line lies between.
+    double jump(double reltol, double longest) const { return std::max(reltol * calm, 1e-9 * longest); }
     void stretch(double taken, double by, int points) { h = taken * std::clamp(by, 0.3, points < 3 ? 5 : longer); }
 
     /// After one that was too long by its error, or whose equations were not solved (0). True: all is to begin anew, from the last point;
@@ -68,6 +76,8 @@ struct NewtonControl {
     double bend = 1;    ///< how much of a squared step is left after it
 
     void begin() { tries = 0, before = 0; }
+    /// It is not there after all, for a reason that no step's size tells.
+    Way not_yet() const { return tries < most_iterations ? Way::on : Way::lost; }
     /// After a step of this size, of equations that are not straight; `cut`: it was made shorter, or looked elsewhere than it stood.
     Way after(double size, bool cut) {
         const double last = before;

@@ -147,7 +147,33 @@ StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<cons
     if (!std::isfinite(size)) return Way::lost;
     for (std::size_t n = 0; n < x.size(); ++n) x[n] += step_[n];
     if (system_.linear()) return Way::arrived;
-    return newton_control_.after(size, limited_ || clamped);
+    const auto way = newton_control_.after(size, limited_ || clamped);
+    return way != Way::arrived || !checks_formulas_ || formulas_hold() ? way : newton_control_.not_yet();
+}
+
+/// After a step from where they were looked at.
+bool StepEquations::formulas_hold() {
+    for (const auto& own : own_) {
+        const Device& d = *system_.devices()[own.device];
+        if (!d.jumps()) continue;
+        const auto n = own.terminals;
+        scratch_.assign(3 * n + 2 * n * n, 0.0);
+        const std::span<double> all(scratch_);
+        const auto v = all.last(n), f = all.first(n);
+        for (std::size_t j = 0; j < n; ++j) {
+            const auto u = static_cast<std::size_t>(own.unknowns[j]);
+            v[j] = x_[u] + step_[u];
+        }
+        d.eval(v, newton_.instant, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
+        for (std::size_t row = 0; row < n; ++row) {
+            double line = own.stamp[row];
+            for (std::size_t column = 0; column < n; ++column) line += own.stamp[2 * n + row * n + column] * (v[column] - own.v[column]);
+            const bool volts = own.unknowns[row] < system_.size() && !voltage_[static_cast<std::size_t>(own.unknowns[row])];
+            const double size = volts ? std::abs(v[0] - v[1]) : std::max(std::abs(f[row]), std::abs(line));
+            if (!formulas_.holds(volts, f[row] - line, size)) return false;
+        }
+    }
+    return true;
 }
 
 void StepEquations::charges(std::span<double> q) {

@@ -10,6 +10,15 @@ namespace corpuscle::circuit {
 /// Linear devices are summed once and for all, sources once a step; of the others only what the matrix needs is put together, so that an
 /// iteration costs little more than its transistors and one elimination. The charges of the answer follow along their slopes: what a step
 /// leaves over the next one finds, and none is lost.
+/// How far a formula may be from its straight line where Newton's steps end.
+struct FormulaTolerance {
+    double reltol = 0, vntol = 0, abstol = 0;
+    bool holds(bool volts, double off, double size) const {
+        constexpr double times = 10;
+        return std::abs(off) <= times * (reltol * size + (volts ? vntol : abstol));
+    }
+};
+
 class StepEquations {
     const System& system_;
     Newton& newton_;
@@ -34,7 +43,9 @@ class StepEquations {
     std::vector<char> voltage_;
     NewtonControl newton_control_;
     double a_ = 0;
-    bool limited_ = false;
+    bool limited_ = false, checks_formulas_ = false;
+    FormulaTolerance formulas_;
+    bool formulas_hold();
 
     void look(std::span<const double> x);
     void look_at_own(Own&);
@@ -49,6 +60,9 @@ public:
 
     /// For a step that ends at t, with dq/dt = a q + history.
     void prepare(double t, double a, std::span<const double> history);
+    /// Whether a step is over only when formulas give, at its end, what their straight lines gave: where one jumps these are wrong however
+    /// short Newton's last step was.
+    void check_formulas(bool on, const FormulaTolerance& t) { checks_formulas_ = on, formulas_ = t; }
     using Way = NewtonControl::Way;
     /// One of Newton's steps from x. Arrived: no unknown with allowed[n] > 0 is further from the answer than a small part of that.
     Way iterate(std::vector<double>& x, std::span<const double> allowed);

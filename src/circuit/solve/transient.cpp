@@ -15,10 +15,10 @@ constexpr double far_off = 20, hopeless = 2;  // allowed units: of a first itera
 
 }  // namespace
 
-Result<void> Transient::begin(std::vector<double> x, bool settled) {
+Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
     plan_.longest = std::min(plan_.longest, system_.pace());
     const auto count = x.size();
-    for (auto* v : {&scale_, &allowed_, &history_, &rate_, &error_, &turn_, &fastest_}) v->assign(count, 0);
+    for (auto* v : {&scale_, &allowed_, &may_err_, &history_, &rate_, &error_, &turn_, &fastest_}) v->assign(count, 0);
     newton_.memory = system_.fresh_memory();
     newton_.instant.charges = true, newton_.instant.time = 0;
     system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
@@ -26,18 +26,21 @@ Result<void> Transient::begin(std::vector<double> x, bool settled) {
     alternations_.assign(count, 0), calming_ = 0, charged_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
+    find_held();
     past_.clear();
     auto& first = past_.next();
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
     past_.accept();
-    pace_.h = plan_.longest, bent_ = false;
+    pace_.h = plan_.longest, pace_.calm = 0, bent_ = false;
+    curve_ = 0, opening_ = plan_.all_reported ? Opening::at_once : Opening::none;
     equations_.at(0, past_[0].x, rate_, first.q);
-    start_over();
+    for (std::size_t n = 0; n < charge.size(); ++n) first.q[n] += charge[n];
+    start_over(true);
     allow();
     if (!std::exchange(ordered_, true)) equations_.settle(past_[0].x, 1e3 / plan_.longest);
     if (settled) return {};
     auto ok = settle();
-    start_over();
+    start_over(true);
     return ok;
 }
 
@@ -54,7 +57,10 @@ Result<void> Transient::settle() {
         way = equations_.iterate(now.x, allowed_);
     }
     allowed_ = allowed;
-    if (way != StepEquations::Way::arrived) return too_short(at_once);
+    if (way != StepEquations::Way::arrived) {
+        past_.next() = std::move(now);
+        return too_short(at_once);
+    }
     past_.clear();
     past_.next() = std::move(now);
     past_.accept();
@@ -63,20 +69,29 @@ Result<void> Transient::settle() {
 }
 
 /// Only the newest point counts from now on; dq/dt there is what the currents leave. Its charge stays what came of the steps before.
-void Transient::start_over() {
-    Moment now = past_[0];
+void Transient::start_over(bool forget) {
+    const Moment& now = past_[0];
     equations_.at(now.t, now.x, rate_, error_);
     for (double& r : rate_) r = -r;
-    past_.clear();
-    past_.next() = std::move(now);
-    past_.accept();
+    past_.start_over(forget);
     pace_.start_over();
 }
 
 void Transient::allow() {
+    constexpr double of_largest = 1e-9;  // what a current may err, of the largest of all
+    double largest = 0;
     for (std::size_t n = 0; n < allowed_.size(); ++n) {
+        const bool voltage = system_.is_voltage(static_cast<int>(n));
         scale_[n] = std::max(scale_[n], std::abs(past_[0].x[n]));
-        if (charged_[n]) allowed_[n] = plan_.reltol * scale_[n] + (system_.is_voltage(static_cast<int>(n)) ? plan_.vntol : plan_.abstol);
+        may_err_[n] = plan_.reltol * scale_[n] + (voltage ? plan_.vntol : plan_.abstol);
+        if (charged_[n] || (plan_.all_reported && voltage)) allowed_[n] = may_err_[n];
+        if (!voltage) largest = std::max(largest, scale_[n]);
+    }
+    if (!plan_.all_reported) return;
+    largest_charge_ = 0;
+    for (std::size_t n = 0; n < allowed_.size(); ++n) {
+        largest_charge_ = std::max(largest_charge_, std::abs(past_[0].q[n]));
+        if (!system_.is_voltage(static_cast<int>(n))) may_err_[n] += of_largest * largest;
     }
 }
 
@@ -96,6 +111,7 @@ bool Transient::attempt(double t, double& error) {
         past_.sum(weights, pace_.order, &Moment::q, history_);
     }
     equations_.prepare(t, leading_, history_);
+    equations_.check_formulas(!jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
     for (;;) {
         using Way = StepEquations::Way;
         const auto way = equations_.iterate(next.x, allowed_);
@@ -108,12 +124,47 @@ bool Transient::attempt(double t, double& error) {
     }
 }
 
+/// What has no charge has no error of its own in the first step of all: its value before a corner says nothing of that after it.
 double Transient::worst_error() {
     equations_.answer_to(error_);
+    constexpr double passing = 4;  // allowed units: an error without a charge is not handed on to the next step
     double worst = 0;
+    others_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
-        if (allowed_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / allowed_[n]);
-    return worst;
+        if (charged_[n] && allowed_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / allowed_[n]);
+    if (!plan_.all_reported || past_.count() == 1 || plan_.method != Integration::bdf) return worst;
+    for (std::size_t n = 0; n < error_.size(); ++n)
+        if (!charged_[n] && may_err_[n] > 0)
+            others_ = std::max(others_, std::abs(error_[n]) / (passing * (may_err_[n] + noise(static_cast<int>(n)))));
+    return jump_ ? worst : std::max(worst, others_);
+}
+
+/// What rounding of charges leaves in a current, in steps as short as this one.
+double Transient::noise(int unknown) const { return system_.is_voltage(unknown) ? 0 : 1e-14 * std::abs(leading_) * largest_charge_; }
+
+/// How far the curve in the step just solved is off half way, of what it may be; it goes through as many points as make that least.
+/// The first step after a corner has no third point to tell.
+double Transient::bend() {
+    curve_ = curves_.empty() ? 0 : 2;
+    const int seen = past_.seen();
+    if (curves_.empty() || seen < 2) return 0;
+    const auto& next = past_.next();
+    std::array<double, Past::most + 1> times{next.t};
+    const auto before = past_.times();
+    std::copy(before.begin(), before.end(), times.begin() + 1);
+    double least = 0;
+    for (int points = 2; points <= std::min(seen, StepControl::curve_points); ++points) {
+        const auto w = weights_of_bend(std::span(times).first(static_cast<std::size_t>(points) + 1));
+        double worst = 0;
+        for (const int u : curves_) {
+            const auto n = static_cast<std::size_t>(u);
+            double sum = w[0] * next.x[n];
+            for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k) + 1] * past_[k].x[n];
+            worst = std::max(worst, std::abs(sum) / (may_err_[n] + noise(u)));
+        }
+        if (points == 2 || worst < least) least = worst, curve_ = points;
+    }
+    return least / StepControl::curved;
 }
 
 /// Of the step just solved, had it been of this order, in units of what is allowed. Infinity: too few points to tell.
@@ -145,7 +196,7 @@ void Transient::choose(double h, double error) {
 Result<void> Transient::shorten(double h, double error) {
     ++work_.rejected;
     if (error == 0) ++work_.lost;
-    if (pace_.shorten(h, error, past_.count() > 1 ? past_[0].t - past_[1].t : 0)) start_over();
+    if (pace_.shorten(h, error, past_.count() > 1 ? past_[0].t - past_[1].t : 0)) start_over(false);
     if (pace_.h >= shortest_part * plan_.stop) return {};
     return too_short(pace_.h);
 }
@@ -179,41 +230,66 @@ void Transient::take() {
     const auto& next = past_.next();
     if (plan_.method == Integration::trapezoidal) watch();
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
+    pace_.took(next.t - past_[0].t);
     past_.accept();
     allow();
     ++work_.steps, ++pace_.since_choice, pace_.failures = 0;
 }
 
+/// Right after a corner: a point so soon that no charge has moved, where what has none stands after its jump.
+bool Transient::open(double t0, double corner, double& t) {
+    constexpr double at_once = 1e-6, told_apart = 1e-12;  // of the next step, of time
+    if (opening_ != Opening::at_once) return false;
+    opening_ = Opening::first;
+    t = t0 + at_once * std::min({pace_.h, plan_.longest, corner - t0});
+    double error = 0;
+    jump_ = true;
+    if (t - t0 < told_apart * t0 || !attempt(t, error) || !(error <= 1)) return false;
+    curve_ = 2;
+    take();
+    return bent_ = true;
+}
+
 Result<bool> Transient::step(double until) {
-    if (std::exchange(bent_, false)) start_over();
+    constexpr double first_part = 1.0 / 64;  // of a step after a corner, the first: nothing tells yet how much bends
+    if (std::exchange(bent_, false)) start_over(true);
     for (;;) {
         const double t0 = time(), corner = std::min(plan_.stop, system_.next_corner(t0));
-        double h = std::min(pace_.h, plan_.longest);
+        double h = std::min(pace_.h, plan_.longest), soon = 0;
         if (until < plan_.stop && t0 + 2.1 * h > until) return false;
+        if (open(t0, corner, soon)) return true;
+        if (std::exchange(opening_, Opening::none) == Opening::first) h = first_part * std::min(h, corner - t0);
         const bool last = t0 + 1.01 * h >= corner;
         if (!last && t0 + 2 * h > corner) h = (corner - t0) / 2;
         const double t = last ? corner : t0 + h;
         double error = 0;
+        jump_ = !curves_.empty() && t - t0 <= pace_.jump(plan_.reltol, plan_.longest);
         const bool found = attempt(t, error);
         work_.iterations = equations_.iterations;
-        if (!found || !(error <= 1)) {
-            if (auto ok = shorten(t - t0, found ? error : 0); !ok) return ok.error();
+        const double off = found ? bend() : 0, worst = jump_ ? error : std::max(error, off);
+        if (!found || !(worst <= 1)) {
+            if (auto ok = shorten(t - t0, found ? worst : 0); !ok) return ok.error();
             continue;
         }
+        const bool jumped = jump_ && (others_ > 1 || off > 1);
         const double wanted = pace_.h;
         choose(t - t0, error);
+        if (!jump_) pace_.hold(t - t0, off, curve_);
         if (last && t - t0 < wanted) pace_.h = std::max(pace_.h, std::min(wanted, plan_.longest));
+        if (jumped) curve_ = 2;
         take();
-        bent_ = last;
+        bent_ = last || jumped;
+        if (last && plan_.all_reported) opening_ = Opening::at_once;
         return true;
     }
 }
 
 TransientState Transient::save() const {
     TransientState s;
-    for (int k = 0; k < past_.count(); ++k) s.past.push_back(past_[k]);
+    for (int k = 0; k < past_.seen(); ++k) s.past.push_back(past_[k]);
     s.order = pace_.order, s.since_choice = pace_.since_choice, s.failures = pace_.failures, s.calming = calming_,
     s.starting = pace_.starting, s.bent = bent_;
+    s.count = past_.count(), s.curve = curve_, s.opening = static_cast<int>(opening_), s.calm = pace_.calm;
     s.h = pace_.h, s.bend = equations_.bend(), s.work = work_;
     s.scale = scale_, s.rate = rate_, s.turn = turn_, s.fastest = fastest_, s.alternations = alternations_, s.memory = newton_.memory;
     return s;
@@ -222,6 +298,8 @@ TransientState Transient::save() const {
 void Transient::restore(const TransientState& s) {
     past_.clear();
     for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
+    past_.count_only(s.count);
+    curve_ = s.curve, opening_ = static_cast<Opening>(s.opening), pace_.calm = s.calm;
     pace_.order = s.order, pace_.since_choice = s.since_choice, pace_.failures = s.failures, calming_ = s.calming,
     pace_.starting = s.starting, bent_ = s.bent;
     pace_.h = s.h, equations_.set_bend(s.bend), work_ = s.work, equations_.iterations = s.work.iterations;
@@ -229,8 +307,8 @@ void Transient::restore(const TransientState& s) {
     allow();
 }
 
-Result<void> Transient::run(std::vector<double> x, bool settled, const Each& each) {
-    auto done = begin(std::move(x), settled);
+Result<void> Transient::run(std::vector<double> x, bool settled, const Each& each, std::span<const double> charge) {
+    auto done = begin(std::move(x), settled, charge);
     bool more = done && each(time(), this->x());
     while (more && time() < plan_.stop) {
         const auto stepped = step(plan_.stop);

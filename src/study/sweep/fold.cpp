@@ -45,6 +45,15 @@ Result<void> put_in_place(const std::string& from, const std::string& to) {
     return {};
 }
 
+/// An empty file that nobody else made: never one that a link leads to.
+Result<void> make_fresh(const std::string& path) {
+    ::unlink(path.c_str());
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file < 0) return not_written(path);
+    ::close(file);
+    return {};
+}
+
 void settle_folder(const std::string& path) {
     const auto folder = fs::path(path).parent_path();
     const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -67,7 +76,8 @@ Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
 Result<void> SweepResults::Held::make() const {
     // What is left of a file that was removed must not be taken for a part of this one.
     ::unlink(wal().c_str()), ::unlink(shared_memory().c_str());
-    auto made = sql::open(folded(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    if (auto ok = make_fresh(folded()); !ok) return ok;
+    auto made = sql::open(folded(), SQLITE_OPEN_READWRITE);
     if (!made) return made.error();
     if (auto ok = sql::run(made->get(), path, "PRAGMA journal_mode = OFF"); !ok) return ok;
     auto ok = layout.write(made->get(), path);
@@ -86,7 +96,8 @@ void SweepResults::Held::set_next_fold() { next_fold = std::max({long_wal, size_
 Result<void> SweepResults::Held::fold(bool last) {
     if (std::error_code none; !fs::exists(wal(), none) && !writing) return {};
     {
-        auto made = sql::open(folded(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+        if (auto fresh = make_fresh(folded()); !fresh) return fresh;
+        auto made = sql::open(folded(), SQLITE_OPEN_READWRITE);
         auto ok = made ? sql::run(made->get(), folded(), "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF") : made.error();
         if (ok) ok = copy_pages(file.get(), made->get(), folded());
         if (ok) made->reset(), ok = settle(folded(), last);

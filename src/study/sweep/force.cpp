@@ -12,7 +12,7 @@
 namespace corpuscle::sweeps {
 namespace {
 
-constexpr double most_samples = 1e9;  // of one force
+constexpr double most_samples = 5e7;  // of one force: 400 MB
 constexpr std::size_t forces_kept = 8;
 
 Result<std::shared_ptr<const FeltForce>> read_whole(Source& source) {
@@ -26,7 +26,10 @@ Result<std::shared_ptr<const FeltForce>> read_whole(Source& source) {
         force->samples.insert(force->samples.end(), frames.force[0].begin(),
                               frames.force[0].begin() + static_cast<std::ptrdiff_t>(frames.count));
         if (static_cast<double>(force->samples.size()) > most_samples)
-            return bad_input(fmt::format("{}: a force of more than {:g} samples", source.name(), most_samples));
+            return bad_input(
+                fmt::format("{}: a force of more than {:g} samples at {:g} Hz; at most so many: a lower rate (rate = \"10kHz\") "
+                            "or a shorter force",
+                            source.name(), most_samples, source.clock().rate()));
     }
     if (force->samples.empty()) return bad_input(fmt::format("{}: no samples of force", source.name()));
     return std::shared_ptr<const FeltForce>(std::move(force));

@@ -20,6 +20,18 @@ std::string all_columns(const std::string& table, const ResultsLayout& layout) {
     return out;
 }
 
+std::string unit_columns(const ResultsLayout& layout) {
+    std::string out = "unit, ended, steps, iterations, alone, why";
+    for (const auto& name : layout.stored) out += ", " + sql::name(name);
+    return out;
+}
+
+/// The rows of the other file's units that this one lacks; of units that the sweep has.
+std::string taking(std::string_view table, const std::string& columns, std::int64_t units) {
+    return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE unit >= 0 AND unit < {2} ON CONFLICT DO NOTHING;", table,
+                       columns, units);
+}
+
 /// Units that both have, and not the same.
 std::string differing(const ResultsLayout& layout) {
     std::string text = fmt::format("SELECT unit FROM main.units u JOIN source.units s USING(unit) WHERE ({}) IS NOT ({})",
@@ -77,11 +89,8 @@ Result<std::int64_t> SweepResults::take(const SweepResults& from) {
     auto ok = refuse_differing(file, held.layout, path(), from.path());
     if (ok) {
         ok = sql::run(file, path(),
-                      "BEGIN IMMEDIATE;"
-                      "INSERT INTO main.units SELECT * FROM source.units WHERE true ON CONFLICT DO NOTHING;"
-                      "INSERT INTO main.spikes SELECT * FROM source.spikes WHERE true ON CONFLICT DO NOTHING;"
-                      "INSERT INTO main.traces SELECT * FROM source.traces WHERE true ON CONFLICT DO NOTHING;"
-                      "COMMIT");
+                      "BEGIN IMMEDIATE;" + taking("units", unit_columns(held.layout), units()) +
+                          taking("spikes", "unit, train, times", units()) + taking("traces", "unit, trace, samples", units()) + "COMMIT");
         if (!ok && !sqlite3_get_autocommit(file)) (void)sql::run(file, path(), "ROLLBACK");
     }
     if (ok) {

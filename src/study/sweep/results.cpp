@@ -24,10 +24,10 @@ UnitEnd end_of(std::string_view word) {
     return at == unit_ends.end() ? UnitEnd::lost : static_cast<UnitEnd>(at - unit_ends.begin());
 }
 
-std::string insertion(std::size_t columns) {
-    std::string text = "INSERT INTO units VALUES(?, ?, ?, ?, ?, ?";
-    for (std::size_t k = 0; k < columns; ++k) text += ", ?";
-    return text + ") ON CONFLICT(unit) DO NOTHING";
+std::string insertion(const std::vector<std::string>& columns) {
+    std::string names = "unit, ended, steps, iterations, alone, why", values = "?, ?, ?, ?, ?, ?";
+    for (const auto& column : columns) names += ", " + sql::name(column), values += ", ?";
+    return fmt::format("INSERT INTO units({}) VALUES({}) ON CONFLICT(unit) DO NOTHING", names, values);
 }
 
 /// Numbers of a blob; of a damaged one those that are whole.
@@ -87,9 +87,9 @@ Result<void> SweepResults::Held::begin_writing() {
         out = std::move(*made);
         return {};
     };
-    if (auto ok = make(insertion(layout.stored.size()), unit); !ok) return ok;
-    if (auto ok = make("INSERT INTO spikes VALUES(?, ?, ?)", spikes); !ok) return ok;
-    if (auto ok = make("INSERT INTO traces VALUES(?, ?, ?)", trace); !ok) return ok;
+    if (auto ok = make(insertion(layout.stored), unit); !ok) return ok;
+    if (auto ok = make("INSERT INTO spikes(unit, train, times) VALUES(?, ?, ?)", spikes); !ok) return ok;
+    if (auto ok = make("INSERT INTO traces(unit, trace, samples) VALUES(?, ?, ?)", trace); !ok) return ok;
     set_next_fold();
     writing = true;
     return {};

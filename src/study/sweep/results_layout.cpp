@@ -10,7 +10,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_columns = 1900;  // of a table of SQLite's: 2000
+constexpr std::size_t most_columns = 1900;                 // of a table of SQLite's: 2000
+constexpr std::size_t most_words = std::size_t{4} << 20;   // bytes: names of all values of all axes that vary by word
+constexpr std::size_t most_times = std::size_t{32} << 20;  // bytes: times of a trace's samples
+constexpr std::int64_t most_units = 1'000'000'000'000;     // as a plan may have
+constexpr std::size_t most_about = std::size_t{96} << 20;  // bytes of all facts
 
 constexpr const char* tables = R"(
 CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -48,16 +52,65 @@ std::string parting(const std::string& here, const std::string& there) {
     return several ? fmt::format(" has changed since, in line {}", line) : fmt::format(" was '{}' and is '{}' now", there, here);
 }
 
+Error changed(const std::string& path, std::string_view how) {
+    return bad_input(
+        fmt::format("{}: it was changed by another program; take a copy from before, or sweep again into another file with --out", how),
+        {path});
+}
+
+/// Refuses a table that lacks one of these columns.
+Result<void> check_table(sqlite3* file, const std::string& path, const std::string& table, const std::vector<std::string>& wanted) {
+    auto rows = sql::Statement::make(file, path, "SELECT name, type, pk FROM pragma_table_info(?)");
+    if (!rows) return rows.error();
+    rows->set(1, std::string_view(table));
+    std::set<std::string> there;
+    bool keyed = false;
+    for (;;) {
+        const auto more = rows->step();
+        if (!more) return more.error();
+        if (!*more) break;
+        there.insert(lower(rows->text(0)));
+        keyed = keyed || (rows->text(0) == "unit" && lower(rows->text(1)) == "integer" && rows->integer(2) == 1);
+    }
+    if (there.empty()) return changed(path, fmt::format("it has no table '{}'", table));
+    for (const auto& name : wanted)
+        if (!there.contains(lower(name))) return changed(path, fmt::format("its table '{}' has no column '{}'", table, name));
+    if (table == "units" && !keyed) return changed(path, "the column 'unit' of its table 'units' is no integer key");
+    return {};
+}
+
+Result<void> check_tables(sqlite3* file, const std::string& path, const std::vector<std::string>& stored) {
+    std::vector<std::string> units = {"unit", "ended", "steps", "iterations", "alone", "why"};
+    units.insert(units.end(), stored.begin(), stored.end());
+    if (auto ok = check_table(file, path, "units", units); !ok) return ok;
+    if (auto ok = check_table(file, path, "spikes", {"unit", "train", "times"}); !ok) return ok;
+    return check_table(file, path, "traces", {"unit", "trace", "samples"});
+}
+
+/// Refuses rows of units that the sweep does not have.
+Result<void> check_units(sqlite3* file, const std::string& path, std::int64_t units) {
+    auto rows = sql::Statement::make(file, path, "SELECT unit FROM units WHERE unit < 0 OR unit >= ? LIMIT 1");
+    if (!rows) return rows.error();
+    const auto found = rows->set(1, units).step();
+    if (!found) return found.error();
+    if (!*found) return {};
+    return changed(path, fmt::format("it holds unit {}, of a sweep of {} units (0 to {})", rows->integer(0), units, units - 1));
+}
+
 Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& path, const char* kind, std::vector<std::string>& stored) {
     auto rows = sql::Statement::make(
         file, path, "SELECT name, unit, sentence, words, at_least, at_most, stored FROM columns WHERE kind = ? ORDER BY position");
     if (!rows) return rows.error();
     rows->set(1, std::string_view(kind));
     std::vector<SweepColumn> out;
+    std::size_t words = 0;
     for (;;) {
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) return out;
+        if (out.size() == most_columns) return changed(path, fmt::format("there are more than {} columns", most_columns));
+        for (const int text : {0, 1, 2, 3, 6}) words += rows->bytes(text).size();
+        if (words > most_words) return changed(path, fmt::format("its table columns holds more than {} MB of words", most_words >> 20));
         SweepColumn c{rows->text(0), rows->text(1), rows->text(2)};
         c.words = Json::parse(rows->text(3)).get<std::vector<std::string>>();
         if (!rows->is_nothing(4)) c.at_least = rows->number(4);
@@ -88,10 +141,13 @@ Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::
     auto rows = sql::Statement::make(file, path, "SELECT key, value FROM about");
     if (!rows) return rows.error();
     std::map<std::string, std::string> out;
+    std::size_t bytes = 0;
     for (;;) {
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) return out;
+        bytes += rows->bytes(0).size() + rows->bytes(1).size();
+        if (bytes > most_about) return changed(path, fmt::format("its table about holds more than {} MB", most_about >> 20));
         out[rows->text(0)] = rows->text(1);
     }
 }
@@ -104,6 +160,7 @@ Result<void> check_kind(sqlite3* file, const std::string& path) {
     if (!written) return written.error();
     if (*application != ResultsLayout::application)
         return bad_input("is an SQLite file, but holds no results of a sweep; give another with --out", {path});
+    if (*written < 1) return changed(path, "it does not say of which format it is");
     if (*written > ResultsLayout::format)
         return bad_input(fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use that one, or give "
                                      "another file with --out",
@@ -136,10 +193,19 @@ ResultsLayout ResultsLayout::of(const Sweep& sweep) {
 Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path) {
     if (auto ok = check_kind(file, path); !ok) return ok.error();
     ResultsLayout out;
+    if (auto ok = check_table(file, path, "about", {"key", "value"}); !ok) return ok.error();
+    if (auto ok =
+            check_table(file, path, "columns", {"position", "kind", "name", "unit", "sentence", "words", "at_least", "at_most", "stored"});
+        !ok)
+        return ok.error();
     try {
         auto about = read_about(file, path);
         if (!about) return about.error();
         out.about = std::move(*about);
+        for (const auto& [key, most] :
+             {std::pair{"facts", most_words}, {"trains", most_words}, {"traces", most_words}, {"trace_times", most_times}})
+            if (out.about.at(key).size() > most)
+                return changed(path, fmt::format("'{}' of its table about is larger than {} MB", key, most >> 20));
         out.units = std::stoll(out.about.at("units"));
         out.facts = Json::parse(out.about.at("facts")).get<std::vector<std::string>>();
         out.trains = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();
@@ -153,6 +219,9 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
     } catch (const std::exception&) {  // a table that somebody changed by hand
         return bad_input("says nothing readable of its sweep: its tables about and columns were changed; give another with --out", {path});
     }
+    if (out.units < 1 || out.units > most_units) return changed(path, fmt::format("it is of {} units", out.units));
+    if (auto ok = check_tables(file, path, out.stored); !ok) return ok.error();
+    if (auto ok = check_units(file, path, out.units); !ok) return ok.error();
     return out;
 }
 

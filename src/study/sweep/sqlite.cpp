@@ -9,7 +9,16 @@
 namespace corpuscle::sql {
 namespace {
 
-constexpr int wait_ms = 10'000;  // for another program's short hold on the file
+constexpr int wait_ms = 10'000;          // for another program's short hold on the file
+constexpr int longest_value = 64 << 20;  // bytes of one text or blob: a trace of 16 million samples
+
+/// Nothing that stands in a file's schema is run, and a name in quotes is a column or an error, never a text.
+void distrust(sqlite3* file) {
+    for (const int off : {SQLITE_DBCONFIG_DQS_DML, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
+                          SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+        sqlite3_db_config(file, off, 0, nullptr);
+    sqlite3_limit(file, SQLITE_LIMIT_LENGTH, longest_value);
+}
 
 /// What the system said; of a -wal that cannot be written SQLite does not keep it.
 int cause_of(sqlite3* file) {
@@ -22,10 +31,10 @@ std::string reason(sqlite3* file) {
     return cause ? std::strerror(cause) : sqlite3_errmsg(file);
 }
 
-/// Too large for the file system, for a quota, or for `ulimit -f`.
+/// The file system, or a quota of it.
 bool is_full(sqlite3* file) {
     const int cause = cause_of(file);
-    return sqlite3_errcode(file) == SQLITE_FULL || cause == ENOSPC || cause == EDQUOT || cause == EFBIG;
+    return sqlite3_errcode(file) == SQLITE_FULL || cause == ENOSPC || cause == EDQUOT;
 }
 
 }  // namespace
@@ -33,6 +42,10 @@ bool is_full(sqlite3* file) {
 Error failed(sqlite3* file, const std::string& path) {
     const auto say = [&](const std::string& sentence) { return bad_input(sentence, {path}); };
     if (!file) return say("there is no memory to open it");
+    if (cause_of(file) == EFBIG)
+        return say(
+            "is as large as a file may become here ('ulimit -f'); all that was written before is kept: raise that limit and give the "
+            "same command again");
     if (is_full(file)) return say("the disk is full; all that was written before is kept: make room there and give the same command again");
     switch (sqlite3_errcode(file) & 0xff) {
         case SQLITE_NOTADB:
@@ -52,6 +65,13 @@ Error failed(sqlite3* file, const std::string& path) {
                 fmt::format("cannot be read or written ({}); what was written before is kept: see to the disk and give the same "
                             "command again",
                             reason(file)));
+        case SQLITE_TOOBIG:
+            return say(fmt::format("a text or a blob is larger than {} MB; keep fewer traces, or a longer 'every'", longest_value >> 20));
+        case SQLITE_ERROR:
+            return say(
+                fmt::format("is not as a sweep writes it ({}): it was changed by another program; take a copy from before, or give "
+                            "another file with --out",
+                            sqlite3_errmsg(file)));
         default:
             return say(fmt::format("SQLite: {}", sqlite3_errmsg(file)));
     }
@@ -78,6 +98,7 @@ Result<Handle> open(const std::string& path, int flags) {
     if (code != SQLITE_OK) return failed(raw, path);
     sqlite3_busy_timeout(raw, wait_ms);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    distrust(raw);
     return file;
 }
 

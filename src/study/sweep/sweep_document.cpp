@@ -74,16 +74,29 @@ SummaryJson dependence_json(const SweepTable& table, const SweepSummary& summary
     SummaryJson points = SummaryJson::array(), influences = SummaryJson::array(), devices = SummaryJson::array();
     for (const auto& [axis, between] : d.points)
         points.push_back({{"axis", table.axes[axis].name}, {"share", json_number(between.share)}, {"chance", json_number(between.chance)}});
+    SummaryJson effects = SummaryJson::array();
+    for (const auto& e : d.effects) {
+        SummaryJson values = SummaryJson::array(), means = SummaryJson::array();
+        for (const double x : table.points[e.axis]) values.push_back(json_number(x));
+        for (const double x : e.means) means.push_back(json_number(x));
+        effects.push_back({{"axis", table.axes[e.axis].name}, {"share", json_number(e.share)}, {"values", values}, {"means", means}});
+    }
     for (const auto& i : d.influences) influences.push_back(influence_json(i));
     for (const auto& s : d.devices) devices.push_back(device_json(*summary.drawn, s));
-    return {{"measure", d.measure},         {"between_points", points}, {"chips", d.all.units}, {"factors", d.all.factors},
-            {"explained", d.all.explained}, {"influences", influences}, {"devices", devices}};
+    SummaryJson out = {{"measure", d.measure},         {"between_points", points}, {"chips", d.all.units}, {"factors", d.all.factors},
+                       {"explained", d.all.explained}, {"influences", influences}, {"devices", devices}};
+    if (table.is_grid) out["effects"] = effects;
+    return out;
 }
 
 }  // namespace
 
 SummaryJson document_of(const SweepTable& table, const SweepSummary& summary, const std::string& title) {
-    SummaryJson out = {{"title", title}, {"units", table.units}, {"finished", table.rows()}, {"confidence", confidence}};
+    SummaryJson out = {{"title", title}, {"units", table.units}, {"finished", table.rows()}};
+    if (table.is_grid)
+        out["grid"] = true;
+    else
+        out["confidence"] = confidence;
     out["axes"] = SummaryJson::array(), out["measures"] = SummaryJson::array(), out["by"] = SummaryJson::array();
     for (const auto& a : table.axes) out["axes"].push_back(column_json(a));
     for (const auto& m : table.measures) out["measures"].push_back(column_json(m));

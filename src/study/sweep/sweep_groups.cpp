@@ -5,6 +5,7 @@
 
 #include "signal/field.hpp"
 #include "signal/quantity.hpp"
+#include "study/sweep/grid.hpp"
 #include "study/sweep/sweep_summary.hpp"
 
 namespace corpuscle {
@@ -55,6 +56,15 @@ AxisParts parts_of_axis(const SweepTable& table, std::size_t axis) {
 }
 
 }  // namespace
+
+std::string point_label(const SweepTable& table, std::size_t row) {
+    std::string out;
+    for (std::size_t a = 0; a < table.axes.size(); ++a) {
+        const double x = table.axis_values[a][row];
+        out += fmt::format("{}{} = {}", a == 0 ? "" : ", ", table.axes[a].name, std::isnan(x) ? "none" : value_label(table.axes[a], x));
+    }
+    return out;
+}
 
 SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& axes) {
     SweepGroups out;

@@ -182,7 +182,7 @@ void add_squares(Factors::OfSubject& own) {
 
 /// The factors of the axes, and for a while those of the measure's own devices behind them.
 Dependence dependence_of(const std::string& name, const std::vector<double>& values, Searched& in) {
-    Dependence out{name, {}, {}, {}, {}};
+    Dependence out{name, {}, {}, {}, {}, {}};
     for (const auto& [axis, groups] : in.by_axis) {
         const auto between = between_groups(values, groups.group_of, groups.groups.size());
         if (between.chance <= false_discoveries && between.share > 0) out.points.emplace_back(axis, between);
@@ -227,6 +227,26 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     return out;
 }
 
+/// A grid is all that there is: no interval, no deviation and no distribution is told of it.
+void leave_chance_out(PointSummary& point) {
+    const auto value_alone = [](Estimate& e) { e.low = e.high = Estimate::none; };
+    value_alone(point.yield);
+    for (auto& m : point.measures) {
+        value_alone(m.mean);
+        m.sigma = {}, m.normality = m.normality_floor = Estimate::none;
+        for (auto& q : m.quantiles) value_alone(q);
+        if (m.yield) value_alone(*m.yield);
+    }
+}
+
+std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vector<char>& passed) {
+    std::vector<Dependence> out;
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        out.push_back({table.measures[m].name, {}, {}, {}, {}, effects_of(table, table.measure_values[m])});
+    if (table.has_limits()) out.push_back({"yield", {}, {}, {}, {}, effects_of(table, {passed.begin(), passed.end()})});
+    return out;
+}
+
 }  // namespace
 
 Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Drawn>& drawn, const SweepQuestion& question) {
@@ -244,7 +264,13 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Dra
     finish(out.all, table.measures.size());
     Pool pool(table.rows() > 100000 ? 0 : 1);
     pool.each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
-    out.dependences = dependences_of(table, drawn, passed, out.chips);
+    if (!table.is_grid) {
+        out.dependences = dependences_of(table, drawn, passed, out.chips);
+        return out;
+    }
+    leave_chance_out(out.all);
+    for (auto& point : out.points) leave_chance_out(point);
+    out.dependences = effects_on_all(table, passed);
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "study/sweep/drawn.hpp"
+#include "study/sweep/grid.hpp"
 #include "study/sweep/sensitivity.hpp"
 #include "study/sweep/sweep_table.hpp"
 
@@ -67,6 +68,7 @@ struct Dependence {
     std::vector<NamedInfluence> influences;               ///< the strongest first
     std::vector<DeviceShare> devices;                     ///< of those that have a share, the largest first
     std::vector<std::pair<std::size_t, Between>> points;  ///< axes that make points, and what lies between them
+    std::vector<AxisEffect> effects;                      ///< of a plain grid, in place of all the rest
 };
 
 struct SweepSummary {

@@ -7,6 +7,7 @@
 
 #include "signal/field.hpp"
 #include "signal/pool.hpp"
+#include "study/sweep/grid.hpp"
 #include "study/sweep/sqlite.hpp"
 
 namespace corpuscle {
@@ -29,7 +30,7 @@ Result<std::vector<std::size_t>> measures_called(const SweepResults& results, co
 }
 
 /// An axis's values in rising order, if they are few; else nothing.
-std::vector<double> few_values(const std::vector<double>& all, bool words) {
+std::vector<double> few_values(const std::vector<double>& all, bool listed, std::size_t most) {
     std::vector<double> known;
     double last = std::nan("");
     for (const double x : all) {
@@ -37,10 +38,10 @@ std::vector<double> few_values(const std::vector<double>& all, bool words) {
         last = x;
         const auto at = std::lower_bound(known.begin(), known.end(), x);
         if (at != known.end() && *at == x) continue;
-        if (known.size() == SweepTable::most_points) return {};
+        if (known.size() == most) return {};
         known.insert(at, x);
     }
-    return words || 2 * known.size() <= all.size() ? known : std::vector<double>();
+    return listed || 2 * known.size() <= all.size() ? known : std::vector<double>();
 }
 
 /// What is read of each row, in the order of the columns asked for.
@@ -139,7 +140,10 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
             std::vector<double>().swap(part.columns[k]);
         }
     }
-    for (std::size_t a = 0; a < out.axes.size(); ++a) out.points.push_back(few_values(out.axis_values[a], !out.axes[a].words.empty()));
+    out.is_grid = draws_nothing(results);
+    for (std::size_t a = 0; a < out.axes.size(); ++a)
+        out.points.push_back(few_values(out.axis_values[a], out.is_grid || !out.axes[a].words.empty(),
+                                        out.is_grid ? SweepTable::most_levels : SweepTable::most_points));
     return out;
 }
 

@@ -17,7 +17,8 @@ struct SweepTable {
 
     /// Of each axis that takes few values, as one that is listed does, its values in rising order: they make points. Else empty.
     std::vector<std::vector<double>> points;
-    static constexpr std::size_t most_points = 64;
+    static constexpr std::size_t most_points = 64, most_levels = 10'000;  ///< of a grid: every axis that takes no more makes points
+    bool is_grid = false;                                                 ///< nothing is drawn: see grid.hpp
 
     std::size_t rows() const { return unit.size(); }
     /// Whether a row ended and keeps a measure's limits; one without the measure does not.

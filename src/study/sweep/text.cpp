@@ -99,16 +99,13 @@ std::string canonical_text(toml::table top) {
 }  // namespace
 
 Result<SweepText> read_sweep_text(std::string_view text, const std::string& file) {
+    const auto top = parse_toml(text, file);
+    if (!top) return top.error();
     Reading reading(file);
-    try {
-        const toml::table top = toml::parse(text);
-        auto out = text_from(top, reading);
-        if (reading.wrong) return *reading.wrong;
-        out.file = file, out.canonical = canonical_text(top);
-        return out;
-    } catch (const toml::parse_error& error) {
-        return bad_input(std::string(error.description()), reading.place(error.source()));
-    }
+    auto out = text_from(*top, reading);
+    if (reading.wrong) return *reading.wrong;
+    out.file = file, out.canonical = canonical_text(*top);
+    return out;
 }
 
 }  // namespace corpuscle::sweeps

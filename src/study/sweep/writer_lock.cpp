@@ -30,6 +30,26 @@ bool still_there(int file, const std::string& path) {
            open_one.st_dev == there.st_dev;
 }
 
+/// Whether it is empty, or what note() writes: anything else is somebody's file and must not be emptied.
+bool is_ours(int file) {
+    struct stat status = {};
+    if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink > 1 || status.st_size > 512) return false;
+    if (status.st_size == 0) return true;
+    std::array<char, 513> text = {};
+    if (::pread(file, text.data(), text.size() - 1, 0) <= 0) return false;
+    std::istringstream words(text.data());
+    double process = 0, since = 0, finished = 0, to_do = 0;
+    std::string host, more;
+    return static_cast<bool>(words >> process >> since >> finished >> to_do >> host) && !(words >> more);
+}
+
+Error not_ours(const std::string& path, std::string_view why) {
+    return bad_input(fmt::format("stands where the mark of the one who writes the results would be, and {}; move it away, or give another "
+                                 "file with --out",
+                                 why),
+                     {path});
+}
+
 Error held(const std::string& results) {
     const auto who = WriterLock::holder(results);
     const auto whom = who && who->process ? fmt::format("process {} on {}", who->process, who->host) : std::string("another process");
@@ -57,7 +77,8 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
     WriterLock lock;
     const auto path = lock_path(results);
     for (;;) {
-        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+        if (file < 0 && errno == ELOOP) return not_ours(path, "is a link");
         if (file < 0)
             return bad_input(fmt::format("cannot be written: there is no making a file beside it ({}); give a place that can be written "
                                          "to with --out",
@@ -71,6 +92,7 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
             return bad_input(fmt::format("cannot be locked ({}): is this file system one that knows locks?", std::strerror(cause)), {path});
         }
         if (still_there(file, path)) {
+            if (!is_ours(file)) return ::close(file), not_ours(path, "holds something else");
             lock.path_ = path, lock.file_ = file;
             lock.note(0, 0);
             return lock;
@@ -90,7 +112,7 @@ void WriterLock::note(std::int64_t finished, std::int64_t to_do) const {
 }
 
 std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results) {
-    const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) return {};
     auto whole = all_of_it(F_RDLCK);
     const bool free = ::fcntl(file, F_OFD_GETLK, &whole) == 0 && whole.l_type == F_UNLCK;

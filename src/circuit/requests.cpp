@@ -1,0 +1,156 @@
+#include "circuit/requests.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "circuit/analyses.hpp"
+#include "circuit/curves.hpp"
+#include "circuit/measure.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// The curves that an analysis will give, without values.
+struct Head {
+    const Command* command;
+    Plot plot;
+};
+
+Plot curves_of(const System& system, const OwnCurrents& currents, const Command& c) {
+    if (c.name == "noise")
+        return {"Noise Spectral Density Curves",
+                false,
+                true,
+                {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
+    if (c.name == "tf") {
+        Plot plot{"Transfer Function", false, false, {{"transfer_function", "notype", {}}}};
+        if (c.words.size() == 2)
+            for (const auto& name : {c.words[1] + "#input_impedance", "output_impedance_at_" + c.words[0]})
+                plot.curves.push_back({name, "notype", {}});
+        return plot;
+    }
+    if (c.name == "sens") {
+        Plot plot{"Sensitivity Analysis", false, false, {}};
+        for (const auto& d : system.devices())
+            if (d->setting()) plot.curves.push_back({d->name, "notype", {}});
+        return plot;
+    }
+    if (c.name == "op") {
+        auto plot = plot_of(system, "Operating Point", "", "");
+        return currents.add_to(plot), plot;
+    }
+    if (c.name == "ac") {
+        auto plot = plot_of(system, "AC Analysis", "frequency", "frequency");
+        return plot.is_complex = true, plot;
+    }
+    if (c.name == "tran") {
+        auto plot = plot_of(system, "Transient Analysis", "time", "time");
+        return currents.add_to(plot), plot;
+    }
+    const std::string what = c.words.empty() ? "v" : c.words[0];
+    const bool temperature = what == "temp";
+    auto plot = plot_of(system, "DC transfer characteristic",
+                        temperature      ? "temp-sweep"
+                        : what[0] == 'i' ? "i-sweep"
+                        : what[0] == 'v' ? "v-sweep"
+                                         : "res-sweep",
+                        "");
+    if (!temperature) currents.add_to(plot);
+    return plot;
+}
+
+class Requests {
+    const Circuit& circuit_;
+    std::vector<Head> heads_;
+    std::vector<CurveNames> names_;
+    std::vector<Error>& remarks_;
+
+public:
+    Requests(const System& system, const OwnCurrents& currents, std::vector<Error>& remarks)
+        : circuit_(system.circuit()), remarks_(remarks) {
+        for (const auto& c : circuit_.commands)
+            if (analysis_of(c.name) != nullptr) heads_.push_back({&c, curves_of(system, currents, c)});
+        for (const auto& head : heads_) names_.emplace_back(head.plot);
+    }
+
+    Result<void> check() {
+        if (heads_.empty()) return {};  // the run itself says which there are
+        for (const auto& c : circuit_.commands)
+            if (c.name == "print" || c.name == "plot") {
+                if (auto ok = columns(c); !ok) return ok;
+            } else if (c.name == "probe") {
+                for (std::size_t k = 0; k < c.words.size(); ++k)
+                    if (is_left_out(circuit_, c, c.words[k]))
+                        remarks_.push_back(error_at(c, k, fmt::format(".probe: '{}' is not told here and is left out", c.words[k])));
+            }
+        Measures measures(circuit_);
+        for (const auto& head : heads_)
+            if (auto ok = measures.begin(head.command->name, head.plot); !ok) return ok;
+        return measures.check(numbers());
+    }
+
+private:
+    /// Each word of .print and .plot is a curve of the analysis named first, or else of one of them.
+    Result<void> columns(const Command& c) {
+        if (c.name == "plot")
+            remarks_.push_back(
+                bad_input(".plot draws nothing here; --out x.csv or x.raw writes the curves, .print prints columns", c.place));
+        const bool named = !c.words.empty() && analysis_of(c.words[0]) != nullptr;
+        if (c.words.size() == (named ? 1U : 0U)) return bad_input(fmt::format(".{}: it is .{} tran v(NODE) ...", c.name, c.name), c.place);
+        if (named && std::none_of(heads_.begin(), heads_.end(), [&](const Head& h) { return h.command->name == c.words[0]; })) {
+            remarks_.push_back(bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.place));
+            return {};
+        }
+        for (std::size_t k = named ? 1 : 0; k < c.words.size(); ++k)
+            if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
+                remarks_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
+            else if (c.words[k] == "all")
+                continue;
+            else if (auto wrong = missing(c, k, named))
+                return *wrong;
+        return {};
+    }
+    std::optional<Error> missing(const Command& c, std::size_t k, bool named) const {
+        const auto& word = c.words[k];
+        for (std::size_t h = 0; h < heads_.size(); ++h)
+            if ((!named || heads_[h].command->name == c.words[0]) && CurveView::of(heads_[h].plot, word, &names_[h])) return {};
+        std::vector<std::string_view> known;
+        for (const auto& head : heads_)
+            if (!named || head.command->name == c.words[0])
+                for (const auto& curve : head.plot.curves) known.push_back(curve.name);
+        if (word.starts_with("par("))
+            if (const auto formula = par_formula(word, c.place); !formula) return error_at(c, k, formula.error().sentence);
+        const bool plotted = c.name == "plot" && word.starts_with("(");  // the limits of an axis
+        if (plotted) return {};
+        const bool own = word.starts_with("i(") && circuit_.element(word.size() > 3 ? word.substr(2, word.size() - 3) : "") >= 0;
+        const auto hint = own ? fmt::format("; '.save {}' makes it one, of M, D and R; a source of 0 V in series shows any other", word)
+                              : did_you_mean(word, known);
+        return error_at(c, k, fmt::format(".{}: there is no curve '{}'{}", c.name, word, hint));
+    }
+
+    /// Names that analyses may give numbers.
+    std::vector<std::string> numbers() const {
+        std::vector<std::string> out;
+        for (const auto& head : heads_) {
+            const auto& word = head.command->name;
+            if (word == "tran")
+                for (const auto* name : {"spikes", "first_spike", "last_spike", "mean_interval", "spike_error"}) out.emplace_back(name);
+            if (word == "noise")
+                for (const auto* name : {"onoise_total", "inoise_total"}) out.emplace_back(name);
+            if (word == "op")
+                for (const auto* name : {"stable_states", "unstable_states", "power_on_elsewhere"}) out.emplace_back(name);
+            if (word == "tf" || word == "sens")
+                for (const auto& curve : head.plot.curves) out.push_back(curve.name);
+        }
+        return out;
+    }
+};
+
+}  // namespace
+
+Result<void> check_requests(const System& system, const OwnCurrents& currents, std::vector<Error>& remarks) {
+    return Requests(system, currents, remarks).check();
+}
+
+}  // namespace corpuscle::circuit

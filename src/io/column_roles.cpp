@@ -1,0 +1,142 @@
+#include "io/column_roles.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t rows_of_an_index = 8;  // to tell by its numbers alone
+
+struct Roles {
+    std::vector<Column>& columns;
+    const std::vector<FirstFields>& first;
+    ColumnRoles out = {};
+
+    bool holds_numbers(std::size_t c) const { return first[c].values > 0 && first[c].words == 0 && first[c].stamps == 0; }
+
+    /// Do its numbers never fall, and rise on the whole?
+    bool rises(std::size_t c) const {
+        double last = -std::numeric_limits<double>::infinity(), begin = last;
+        for (const double x : first[c].numbers) {
+            if (std::isnan(x)) continue;
+            if (x < last) return false;
+            if (std::isinf(begin)) begin = x;
+            last = x;
+        }
+        return last > begin && !std::isinf(begin);
+    }
+
+    /// Are all of them whole numbers, each above the last by `step`, or by anything if that is 0?
+    bool counts(std::size_t c, double step) const {
+        const auto& x = first[c].numbers;
+        if (x.size() < 2 || first[c].values != x.size()) return false;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            if (std::floor(x[k]) != x[k]) return false;
+            if (k > 0 && (step > 0 ? x[k] - x[k - 1] != step : !(x[k] > x[k - 1]))) return false;
+        }
+        return true;
+    }
+
+    bool evenly_rises(std::size_t c) const {
+        const auto& x = first[c].numbers;
+        if (x.size() < 3 || first[c].values != x.size()) return false;
+        const double mean = (x.back() - x[0]) / static_cast<double>(x.size() - 1);
+        bool even = mean > 0;
+        for (std::size_t k = 1; k < x.size(); ++k) even = even && x[k] > x[k - 1] && std::abs(x[k] - x[k - 1] - mean) < 0.5 * mean;
+        return even;
+    }
+
+    void find_kinds() {
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const auto& f = first[c];
+            const auto rows = f.numbers.size();
+            if (f.stamps > 0 && f.values == 0 && f.words == 0) columns[c].stamps = true;
+            if (f.words > 0 && f.values == 0 && f.stamps == 0) columns[c].left_out = "holds words, not numbers";
+            if (rows >= 3 && f.nothing == rows) columns[c].left_out = "is empty";
+        }
+    }
+
+    /// The first column that `suits`.
+    template <class Suits>
+    bool take_time(const Suits& suits) {
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            if (suits(c)) return out.time = c, true;
+        return false;
+    }
+
+    void find_named_time() {
+        const auto likely = [&](std::size_t c) {
+            return columns[c].stamps || (holds_numbers(c) && (first[c].numbers.size() < 2 || rises(c)));
+        };
+        const auto in_seconds = [&](std::size_t c) { return columns[c].stamps || seconds_in(columns[c].unit).has_value(); };
+        if (take_time([&](std::size_t c) { return names_time(columns[c].name); })) return;
+        const bool found =
+            take_time([&](std::size_t c) { return may_name_time(columns[c].name) && in_seconds(c) && likely(c); }) ||
+            take_time([&](std::size_t c) { return columns[c].unit.empty() && may_name_time(columns[c].name) && likely(c) && rises(c); }) ||
+            take_time([&](std::size_t c) { return columns[c].stamps; }) ||
+            take_time([&](std::size_t c) { return in_seconds(c) && holds_numbers(c) && rises(c); });
+        if (found) {
+            const auto& name = columns[*out.time].name;
+            out.remarks.push_back(
+                fmt::format("{} was taken as the time (--time none takes no column as that)",
+                            name.empty() ? fmt::format("column {}, which has no name,", *out.time + 1) : "'" + name + "'"));
+        } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !counts(0, 0)) {
+            out.time = 0, out.time_is_guessed = true;
+            out.remarks.push_back(fmt::format("{} has no name, rises evenly and was taken as the time (--time none takes it as a channel)",
+                                              "the first column"));
+        }
+    }
+
+    bool is_index(std::size_t c) const {
+        const auto& column = columns[c];
+        if (!column.unit.empty() || !holds_numbers(c)) return false;
+        if (c == 0 && column.name.empty()) return counts(c, 0);
+        if (names_index(column.name)) return counts(c, 1);
+        return c == 0 && first[c].numbers.size() >= rows_of_an_index && counts(c, 1);
+    }
+
+    bool is_whole(std::size_t c) const {
+        return holds_numbers(c) &&
+               std::all_of(first[c].numbers.begin(), first[c].numbers.end(), [](double x) { return std::floor(x) == x; });
+    }
+
+    /// Numbers that are no readings: row numbers, trial numbers, second clocks; something must stay.
+    void leave_out() {
+        std::vector<std::pair<std::size_t, std::string>> some;
+        std::size_t stay = 0;
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            if (c == out.time || !columns[c].left_out.empty()) continue;
+            if (columns[c].stamps)
+                columns[c].left_out = "holds times";
+            else if (is_index(c))
+                some.emplace_back(c, "counts the rows");
+            else if (names_trial(columns[c].name) && columns[c].unit.empty() && is_whole(c))
+                some.emplace_back(c, "tells trials apart");
+            else if (out.time && rises(c) && (names_time(columns[c].name) || columns[c].name.ends_with("stamp")))
+                some.emplace_back(c, "is a second clock");
+            else
+                ++stay;
+        }
+        if (stay == 0) return;
+        for (auto& [c, why] : some) columns[c].left_out = std::move(why);
+    }
+};
+
+}  // namespace
+
+ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named) {
+    Roles roles{columns, first};
+    roles.find_kinds();
+    if (named)
+        roles.find_named_time();
+    else if (roles.take_time([&](std::size_t c) { return columns[c].stamps; }))
+        roles.out.time_is_guessed = true;
+    if (named) roles.leave_out();
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        if (columns[c].stamps && columns[c].unit.empty()) columns[c].unit = "s";
+    return std::move(roles.out);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,112 @@
+#include "io/foreign_format.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+struct Foreign {
+    std::string_view first;      ///< its first bytes
+    std::string_view within;     ///< what else must be among them
+    std::string_view extension;  ///< or its name
+    std::string_view what;
+    std::string_view command;  ///< {0}: the file, {1}: the new one's name without extension
+};
+
+// In Python the names stand in single quotes.
+constexpr std::string_view workbook = R"py(python3 -c "import pandas; pandas.read_excel({0}).to_csv({1}.csv', index=False)")py";
+
+constexpr Foreign foreign[] = {
+    {"PK\x03\x04", "opendocument", ".ods", "an OpenDocument spreadsheet", workbook},
+    {"PK\x03\x04", "", ".xlsx", "an Excel workbook", workbook},
+    {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", workbook},
+    {"PAR1", "", ".parquet", "a Parquet file", R"py(python3 -c "import pandas; pandas.read_parquet({0}).to_csv({1}.csv', index=False)")py"},
+    {"ARROW1", "", ".feather", "a Feather (Arrow) file",
+     R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py"},
+    {"FEA1", "", ".feather", "a Feather file", R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py"},
+    {"TDSm", "", ".tdms", "a LabVIEW TDMS file",
+     R"py(python3 -c "import nptdms; nptdms.TdmsFile.read({0}).as_dataframe(time_index=True).to_csv({1}.csv', index_label='time_s')")py"},
+    {"MATLAB 5.0 MAT-file", "", "", "a MATLAB file of version 5 to 7 (one of save -v7.3 is read)",
+     R"py(python3 -c "import numpy, scipy.io; numpy.savez({1}.npz', **{{k: v for k, v in scipy.io.loadmat({0}).items() if k[0] != '_'}})")py"},
+    {"\x80\x02", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+    {"\x80\x03", "", ".pickle", "a Python pickle (reading one runs what is in it: only from people you trust)",
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+    {"\x80\x04", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+    {"\x80\x05", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+    {"BZh", "", ".bz2", "packed with bzip2", "bunzip2 -k {2}"},
+    {"\xfd\x37zXZ", "", ".xz", "packed with xz", "xz -dk {2}"},
+    {"\x28\xb5\x2f\xfd", "", ".zst", "packed with zstd", "zstd -d {2}"},
+    {"#ROSBAG V", "", ".bag", "a ROS bag", "rostopic echo -p -b {2} /TOPIC > {3}.csv"},
+};
+
+/// Formats that are read, by the name of the file; here under another name.
+struct Misnamed {
+    std::string_view first, what, extension;
+};
+constexpr Misnamed misnamed[] = {
+    {"\x89HDF", "an HDF5 file", ".h5"}, {"\x93NUMPY", "NumPy's array", ".npy"}, {"PK\x03\x04", "NumPy's arrays", ".npz"},
+    {"RIFF", "a WAV file", ".wav"},     {"fLaC", "a FLAC file", ".flac"},
+};
+
+bool plain_word(const std::string& path) {
+    return !path.empty() && path.front() != '-' && std::all_of(path.begin(), path.end(), [](unsigned char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '/' || c == '-' ||
+               c == '+';
+    });
+}
+
+/// The name without its extension.
+std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+std::string sentence_of(const Foreign& f, const std::string& path) {
+    const std::string name = std::filesystem::path(path).extension().empty() ? "FILE" : path;
+    // What a single-quoted Python word within a double-quoted shell word cannot hold is left to be put in.
+    const bool simple = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= ' ' && !std::strchr("'\"\\$`!", c); });
+    const std::string file = simple ? name : "FILE", stem = simple ? stem_of(name) : "FILE";
+    return fmt::format("this is {}, which is not read here; make a file that is: {}", f.what,
+                       fmt::format(fmt::runtime(f.command), "'" + file + "'", "'" + stem, shell_word(file), shell_word(stem)));
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& path) {
+    if (plain_word(path)) return path;
+    std::string out = "'";
+    for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+std::string foreign_format(std::string_view first, const std::string& path) {
+    const auto extension = lower(std::filesystem::path(path).extension().string());
+    for (const auto& f : foreign) {
+        const bool zip = f.first == "PK\x03\x04";
+        if (!first.starts_with(f.first)) continue;
+        if (zip && extension != f.extension &&
+            !(f.within.empty() ? first.find("[Content_Types]") != first.npos : first.find(f.within) != first.npos))
+            continue;
+        return sentence_of(f, path);
+    }
+    return "";
+}
+
+std::string misnamed_format(std::string_view first, const std::string& path) {
+    if (first.starts_with("PK\x03\x04") && first.find(".npy") == first.npos)
+        return fmt::format("this is a ZIP archive; take out what is in it: unzip {}", shell_word(path));
+    for (const auto& m : misnamed)
+        if (first.starts_with(m.first)) {
+            const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
+            return fmt::format("this is {}, and it is known by the end of its name: ln -s {} {}", m.what, shell_word(path),
+                               shell_word(to + std::string(m.extension)));
+        }
+    return "";
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,169 @@
+#include "io/heading.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/utf8.hpp"
+#include "signal/quantity.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+template <class List>
+bool in_list(const List& list, std::string_view word) {
+    return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
+
+bool contains_any(std::string_view text, std::initializer_list<std::string_view> words) {
+    return std::any_of(words.begin(), words.end(), [&](auto w) { return text.find(w) != text.npos; });
+}
+
+constexpr std::string_view unit_words[] = {"counts",  "count",  "raw",  "adc",     "lsb",   "bits",    "ticks",  "digits",  "px",
+                                           "kg",      "g",      "Pa",   "kPa",     "mmHg",  "bar",     "psi",    "sec",     "seconds",
+                                           "msec",    "millis", "usec", "micros",  "nsec",  "nanos",   "newton", "newtons", "Newton",
+                                           "Newtons", "sek",    "Sek",  "minutes", "hours", "samples", "dB",     "kgf",     "gf"};
+constexpr std::string_view never_force[] = {"deg", "\u00b0", "rad",      "degC",   "degF",  "\u00b0C", "\u00b0F", "celsius",  "Celsius",
+                                            "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",      "kNm",
+                                            "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
+
+/// Letters, and min, that more often mean something else behind a name (left_F, sensor_A) than a unit.
+constexpr std::string_view letters[] = {"", "1", "%", "F", "A", "S", "T", "C", "K", "h", "min"};
+
+/// Does the name before it show that such a letter is a unit: temp_C, motor_current_A?
+bool shows_unit(std::string_view name, std::string_view letter) {
+    const auto n = lower(name);
+    if (letter == "C" || letter == "K" || letter == "F") return contains_any(n, {"temp", "therm"}) || (n == "t" && letter != "F");
+    if (letter == "h" || letter == "min") return may_name_time(n);
+    return letter == "A" && (contains_any(n, {"current", "strom"}) || n == "i");
+}
+
+/// What may stand behind a name and be its unit.
+bool is_suffix_unit(std::string_view name, std::string_view s) {
+    if (in_list(letters, s)) return shows_unit(name, s);
+    return is_unit(s);
+}
+
+std::string_view without_slash(std::string_view name) {
+    name = trimmed(name);
+    return name.size() > 1 && name.ends_with('/') ? trimmed(name.substr(0, name.size() - 1)) : name;
+}
+
+}  // namespace
+
+bool is_unit(std::string_view word) {
+    return in_list(unit_words, word) || in_list(never_force, word) || seconds_in(word) || (!word.empty() && parse_unit(word));
+}
+
+Column parse_heading(std::string_view written) {
+    auto text = utf8_text(written);
+    for (std::size_t at = 0; (at = text.find("\"\"", at)) != text.npos; ++at) text.erase(at, 1);  // a quote within quotes
+    const std::string_view field = text;
+    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})
+        if (const auto at = field.rfind(open); at != std::string_view::npos && field.ends_with(close) && at > 0)
+            return {std::string(without_slash(field.substr(0, at))), std::string(trimmed(field.substr(at + 1, field.size() - at - 2)))};
+    if (const auto at = field.rfind('_');
+        at != std::string_view::npos && at > 0 && is_suffix_unit(field.substr(0, at), field.substr(at + 1)))
+        return {std::string(field.substr(0, at)), std::string(field.substr(at + 1))};
+    // A DIN slash, "Fz/mN"; in a path, "wrench/force/x", a slash is none.
+    if (const auto at = field.find('/'); at != std::string_view::npos && at > 0) {
+        const auto name = trimmed(field.substr(0, at)), unit = trimmed(field.substr(at + 1));
+        if (unit.find('/') == unit.npos || is_never_force(unit))
+            if (is_suffix_unit(name, unit)) return {std::string(name), std::string(unit)};
+    }
+    if (const auto at = field.rfind(" in ");
+        at != std::string_view::npos && at > 0 && is_suffix_unit(field.substr(0, at), field.substr(at + 4)))
+        return {std::string(trimmed(field.substr(0, at))), std::string(field.substr(at + 4))};
+    return {std::string(field), ""};
+}
+
+bool names_time(std::string_view name) {
+    constexpr std::string_view words[] = {"time", "timestamp", "t", "times", "timestamps", "time stamp"};
+    return in_list(words, lower(name));
+}
+
+bool may_name_time(std::string_view name) {
+    constexpr std::string_view words[] = {"date", "clock", "elapsed", "seconds", "secs", "sec", "millis", "micros", "ms", "us", "x_value"};
+    const auto word = lower(name);
+    return names_time(word) || in_list(words, word) || contains_any(word, {"time", "stamp", "zeit", "temps", "tiempo", "tempo"});
+}
+
+bool names_index(std::string_view name) {
+    constexpr std::string_view words[] = {"index",
+                                          "idx",
+                                          "sample",
+                                          "samples",
+                                          "sample_index",
+                                          "sample_number",
+                                          "sample number",
+                                          "frame",
+                                          "frames",
+                                          "frame_id",
+                                          "seq",
+                                          "row",
+                                          "#",
+                                          "no",
+                                          "no.",
+                                          "nr",
+                                          "nr.",
+                                          "n",
+                                          "counter",
+                                          "packet",
+                                          "unnamed: 0",
+                                          "sample no",
+                                          "frameno",
+                                          "number",
+                                          "level_0"};
+    auto word = lower(name);
+    if (const auto dot = word.rfind('.'); dot != word.npos && dot + 1 < word.size()) word = word.substr(dot + 1);  // field.header.seq
+    return in_list(words, word);
+}
+
+bool names_trial(std::string_view name) {
+    constexpr std::string_view words[] = {"trial",    "trials",  "trial_id",   "trial_number", "trial_no",   "trial number",
+                                          "run",      "rep",     "repeat",     "epoch",        "repetition", "subject",
+                                          "block",    "session", "condition",  "participant",  "subject_id", "segment",
+                                          "press_id", "run_id",  "experiment", "versuch"};
+    return in_list(words, lower(name));
+}
+
+std::optional<double> seconds_in(std::string_view unit) {
+    constexpr std::pair<std::string_view, double> words[] = {{"sec", 1},
+                                                             {"secs", 1},
+                                                             {"second", 1},
+                                                             {"seconds", 1},
+                                                             {"Sek", 1},
+                                                             {"sek", 1},
+                                                             {"Sekunden", 1},
+                                                             {"msec", 1e-3},
+                                                             {"msecs", 1e-3},
+                                                             {"millis", 1e-3},
+                                                             {"usec", 1e-6},
+                                                             {"usecs", 1e-6},
+                                                             {"nsec", 1e-9},
+                                                             {"nsecs", 1e-9},
+                                                             {"milliseconds", 1e-3},
+                                                             {"micros", 1e-6},
+                                                             {"microseconds", 1e-6},
+                                                             {"nanos", 1e-9},
+                                                             {"nanoseconds", 1e-9},
+                                                             {"minutes", 60},
+                                                             {"h", 3600}};
+    for (const auto& [word, factor] : words)
+        if (word == unit) return factor;
+    if (unit.empty()) return {};
+    const auto known = parse_unit(unit);
+    if (known && known->same_kind(*parse_unit("s"))) return known->factor;
+    return {};
+}
+
+bool is_never_force(std::string_view unit) {
+    if (in_list(never_force, unit) || seconds_in(unit)) return true;
+    const auto known = unit.empty() ? Result<Unit>(bad_input("")) : parse_unit(unit);
+    if (!known) return false;
+    for (const auto* other : {"Hz", "m/s", "m/s2", "N m"})
+        if (known->same_kind(*parse_unit(other))) return true;
+    return false;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,251 @@
+#include "io/json_records.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr std::size_t most_document = std::size_t{64} << 20;  // bytes that are parsed at once
+constexpr int most_depth = 16;
+
+/// Python writes NaN and Infinity, which JSON has not: null in their place. Empty if brackets go too deep.
+std::optional<std::string> plain_json(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    bool quoted = false;
+    int depth = 0;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (quoted) {
+            out += c;
+            if (c == '\\' && k + 1 < text.size()) out += text[++k];
+            quoted = c != '"';
+            continue;
+        }
+        quoted = c == '"';
+        if ((c == '{' || c == '[') && ++depth > most_depth) return {};
+        if (c == '}' || c == ']') --depth;
+        std::size_t word = 0;
+        for (const std::string_view w : {"-Infinity", "Infinity", "NaN"})
+            if (text.substr(k).starts_with(w)) word = std::max(word, w.size());
+        if (word > 0)
+            out += "null", k += word - 1;
+        else
+            out += c;
+    }
+    return out;
+}
+
+class JsonReader {
+    using Take = std::function<Result<void>(std::span<const JsonField>, long)>;
+    Lines& lines_;
+    const Take& take_;
+    std::vector<JsonField> fields_;
+    OrderedJson nothing_;
+
+    Error wrong(std::string sentence, long line = 0) const { return bad_input(std::move(sentence), {lines_.path(), line}); }
+
+    Result<OrderedJson> parse(std::string_view text, long line) const {
+        const auto plain = plain_json(text);
+        if (!plain) return wrong(fmt::format("JSON that is nested more than {} deep is no table", most_depth), line);
+        try {
+            return OrderedJson::parse(*plain);
+        } catch (const nlohmann::json::parse_error& e) {
+            const auto at = std::min<std::size_t>(e.byte, plain->size());
+            const auto above = std::count(plain->begin(), plain->begin() + static_cast<std::ptrdiff_t>(at), '\n');
+            const auto column = at - (above > 0 ? plain->rfind('\n', at - 1) + 1 : 0);
+            return bad_input("this is no whole JSON: something else was expected here",
+                             {lines_.path(), std::max(line, 1L) + static_cast<long>(above), static_cast<long>(column)});
+        } catch (const nlohmann::json::exception&) {
+            return wrong("this JSON holds a number that is too large", line);
+        }
+    }
+
+    void flatten(const std::string& name, const OrderedJson& value) {
+        if (value.is_object()) {
+            for (const auto& [key, member] : value.items()) flatten(name.empty() ? key : name + "." + key, member);
+        } else if (value.is_array()) {
+            std::size_t k = 0;
+            for (const auto& member : value) flatten(fmt::format("{}{}{}", name, name.empty() ? "ch" : ".", ++k), member);
+        } else {
+            fields_.push_back({name.empty() ? "ch1" : name, &value});
+        }
+    }
+
+    Result<void> give(const OrderedJson& record, long line) {
+        fields_.clear();
+        flatten("", record);
+        return take_(fields_, line);
+    }
+
+    Result<void> give_rows(const OrderedJson& list) {
+        for (const auto& record : list)
+            if (auto ok = give(record, 0); !ok) return ok;
+        return {};
+    }
+
+    /// {"columns": [...], "data": [[...]]}, as pandas writes it with orient="split".
+    Result<void> give_split(const OrderedJson& names, const OrderedJson& data) {
+        for (const auto& row : data) {
+            if (!row.is_array() || row.size() != names.size())
+                return wrong(fmt::format("a row of 'data' has not the {} fields that 'columns' names", names.size()));
+            fields_.clear();
+            for (std::size_t c = 0; c < names.size(); ++c)
+                flatten(names[c].is_string() ? names[c].get<std::string>() : names[c].dump(), row[c]);
+            if (auto ok = take_(fields_, 0); !ok) return ok;
+        }
+        return {};
+    }
+
+    struct JsonColumn {
+        std::string name;
+        std::vector<const OrderedJson*> values;
+    };
+
+    static bool is_list(const OrderedJson& j) {
+        return (j.is_array() || j.is_object()) && !j.empty() &&
+               std::all_of(j.begin(), j.end(), [](const OrderedJson& v) { return !v.is_structured(); });
+    }
+
+    void find_columns(const std::string& name, const OrderedJson& object, std::vector<JsonColumn>& out) const {
+        for (const auto& [key, member] : object.items()) {
+            const auto full = name.empty() ? key : name + "." + key;
+            if (member.is_array() ? is_list(member) : is_list(member) && member.contains("0")) {  // pandas: {"0": ..., "1": ...}
+                out.push_back({full, {}});
+                for (const auto& v : member) out.back().values.push_back(&v);
+            } else if (member.is_object()) {
+                find_columns(full, member, out);
+            }
+        }
+    }
+
+    Result<void> give_columns(const OrderedJson& object) {
+        std::vector<JsonColumn> columns;
+        find_columns("", object, columns);
+        if (columns.empty())
+            return wrong("no table in this JSON: a record a line, a list of records, or an object of lists as long as one another is one");
+        const auto rows = columns[0].values.size();
+        for (const auto& c : columns)
+            if (c.values.size() != rows)
+                return wrong(fmt::format("'{}' has {} values and '{}' has {}: columns of a table are as long as one another",
+                                         columns[0].name, rows, c.name, c.values.size()));
+        for (std::size_t r = 0; r < rows; ++r) {
+            fields_.clear();
+            for (const auto& c : columns) fields_.push_back({c.name, c.values[r]});
+            if (auto ok = take_(fields_, 0); !ok) return ok;
+        }
+        return {};
+    }
+
+    Result<void> give_document(const OrderedJson& all) {
+        if (all.is_array()) return give_rows(all);
+        if (!all.is_object()) return wrong("no table in this JSON: it holds a single value");
+        if (all.contains("columns") && all["columns"].is_array() && all.contains("data") && all["data"].is_array())
+            return give_split(all["columns"], all["data"]);
+        const OrderedJson* records = nullptr;
+        std::size_t lists = 0;
+        for (const auto& member : all)
+            if (member.is_array() && !member.empty()) ++lists, records = member[0].is_structured() ? &member : records;
+        return lists == 1 && records ? give_rows(*records) : give_columns(all);
+    }
+
+    /// Is the first line a whole record, with another or nothing but one row behind it?
+    Result<bool> are_json_lines() {
+        std::string_view line;
+        std::string first;
+        std::size_t lines = 0;
+        bool alike = true;
+        for (;;) {
+            const auto more = lines_.next(line);
+            if (!more) return more.error();
+            if (!*more) break;
+            const auto text = trimmed(line);
+            if (text.empty()) continue;
+            if (++lines == 1)
+                first = text;
+            else if (alike = text.front() == first.front(); true)
+                break;
+        }
+        if (auto ok = lines_.rewind(); !ok) return ok.error();
+        if (lines == 0 || !alike || first.size() > most_document) return false;
+        const auto plain = plain_json(first);
+        const auto whole = plain ? OrderedJson::parse(*plain, nullptr, false) : OrderedJson(OrderedJson::value_t::discarded);
+        if (whole.is_discarded() || !whole.is_structured()) return false;
+        if (lines > 1) return true;
+        return whole.is_object() && std::none_of(whole.begin(), whole.end(), [](const OrderedJson& v) { return v.is_structured(); });
+    }
+
+    Result<void> read_lines() {
+        for (std::string_view line;;) {
+            const auto more = lines_.next(line);
+            if (!more) return more.error();
+            if (!*more) return {};
+            if (trimmed(line).empty()) continue;
+            const auto record = parse(line, lines_.number());
+            if (!record) return record.error();
+            if (!record->is_structured()) return wrong("a record should be here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.number());
+            if (auto ok = give(*record, lines_.number()); !ok) return ok;
+        }
+    }
+
+    Result<void> read_document() {
+        std::string text;
+        for (std::string_view line;;) {
+            const auto more = lines_.next(line);
+            if (!more) return more.error();
+            if (!*more) break;
+            text.append(line) += '\n';
+            if (text.size() > most_document)
+                return wrong(
+                    fmt::format("a JSON document of more than {} MB; write a record a line, which may be as many as there are: python3 -c "
+                                "\"import pandas; pandas.read_json('FILE').to_json('FILE.jsonl', orient='records', lines=True)\"",
+                                most_document >> 20));
+        }
+        if (!text.empty()) text.pop_back();  // the end of the last line, which the file need not have
+        const auto all = parse(text, 1);
+        return all ? give_document(*all) : all.error();
+    }
+
+public:
+    JsonReader(Lines& lines, const Take& take) : lines_(lines), take_(take) {}
+
+    Result<void> read() {
+        const auto by_line = are_json_lines();
+        if (!by_line) return by_line.error();
+        return *by_line ? read_lines() : read_document();
+    }
+};
+
+}  // namespace
+
+Result<void> read_json_records(Lines& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take) {
+    return JsonReader(lines, take).read();
+}
+
+Result<bool> begins_like_json(Lines& lines) {
+    std::string_view line;
+    bool json = false;
+    for (;;) {
+        const auto more = lines.next(line);
+        if (!more) return more.error();
+        if (!*more) break;
+        const auto text = trimmed(line);
+        if (text.empty()) continue;
+        const auto rest = trimmed(text.substr(1));
+        json = text.front() == '{'
+                   ? rest.empty() || rest.front() == '"' || rest.front() == '}'
+                   : text.front() == '[' && (rest.empty() || std::string_view("{[-0123456789\"").find(rest.front()) != rest.npos);
+        break;
+    }
+    if (auto ok = lines.rewind(); !ok) return ok.error();
+    return json;
+}
+
+}  // namespace corpuscle

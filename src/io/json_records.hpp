@@ -1,0 +1,25 @@
+#pragma once
+// JSON as a table: a record a line (JSON lines), a list of records or of rows, or an object of columns.
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+#include "io/lines.hpp"
+
+namespace corpuscle {
+
+/// A field of a record. Members of members are called "wrench.force.x", those of lists "taxels.1".
+struct JsonField {
+    std::string name;
+    const nlohmann::ordered_json* value;  ///< a number, a word, true, false or null
+};
+
+/// Gives the records one after another; `line`: of a record of JSON lines, else 0. An error of `take` ends it.
+Result<void> read_json_records(Lines&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take);
+
+/// Does the text begin as JSON does? Rewinds it.
+Result<bool> begins_like_json(Lines&);
+
+}  // namespace corpuscle

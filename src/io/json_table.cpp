@@ -1,0 +1,147 @@
+#include "io/json_table.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "io/column_roles.hpp"
+#include "io/json_records.hpp"
+#include "io/time_stamp.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::size_t most_json_numbers = std::size_t{1} << 27, most_json_columns = std::size_t{1} << 17;
+
+class JsonTable final : public Table {
+    struct Values {
+        std::vector<double> numbers;  // NaN where a record has none
+        FirstFields first;
+        std::optional<TimeStamp> stamp;  // the first
+    };
+    std::string path_;
+    std::vector<Column> columns_;
+    std::vector<Values> values_;
+    std::unordered_map<std::string, std::size_t> called_;
+    std::vector<long> lines_;  // of the records, if each has one
+    ColumnRoles roles_;
+    std::size_t rows_ = 0, next_ = 0, block_ = 0, numbers_ = 0;
+
+    static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+    Error wrong(std::string sentence, long line) const { return bad_input(std::move(sentence), {path_, line}); }
+
+    /// A word is a number in quotes, a stamp, or nothing that is used.
+    double number_of(const std::string& word, Values& v, FirstFields* first) {
+        double x = 0;
+        const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), x);
+        if (status == std::errc{} && end == word.data() + word.size() && !word.empty()) {
+            if (first) first->add_number(x);
+            return x;
+        }
+        const auto stamp = parse_time_stamp(word);
+        if (first) first->add_other(stamp ? first->stamps : first->words);
+        if (!stamp) return none;
+        if (!v.stamp) v.stamp = stamp;
+        return seconds_between(*v.stamp, *stamp);
+    }
+
+    double number_of(const nlohmann::ordered_json& value, Values& v) {
+        FirstFields* const first = rows_ < rows_looked_at ? &v.first : nullptr;
+        if (value.is_string()) return number_of(value.get_ref<const std::string&>(), v, first);
+        const double x = value.is_number() ? value.get<double>() : value.is_boolean() ? (value.get<bool>() ? 1 : 0) : none;
+        if (first) std::isnan(x) ? first->add_other(first->nothing) : first->add_number(x);
+        return x;
+    }
+
+    Result<void> add(std::span<const JsonField> fields, long line) {
+        for (const auto& f : fields) {
+            const auto [at, is_new] = called_.try_emplace(f.name, columns_.size());
+            if (is_new) {
+                if (columns_.size() == most_json_columns) return wrong(fmt::format("more than {} columns", most_json_columns), line);
+                columns_.push_back(parse_heading(f.name));
+                values_.emplace_back();
+            }
+            auto& v = values_[at->second];
+            if (v.numbers.size() > rows_) return wrong(fmt::format("'{}' stands twice in one record", f.name), line);
+            numbers_ += rows_ + 1 - v.numbers.size();
+            if (numbers_ > most_json_numbers) return wrong("more numbers than fit into memory; CSV is read in blocks", line);
+            v.numbers.resize(rows_, none);
+            for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, rows_looked_at); ++k) v.first.add_other(v.first.nothing);
+            v.numbers.push_back(number_of(*f.value, v));
+        }
+        ++rows_;
+        if (line > 0) lines_.push_back(line);
+        return {};
+    }
+
+public:
+    explicit JsonTable(std::string path) : path_(std::move(path)) {}
+
+    Result<void> open(Lines& lines) {
+        if (auto ok = read_json_records(lines, [this](auto fields, long line) { return add(fields, line); }); !ok) return ok;
+        if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
+        if (rows_ > most_json_numbers / columns_.size())
+            return bad_input("more numbers than fit into memory; CSV is read in blocks", {path_});
+        std::vector<FirstFields> first;
+        for (auto& v : values_) {
+            v.numbers.resize(rows_, none);
+            for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, rows_looked_at); ++k) v.first.add_other(v.first.nothing);
+            first.push_back(std::move(v.first));
+        }
+        roles_ = assign_roles(columns_, first, !called_.contains("ch1"));
+        if (roles_.time && columns_[*roles_.time].stamps) {
+            const auto& s = *values_[*roles_.time].stamp;
+            const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
+            roles_.remarks.push_back(
+                fmt::format("0 s is {}, the first time in '{}'", s.dated ? instant : instant.substr(11), columns_[*roles_.time].name));
+        }
+        return {};
+    }
+
+    const std::vector<Column>& columns() const override { return columns_; }
+    std::optional<std::size_t> time_column() const override { return roles_.time; }
+    bool time_is_guessed() const override { return roles_.time_is_guessed; }
+    std::vector<std::string> column_remarks() const override { return roles_.remarks; }
+    double done() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
+    Result<void> rewind() override { return next_ = 0, Result<void>{}; }
+    Place place(std::size_t row) const override {
+        const auto at = block_ + row;
+        return {path_, at < lines_.size() ? lines_[at] : static_cast<long>(at) + 1};
+    }
+
+    Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
+        const auto count = std::min(rows, rows_ - next_);
+        block_ = next_;
+        for (auto& column : out) column.resize(count);
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            const auto from = values_[wanted[i]].numbers.begin() + static_cast<std::ptrdiff_t>(next_);
+            std::copy_n(from, count, out[i].begin());
+            const auto bad = std::find_if_not(out[i].begin(), out[i].end(), [](double x) { return std::isfinite(x); });
+            if (bad == out[i].end()) continue;
+            const auto row = static_cast<std::size_t>(bad - out[i].begin());
+            if (!gaps_allowed_)
+                return bad_input(
+                    fmt::format("record {}: '{}' has no number; --bad-fields interpolate fills it in, --bad-fields drop leaves the "
+                                "record out",
+                                next_ + row + 1, columns_[wanted[i]].name),
+                    lines_.empty() ? Place{path_} : place(row));
+            std::replace_if(out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, none);
+        }
+        next_ += count;
+        return count;
+    }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Table>> open_json_table(Lines lines) {
+    auto table = std::make_unique<JsonTable>(lines.path());
+    if (auto ok = table->open(lines); !ok) return ok.error();
+    return std::unique_ptr<Table>(std::move(table));
+}
+
+}  // namespace corpuscle

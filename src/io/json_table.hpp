@@ -1,0 +1,11 @@
+#pragma once
+// JSON lines, and JSON of records or columns, as tables. What they hold is kept in memory.
+
+#include "io/lines.hpp"
+#include "io/table.hpp"
+
+namespace corpuscle {
+
+Result<std::unique_ptr<Table>> open_json_table(Lines);
+
+}  // namespace corpuscle

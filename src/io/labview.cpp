@@ -1,0 +1,100 @@
+#include "io/labview.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::string_view end_of_header = "***End_of_Header***";
+
+class LabviewReader {
+    const std::vector<std::string>& lines_;
+    std::string path_;
+    LabviewHead head_;
+    Fields fields_;
+    std::vector<std::string> units_;
+    double step_ = 0;
+    bool time_ = true;
+    std::string x_columns_ = "One";
+
+    void split(std::size_t k) { head_.dialect.split(lines_[k], fields_); }
+
+    /// A line of the header: a name, and what holds of the file or of each channel.
+    void read_entry(std::size_t k) {
+        split(k);
+        if (fields_.size() < 2) return;
+        const auto name = fields_[0];
+        if (name == "Decimal_Separator") head_.dialect.decimal_comma = fields_[1] == ",";
+        if (name == "X_Columns") x_columns_ = fields_[1];
+        if (name == "X_Dimension") time_ = fields_[1] == "Time";
+        if (name == "Y_Unit_Label") units_.assign(fields_.begin() + 1, fields_.end());
+        if (name == "Delta_X") {
+            head_.dialect.number(fields_[1], step_);
+            delta_column_ = true;
+        }
+    }
+    bool delta_column_ = false;
+
+    /// X_Value, a column a channel, Comment. With an X of its own for every channel only the first is the time.
+    void read_names(std::size_t k) {
+        split(k);
+        std::size_t channel = 0;
+        for (const auto name : fields_) {
+            Column column{std::string(name), ""};
+            if (name == "X_Value") {
+                const bool first = head_.columns.empty();
+                if (first && x_columns_ != "No")
+                    column = {time_ ? "time" : "X_Value", time_ ? "s" : ""};
+                else
+                    column.left_out = x_columns_ == "No" ? "is empty" : "is the clock of another channel";
+            } else if (name == "Comment") {
+                column.left_out = "holds remarks";
+            } else {
+                if (channel < units_.size()) column.unit = units_[channel];
+                ++channel;
+            }
+            head_.columns.push_back(std::move(column));
+        }
+        while (!head_.columns.empty() && head_.columns.back().name.empty()) head_.columns.pop_back();
+        if (x_columns_ == "No" && delta_column_ && step_ > 0) head_.rate = 1 / step_;
+    }
+
+public:
+    LabviewReader(const std::vector<std::string>& lines, std::string path) : lines_(lines), path_(std::move(path)) {}
+
+    Result<LabviewHead> read() {
+        head_.dialect = {lines_[0].find(',') != std::string::npos && lines_[0].find('\t') == std::string::npos ? ',' : '\t', false};
+        for (std::size_t k = 1; k < std::min<std::size_t>(lines_.size(), 12); ++k)
+            if (lines_[k].starts_with("Separator"))
+                head_.dialect.separator = lower(lines_[k]).find("comma") != std::string::npos ? ',' : '\t';
+        std::size_t ends = 0;
+        for (std::size_t k = 1; k < lines_.size(); ++k) {
+            if (!trimmed(lines_[k]).starts_with(end_of_header)) {
+                read_entry(k);
+                continue;
+            }
+            if (++ends < 2) continue;
+            if (k + 1 >= lines_.size()) break;
+            read_names(k + 1);
+            head_.first_row = k + 2;
+            if (head_.columns.empty()) break;
+            return std::move(head_);
+        }
+        return bad_input("this LabVIEW file has no table: two lines ***End_of_Header*** and names of columns are to stand before it",
+                         {path_});
+    }
+};
+
+}  // namespace
+
+bool is_labview(std::string_view first_line) { return first_line.starts_with("LabVIEW Measurement"); }
+
+Result<LabviewHead> read_labview_head(const std::vector<std::string>& lines, const std::string& path) {
+    return LabviewReader(lines, path).read();
+}
+
+}  // namespace corpuscle

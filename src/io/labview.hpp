@@ -1,0 +1,26 @@
+#pragma once
+// LabVIEW's measurement files (.lvm): lines of names and values, twice, before a table.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/dialect.hpp"
+#include "io/table.hpp"
+
+namespace corpuscle {
+
+struct LabviewHead {
+    Dialect dialect;
+    std::vector<Column> columns;
+    std::optional<double> rate = {};  ///< Hz, if the times are not in the table
+    std::size_t first_row = 0;        ///< of the lines given
+};
+
+bool is_labview(std::string_view first_line);
+
+/// `lines`: the first ones that are not empty.
+Result<LabviewHead> read_labview_head(const std::vector<std::string>& lines, const std::string& path);
+
+}  // namespace corpuscle

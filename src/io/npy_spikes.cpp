@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "io/foreign_format.hpp"
+#include "io/npy_table.hpp"
+#include "io/spike_columns.hpp"
+#include "io/trains.hpp"
+
+namespace corpuscle {
+namespace {
+
+/// A unit's number as its name.
+std::string unit_name(double x) { return std::floor(x) == x ? fmt::format("{:.0f}", x) : fmt::format("{}", x); }
+
+/// Phy's spike_times.npy holds the numbers of samples, in which no rate is said.
+bool are_sample_numbers(const std::vector<double>& times) {
+    return times.size() > 1 && *std::max_element(times.begin(), times.end()) >= 1000 &&
+           std::all_of(times.begin(), times.end(), [](double t) { return std::floor(t) == t; });
+}
+
+}  // namespace
+
+Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const SpikeColumns& wanted) {
+    auto table = open_npy_table(path);
+    if (!table) return table.error();
+    std::vector<std::string> headings;
+    for (const auto& c : (*table)->columns()) headings.push_back(c.unit.empty() ? c.name : c.name + "_" + c.unit);
+    if (headings.size() == 1) headings[0].clear();
+    const bool plain = headings.size() > 1 && headings[0] == "ch1";
+    if (plain && !(wanted.time && wanted.unit))
+        return bad_input(
+            fmt::format("an array of {} columns: times of spikes are one; --time 1 --unit 2 says which hold the times and the units",
+                        headings.size()),
+            {path});
+    std::size_t column = 0;
+    const auto found = find_spike_columns(headings, wanted, column);
+    if (!found) return bad_input(found.error().sentence, {path});
+    std::vector<std::size_t> columns = {found->time};
+    if (found->afferent) columns.push_back(*found->afferent);
+    if (found->channel) columns.push_back(*found->channel);
+    Trains trains;
+    std::vector<double> all;
+    for (std::vector<std::vector<double>> block(columns.size());;) {
+        const auto rows = (*table)->read(columns, rows_a_block, block);
+        if (!rows) return rows.error();
+        if (*rows == 0) break;
+        for (std::size_t k = 0; k < *rows; ++k) {
+            const auto afferent = found->afferent ? unit_name(block[1][k]) : std::string();
+            const auto channel = found->channel ? unit_name(block.back()[k]) : std::string();
+            trains.of(afferent, channel).push_back(block[0][k] * found->seconds);
+            all.push_back(block[0][k]);
+        }
+    }
+    if (found->seconds == 1 && are_sample_numbers(all))
+        return bad_input(
+            fmt::format("whole numbers, as the numbers of samples are; times are in seconds, so divide them by the rate: python3 -c "
+                        "\"import numpy; numpy.save('seconds.npy', numpy.load('{}') / 30000)\"",
+                        path.find_first_of("'\"\\$`!") == path.npos ? path : "FILE.npy"),
+            {path});
+    return std::move(trains).in_order();
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,78 @@
+#include "io/spike_columns.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+
+#include "io/heading.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::string_view unit_names[] = {"unit",  "unit_id", "cluster",        "cluster_id", "clusters", "neuron", "neuron_id",
+                                           "cell",  "cell_id", "spike_clusters", "id",         "ids",      "label",  "train",
+                                           "units", "index",   "address",        "spike_unit", "senders"};
+
+bool names_spike_time(std::string_view name) {
+    return names_time(name) || name == "spike_time" || name == "spike_times" || name == "spiketime" || name == "spiketimes" ||
+           name == "spike time";
+}
+
+std::string listed_headings(const std::vector<std::string>& headings) {
+    std::vector<std::string> names;
+    for (const auto& h : headings) names.push_back("'" + h.substr(0, 40) + "'");
+    if (names.size() > 12) names.resize(12), names.push_back("...");
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The column asked for by its heading, its name or its number.
+std::optional<std::size_t> asked_column(const std::vector<std::string>& headings, const std::string& wanted) {
+    for (std::size_t c = 0; c < headings.size(); ++c)
+        if (headings[c] == wanted || (!headings[c].empty() && parse_heading(headings[c]).name == wanted)) return c;
+    std::size_t number = 0;
+    const auto [end, status] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+    if (status == std::errc{} && end == wanted.data() + wanted.size() && number >= 1 && number <= headings.size()) return number - 1;
+    return {};
+}
+
+}  // namespace
+
+Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column) {
+    std::optional<std::size_t> time, unit;
+    SpikeColumnsFound out;
+    for (const auto& [option, asked, to] : {std::tuple{"--time", &wanted.time, &time}, {"--unit", &wanted.unit, &unit}}) {
+        if (!*asked) continue;
+        *to = asked_column(headings, **asked);
+        if (!*to) return bad_input(fmt::format("{} {}: there is no such column; there are {}", option, **asked, listed_headings(headings)));
+    }
+    for (std::size_t c = 0; c < headings.size(); ++c) {
+        const auto name = lower(parse_heading(headings[c]).name);
+        if (!time && names_spike_time(name)) time = c;
+        if (name == "afferent" && !wanted.unit) out.afferent = c;
+        if (name == "channel") out.channel = c;
+    }
+    for (const auto name : unit_names)
+        for (std::size_t c = 0; c < headings.size() && !unit && !out.afferent; ++c)
+            if (c != time && lower(headings[c]) == name) unit = c;
+    if (unit) out.afferent = unit;
+    if (out.channel == out.afferent) out.channel.reset();
+    if (!time && headings.size() == 1 && headings[0].empty()) time = 0;
+    if (!time)
+        return bad_input(
+            fmt::format("no column of spike times; one is to be called time_s (or time, t [ms] ...), or named with --time; there are {}",
+                        listed_headings(headings)));
+    if (!out.afferent && !out.channel && headings.size() > 1)
+        return bad_input(
+            fmt::format("no column that says whose each spike is; one is to be called unit, afferent or channel, or named with --unit; "
+                        "there are {}",
+                        listed_headings(headings)));
+    out.time = *time;
+    const auto in = parse_heading(headings[*time]).unit;
+    const auto seconds = in.empty() ? std::optional(1.0) : seconds_in(in);
+    if (!seconds) return column = *time + 1, bad_input(fmt::format("'{}' is no unit of time; write s, ms, us or min", in));
+    out.seconds = *seconds;
+    return out;
+}
+
+}  // namespace corpuscle

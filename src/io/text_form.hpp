@@ -1,0 +1,38 @@
+#pragma once
+// How the table in a file of text lies: where its rows begin, what separates the fields, what the header says. Loggers put lines of
+// their own before it, a row of units under the header, the header into a comment.
+
+#include "io/column_roles.hpp"
+#include "io/dialect.hpp"
+#include "io/lines.hpp"
+#include "io/time_stamp.hpp"
+
+namespace corpuscle {
+
+struct TextForm {
+    Dialect dialect;
+    std::vector<Column> columns;
+    ColumnRoles roles;
+    std::optional<TimeStamp> first_stamp = {};  ///< of the time, or of the first column that holds some
+    std::optional<double> rate = {};            ///< Hz, if the file says it
+    long first_row = 1;                         ///< its line
+    bool named = false;                         ///< by a header
+    bool last_may_be_missing = false;           ///< the last field of a row, with its separator
+    std::optional<std::size_t> trial = {};      ///< the column that may tell trials apart,
+    std::string first_trial = {};               ///< and what its first row says
+};
+
+/// Reads the head of the file and rewinds it. `skip`: lines that are not looked at.
+Result<TextForm> find_text_form(Lines&, std::size_t skip);
+
+/// A line that is empty or begins with # or %.
+inline bool is_comment(std::string_view line) {
+    for (const char c : line)
+        if (c != ' ' && c != '\t') return c == '#' || c == '%';
+    return true;
+}
+
+/// Splits as the dialect does; a separator at the end of a line makes no column. `columns`: how many there are to be, 0: not known.
+void split_row(const Dialect&, std::string_view line, std::size_t columns, Fields& out);
+
+}  // namespace corpuscle

@@ -1,0 +1,142 @@
+#include "io/time_stamp.hpp"
+
+#include <fmt/format.h>
+#include <chrono>
+#include <cmath>
+
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::int64_t second = 1'000'000'000, day_length = 86'400 * second;
+
+/// Takes what a stamp is made of from the front of a text; `good` as long as it was there.
+struct StampReader {
+    std::string_view rest;
+    bool good = true;
+
+    static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+    int digits(std::size_t least, std::size_t most) {
+        std::size_t n = 0;
+        int value = 0;
+        while (n < most && n < rest.size() && is_digit(rest[n])) value = value * 10 + (rest[n++] - '0');
+        good = good && n >= least;
+        rest.remove_prefix(n);
+        return value;
+    }
+    bool take(char c) {
+        if (!rest.starts_with(c)) return false;
+        return rest.remove_prefix(1), true;
+    }
+    void need(char c) { good = take(c) && good; }
+};
+
+std::optional<std::int64_t> day_of(int year, int month, int day) {
+    namespace c = std::chrono;
+    const c::year_month_day date{c::year(year), c::month(static_cast<unsigned>(month)), c::day(static_cast<unsigned>(day))};
+    if (!date.ok() || year < 1) return {};
+    return c::sys_days(date).time_since_epoch().count();
+}
+
+/// "2026-03-01", "2026/03/01", "01.03.2026"; nothing is taken if there is none.
+std::optional<std::int64_t> take_date(StampReader& in) {
+    StampReader r = in;
+    const std::size_t digits = std::min(r.rest.find_first_not_of("0123456789"), r.rest.size());
+    std::optional<std::int64_t> day;
+    if (digits == 4) {
+        const int year = r.digits(4, 4);
+        const char separator = r.rest.starts_with('/') ? '/' : '-';
+        r.need(separator);
+        const int month = r.digits(1, 2);
+        r.need(separator);
+        day = day_of(year, month, r.digits(1, 2));
+    } else if (digits <= 2 && r.rest.substr(digits).starts_with('.')) {
+        const int first = r.digits(1, 2);
+        r.need('.');
+        const int month = r.digits(1, 2);
+        r.need('.');
+        day = day_of(r.digits(4, 4), month, first);
+    }
+    if (!day || !r.good) return {};
+    in = r;
+    return day;
+}
+
+/// "12:00:00.125" in nanoseconds.
+std::optional<std::int64_t> take_time_of_day(StampReader& r) {
+    const int hour = r.digits(1, 2);
+    r.need(':');
+    const int minute = r.digits(2, 2);
+    r.need(':');
+    const int whole = r.digits(2, 2);
+    if (!r.good || hour > 23 || minute > 59 || whole > 60) return {};
+    std::int64_t fraction = 0;
+    if (r.take('.') || r.take(',') || r.take(':')) {  // the last as some loggers write milliseconds
+        std::int64_t unit = second;
+        while (!r.rest.empty() && StampReader::is_digit(r.rest[0])) {
+            if (unit > 1) fraction += (unit /= 10) * (r.rest[0] - '0');
+            r.rest.remove_prefix(1);
+        }
+        if (unit == second) return {};
+    }
+    return (hour * 3600LL + minute * 60LL + whole) * second + fraction;
+}
+
+/// "Z", "+01:00", "+0100", "+01": nanoseconds ahead of universal time.
+std::optional<std::int64_t> take_zone(StampReader& r) {
+    if (r.take('Z') || r.take('z')) return 0;
+    const bool west = r.rest.starts_with('-');
+    if (!west && !r.rest.starts_with('+')) return 0;
+    r.rest.remove_prefix(1);
+    const int hours = r.digits(2, 2);
+    r.take(':');
+    const int minutes = r.rest.empty() ? 0 : r.digits(2, 2);
+    if (!r.good || hours > 14 || minutes > 59) return {};
+    const std::int64_t ahead = (hours * 3600LL + minutes * 60LL) * second;
+    return west ? -ahead : ahead;
+}
+
+}  // namespace
+
+std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
+    StampReader r{trimmed(text)};
+    const auto day = take_date(r);
+    if (day && !r.take('T') && !r.take('t') && !r.take(' ') && !r.take('-') && !r.take('_')) return {};
+    r.rest = trimmed(r.rest);
+    const auto time = take_time_of_day(r);
+    if (!time) return {};
+    r.rest = trimmed(r.rest);
+    if (r.rest == "UTC") r.rest = {};
+    const auto ahead = take_zone(r);
+    if (!ahead || !r.rest.empty()) return {};
+    TimeStamp out{day.value_or(0), *time - *ahead, day.has_value()};
+    for (; out.nanoseconds < 0; out.nanoseconds += day_length) --out.day;
+    for (; out.nanoseconds >= day_length; out.nanoseconds -= day_length) ++out.day;
+    return out;
+}
+
+bool is_date(std::string_view text) {
+    StampReader r{trimmed(text)};
+    return take_date(r) && r.rest.empty();
+}
+
+double seconds_between(const TimeStamp& from, const TimeStamp& to) {
+    const double days = static_cast<double>(to.day - from.day);
+    if (std::abs(days) < 1e5) return static_cast<double>((to.day - from.day) * day_length + (to.nanoseconds - from.nanoseconds)) / 1e9;
+    return days * 86'400 + static_cast<double>(to.nanoseconds - from.nanoseconds) / 1e9;
+}
+
+std::string format_instant(double seconds) {
+    namespace c = std::chrono;
+    if (!(std::abs(seconds) < 1e11)) return fmt::format("{:g} s", seconds);
+    const auto milliseconds = static_cast<std::int64_t>(std::floor(seconds * 1e3 + 0.5));
+    std::int64_t day = milliseconds / 86'400'000, left = milliseconds % 86'400'000;
+    if (left < 0) left += 86'400'000, --day;
+    const c::year_month_day date{c::sys_days(c::days(day))};
+    return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}.{:03}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                       static_cast<unsigned>(date.day()), left / 3'600'000, left / 60'000 % 60, left / 1000 % 60, left % 1000);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,141 @@
+#include "skin/site_map.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "io/dialect.hpp"
+#include "io/lines.hpp"
+#include "signal/field.hpp"
+#include "signal/text.hpp"
+
+namespace corpuscle {
+namespace {
+
+using SitePlaces = std::unordered_map<std::string_view, std::uint32_t>;
+
+SitePlaces places_of(const Sites& sites) {
+    SitePlaces places;
+    for (std::size_t s = 0; s < sites.size(); ++s) places.emplace(sites.names[s], static_cast<std::uint32_t>(s));
+    return places;
+}
+
+std::string no_such_site(const Sites& sites, std::string_view name) {
+    const std::vector<std::string_view> some(sites.names.begin(),
+                                             sites.names.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(sites.size(), 1000)));
+    return fmt::format("no site is called '{}'{}; the first are {}; 'corpuscle list POPULATION --sites' prints all", name.substr(0, 64),
+                       did_you_mean(name, some),
+                       fmt::join(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(some.size(), 3)), ", "));
+}
+
+/// One row after another of a layout.
+class SiteMapReader {
+    Lines lines_;
+    const Sites& sites_;
+    SitePlaces places_;
+    Dialect dialect_;
+    Fields fields_;
+    std::string_view line_;
+    std::optional<std::size_t> channel_, name_;
+    std::vector<std::optional<std::uint32_t>> map_;
+    std::vector<char> taken_;
+
+    Error at(std::string sentence, std::size_t field) const {
+        const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
+        return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
+    }
+
+    Result<bool> next_row() {
+        for (;;) {
+            const auto more = lines_.next(line_);
+            if (!more || !*more) return more;
+            if (const auto s = trimmed(line_); !s.empty() && s.front() != '#') return true;
+        }
+    }
+
+    Result<void> read_header() {
+        const auto more = next_row();
+        if (!more) return more.error();
+        dialect_ = Dialect::of(line_);
+        if (*more) dialect_.split(line_, fields_);
+        for (std::size_t f = 0; f < fields_.size(); ++f) {
+            const auto word = lower(fields_[f]);
+            if (word == "channel" || word == "sensor") channel_ = f;
+            if (word == "name") name_ = f;
+        }
+        if (channel_ && name_) return {};
+        return at("a layout of frames needs the columns channel and name: channel counts the numbers of a frame from 1, name is a site",
+                  fields_.size());
+    }
+
+    Result<void> add_row() {
+        if (fields_.size() <= std::max(*channel_, *name_)) return at("this row has too few columns", fields_.size());
+        const auto number = fields_[*channel_], name = fields_[*name_];
+        std::size_t channel = 0;
+        const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), channel);
+        if (status != std::errc{} || end != number.data() + number.size() || channel < 1 || channel > sites_.size())
+            return at(
+                fmt::format("channel '{}': a number from 1 to {} is needed, the number of sites", number.substr(0, 64), sites_.size()),
+                *channel_);
+        const auto place = places_.find(name);
+        if (place == places_.end()) return at(no_such_site(sites_, name), *name_);
+        if (map_.size() < channel) map_.resize(channel);
+        if (std::exchange(taken_[place->second], 1)) return at(fmt::format("site '{}' has two channels", name), *name_);
+        if (map_[channel - 1]) return at(fmt::format("channel {} has two rows", channel), *channel_);
+        map_[channel - 1] = place->second;
+        return {};
+    }
+
+public:
+    SiteMapReader(Lines lines, const Sites& sites)
+        : lines_(std::move(lines)), sites_(sites), places_(places_of(sites)), taken_(sites.size()) {}
+
+    Result<std::vector<std::uint32_t>> read() {
+        if (auto ok = read_header(); !ok) return ok.error();
+        for (;;) {
+            const auto more = next_row();
+            if (!more) return more.error();
+            if (!*more) break;
+            dialect_.split(line_, fields_);
+            if (auto ok = add_row(); !ok) return ok.error();
+        }
+        std::vector<std::uint32_t> out;
+        for (const auto& site : map_) {
+            if (!site)
+                return bad_input(fmt::format("channel {} has no row, and channel {} has one", out.size() + 1, map_.size()),
+                                 {lines_.path()});
+            out.push_back(*site);
+        }
+        if (out.empty()) return bad_input("no channels in this layout", {lines_.path()});
+        return out;
+    }
+};
+
+}  // namespace
+
+Result<std::vector<std::uint32_t>> sites_named(const Sites& sites, std::span<const std::string> names) {
+    const auto places = places_of(sites);
+    std::vector<char> taken(sites.size());
+    std::vector<std::uint32_t> found;
+    for (const auto& name : names) {
+        const auto at = places.find(name);
+        if (at == places.end()) return bad_input(no_such_site(sites, name));
+        if (std::exchange(taken[at->second], 1)) return bad_input(fmt::format("two channels are called '{}', which is one site", name));
+        found.push_back(at->second);
+    }
+    return found;
+}
+
+Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites& sites) {
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
+    auto lines = Lines::open(path);
+    if (!lines) return lines.error();
+    return SiteMapReader(std::move(*lines), sites).read();
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,101 @@
+#include "study/silence.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "model/catalog.hpp"
+#include "model/spread.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double most_factor = 1e6, fineness = 1.02;
+
+bool fires(const Afferent& afferent, std::span<const double> force, double factor) {
+    constexpr std::size_t block = 4096;
+    std::vector<double> some(block);
+    std::vector<Spike> spikes;
+    Answer answer{spikes};
+    auto state = afferent.start();
+    for (std::size_t at = 0; at < force.size(); at += block) {
+        const auto count = std::min(block, force.size() - at);
+        for (std::size_t k = 0; k < count; ++k) some[k] = factor * force[at + k];
+        if (!afferent.respond({some.data(), count}, state, answer)) return false;
+        if (!spikes.empty()) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+std::optional<double> factor_to_fire(const AfferentPlan& plan, const Run& run, std::span<const double> force) {
+    const auto afferent = make_afferent(plan, run);
+    double low = 1, high = 1;
+    while (!fires(*afferent, force, high)) {
+        if (high >= most_factor) return {};
+        low = high, high *= 2;
+    }
+    while (high > low * fineness) {
+        const double middle = std::sqrt(low * high);
+        (fires(*afferent, force, middle) ? high : low) = middle;
+    }
+    return high;
+}
+
+Result<void> Silence::begin(const Input& input) {
+    kept_.assign(input.source.channels().size(), {});
+    largest_.assign(kept_.size(), 0);
+    fired_.resize(input.afferents.size());
+    return {};
+}
+
+Result<void> Silence::block(const Input& input, const Answered& answered) {
+    const std::size_t most = most_silent_samples / kept_.size();
+    for (std::size_t c = 0; c < kept_.size(); ++c) {
+        const auto* force = answered.force.force[c].data();
+        const auto count = std::min(answered.force.count, most - std::min(most, kept_[c].size()));
+        kept_[c].insert(kept_[c].end(), force, force + count);
+        for (std::size_t k = 0; k < answered.force.count; ++k) largest_[c] = std::max(largest_[c], force[k]);
+    }
+    for (const auto& s : answered.spikes) fired_[(s.unit - input.first_unit) % input.afferents.size()] = 1;
+    return {};
+}
+
+Result<void> Silence::end(const Input& input, std::int64_t) {
+    const auto most = std::max_element(largest_.begin(), largest_.end());
+    if (*most > force_) {
+        force_ = *most, dt_ = input.source.clock().T();
+        course_ = std::move(kept_[static_cast<std::size_t>(most - largest_.begin())]);
+    }
+    kept_.clear();
+    return {};
+}
+
+std::vector<SilentAfferent> Silence::found(std::span<const AfferentPlan> afferents, const RespondOptions& options) const {
+    std::vector<SilentAfferent> out;
+    const auto groups = groups_of(afferents);
+    for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
+        const auto& plan = afferents[groups[g]];
+        const auto from = fired_.begin() + static_cast<std::ptrdiff_t>(groups[g]),
+                   to = fired_.begin() + static_cast<std::ptrdiff_t>(groups[g + 1]);
+        if (plan.design || std::find(from, to, 1) != to) continue;
+        out.push_back({base_name(plan), force_, {}});
+        if (force_ > 0) out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, course_);
+    }
+    return out;
+}
+
+std::string sentence_of(const SilentAfferent& silent) {
+    const auto never = fmt::format("{} never fired: the force was {:.3g} N at most", silent.name, silent.force);
+    if (silent.factor) return fmt::format("{}; it fires from about {} times the same force on", never, rounded_up(*silent.factor));
+    return silent.force > 0 ? fmt::format("{}, and a million times as much would not make it fire", never) : never;
+}
+
+std::string rounded_up(double x) {
+    if (!(x > 0) || !std::isfinite(x)) return fmt::format("{:g}", x);
+    const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
+    return fmt::format("{:.6g}", std::ceil(x / unit - 1e-9) * unit);
+}
+
+}  // namespace corpuscle

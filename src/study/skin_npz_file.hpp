@@ -1,0 +1,27 @@
+#pragma once
+// Spikes of a skin as NumPy's arrays.
+
+#include "io/npz.hpp"
+#include "study/skin_written.hpp"
+
+namespace corpuscle {
+
+/// spikes.npz: the arrays of NpzFile (npz_file.hpp), one segment. unit_ids are the numbers that units.csv has, unit_channel the regions;
+/// unit_x_m and unit_y_m say where each stands. The spikes are kept in memory until the end.
+class SkinNpzFile final : public SkinWrittenFile {
+    OutputFile file_;
+    NpzWriter npz_;
+    std::vector<std::int64_t> indexes_, labels_;
+    std::vector<double> times_;  // s
+
+    void put(const Clock&, std::span<const Spike>);
+
+public:
+    explicit SkinNpzFile(OutputFile file) : file_(std::move(file)) {}
+    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
+    std::vector<std::string> paths() const override { return {file_.path()}; }
+    Result<void> commit() override;
+};
+
+}  // namespace corpuscle

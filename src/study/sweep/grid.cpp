@@ -1,0 +1,88 @@
+#include "study/sweep/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "study/sweep/axis.hpp"
+#include "study/sweep/drawn.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double nothing_there = std::numeric_limits<double>::quiet_NaN();
+
+/// The number of a row's value among those of the axis; their count: it has none.
+std::size_t level_of(const SweepTable& table, std::size_t axis, std::size_t row) {
+    const auto& values = table.points[axis];
+    const double x = table.axis_values[axis][row];
+    const auto at = std::lower_bound(values.begin(), values.end(), x);
+    return at != values.end() && *at == x ? static_cast<std::size_t>(at - values.begin()) : values.size();
+}
+
+/// The sweep file without what the command line added to it ("--seed 3").
+std::string file_text(const std::string& said) {
+    std::string out;
+    for (std::size_t from = 0; from < said.size();) {
+        const auto end = std::min(said.find('\n', from), said.size() - 1) + 1;
+        if (said.compare(from, 2, "--") != 0) out += said.substr(from, end - from);
+        from = end;
+    }
+    return out;
+}
+
+}  // namespace
+
+bool draws_nothing(const SweepResults& results) {
+    if (!results.about(drawn_fact).empty() || results.axes().empty()) return false;
+    for (const auto& axis : results.axes())
+        if (axis.name.starts_with("process.")) return false;
+    const auto said = results.about("sweep file");  // "": a netlist by itself, with .step
+    const auto text = sweeps::read_sweep_text(file_text(said), results.path());
+    if (!text) return false;
+    return std::none_of(text->vary.begin(), text->vary.end(), [](const sweeps::SaidAxis& axis) {
+        return axis.what.text == "process" || axis.what.text == "mismatch" || sweeps::is_drawn(axis);
+    });
+}
+
+std::vector<AxisEffect> effects_of(const SweepTable& table, const std::vector<double>& measure) {
+    double sum = 0, count = 0, squares = 0;
+    for (const double x : measure)
+        if (std::isfinite(x)) sum += x, ++count;
+    for (const double x : measure)
+        if (std::isfinite(x)) squares += (x - sum / count) * (x - sum / count);
+    std::vector<AxisEffect> out;
+    if (!(squares > 0)) return out;
+    for (std::size_t a = 0; a < table.axes.size(); ++a) {
+        if (table.points[a].size() < 2) continue;
+        AxisEffect effect{a, 0, {}};
+        std::vector<double> sums(table.points[a].size() + 1), counts(sums.size());
+        for (std::size_t r = 0; r < measure.size(); ++r)
+            if (std::isfinite(measure[r])) {
+                const auto level = level_of(table, a, r);
+                sums[level] += measure[r], ++counts[level];
+            }
+        for (std::size_t k = 0; k < table.points[a].size(); ++k) {
+            effect.means.push_back(counts[k] > 0 ? sums[k] / counts[k] : nothing_there);
+            const double off = counts[k] > 0 ? effect.means[k] - sum / count : 0;
+            effect.share += counts[k] * off * off / squares;
+        }
+        out.push_back(std::move(effect));
+    }
+    std::stable_sort(out.begin(), out.end(), [](const AxisEffect& x, const AxisEffect& y) { return x.share > y.share; });
+    return out;
+}
+
+std::vector<std::vector<double>> means_over(const SweepTable& table, const std::vector<double>& measure, std::size_t a, std::size_t b) {
+    const auto rows = table.points[a].size(), columns = table.points[b].size();
+    std::vector<std::vector<double>> sums(rows, std::vector<double>(columns)), counts = sums;
+    for (std::size_t r = 0; r < measure.size(); ++r) {
+        const auto i = level_of(table, a, r), j = level_of(table, b, r);
+        if (std::isfinite(measure[r]) && i < rows && j < columns) sums[i][j] += measure[r], ++counts[i][j];
+    }
+    for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t j = 0; j < columns; ++j) sums[i][j] = counts[i][j] > 0 ? sums[i][j] / counts[i][j] : nothing_there;
+    return sums;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,240 @@
+// What the program may replace: nothing that it reads, nothing that it did not write.
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "io/output.hpp"
+#include "io/output_check.hpp"
+#include "support/child_process.hpp"
+#include "support/places.hpp"
+#include "support/program.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Folder;
+using test::read_file;
+
+const char* const small_deck = "small\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\n.op\n.tran 10u 1m\n";
+
+std::string numbers() {
+    std::string text = "t_s,fz_N\n";
+    for (int k = 0; k < 300; ++k) text += fmt::format("{},{}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
+    return text;
+}
+
+/// Every file below a folder, with its bytes.
+std::map<std::string, std::string> contents(const Folder& folder) {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+        if (entry.is_regular_file()) all[entry.path().string().substr(folder.path().size() + 1)] = read_file(entry.path().string());
+    return all;
+}
+
+TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
+    const Folder folder;
+    folder.write("a.cir", std::string(small_deck) + ".include part-1.csv\n");
+    folder.write("part-1.csv", "* nothing\n");
+    folder.write("f.csv", numbers());
+    for (const char* name : {"psth.csv", "spikes.csv", "traces.csv", "units.csv", "page.html"}) folder.write(name, numbers());
+    folder.write("layout.html", "channel,name,x_mm,y_mm\n1,a,0,0\n");
+    fs::create_symlink("f.csv", folder / "link.csv");
+    fs::create_hard_link(folder / "f.csv", folder / "hard.csv");
+    ASSERT_EQ(test::run(folder, "stream --in press --pace fast -o /dev/null --save-state s.state -q").status, 0);
+    const auto before = contents(folder);
+    for (const std::string words : {
+             "respond psth.csv --bin 10ms -o .",
+             "respond spikes.csv -o .",
+             "respond traces.csv --traces -o .",
+             "respond spikes.csv -o . --overwrite",
+             "respond units.csv --population 'grid 1x1' -o .",
+             "respond page.html --report page.html",
+             "respond page.html --report page.html --overwrite",
+             "respond f.csv --layout layout.html --report layout.html",
+             "respond - --report page.html < page.html",
+             "run a.cir -o part.csv",
+             "export a.cir -o a.cir",
+             "export a.cir -o part-1.csv --overwrite",
+             "stream --in f.csv --pace fast -o f.csv",
+             "stream --in f.csv --pace fast -o link.csv --overwrite",
+             "stream --in f.csv --pace fast -o hard.csv --overwrite",
+             "stream --in f.csv --pace fast -o x.csv --save-state f.csv --overwrite",
+             "stream --in press --pace fast -o s.state --resume s.state --overwrite",
+             "stream --rate 1kHz -o f.csv --overwrite < f.csv",
+         }) {
+        const auto ran = test::run(folder, words);
+        EXPECT_EQ(ran.status, 2) << words << '\n' << ran.err;
+        EXPECT_NE(ran.err.find("this output would replace a file that the command reads"), std::string::npos) << words << '\n' << ran.err;
+        EXPECT_EQ(contents(folder), before) << words;
+    }
+    EXPECT_EQ(test::run(folder, "stream --in press --pace fast -o /dev/null --resume s.state --save-state s.state -q").status, 0)
+        << "a state is replaced by its successor";
+}
+
+TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
+    struct Case {
+        const char *file, *words;
+    };
+    for (const auto& c :
+         {Case{"own/spikes.csv", "respond press -o own"}, Case{"own/summary.json", "respond press -o own"},
+          Case{"own/units.csv", "respond press --population 'grid 4x4' -o own"}, Case{"own/report.html", "respond press -o own --report"},
+          Case{"x.html", "respond press --report x.html"}, Case{"x-1.csv", "run a.cir -o x.csv"}, Case{"x-2.csv", "run a.cir -o x.csv"},
+          Case{"x.raw", "run a.cir -o x.raw"}, Case{"x.raw.part", "run a.cir -o x.raw"}, Case{"x.cir", "export a.cir -o x.cir"},
+          Case{"x.csv", "stream --in press --pace fast -o x.csv"}, Case{"x.csv.part", "stream --in press --pace fast -o x.csv"},
+          Case{"x.state", "stream --in press --pace fast -o /dev/null --save-state x.state"}, Case{"x.md", "study fig3 --markdown x.md"},
+          Case{"x.html", "study fig3 --report x.html"}}) {
+        const Folder folder;
+        folder.write("a.cir", small_deck);
+        fs::create_directory(folder / "own");
+        folder.write(c.file, "time,force\n0,1\n");
+        const auto refused = test::run(folder, c.words);
+        EXPECT_EQ(refused.status, 1) << c.words;
+        EXPECT_NE(refused.err.find("no earlier run of corpuscle wrote this file"), std::string::npos) << c.words << '\n' << refused.err;
+        EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
+        EXPECT_EQ(read_file(folder / c.file), "time,force\n0,1\n") << c.words;
+        EXPECT_EQ(test::run(folder, std::string(c.words) + " --overwrite -q").status, 0) << c.words;
+        EXPECT_NE(fs::exists(folder / c.file) ? read_file(folder / c.file) : "", "time,force\n0,1\n") << c.words;
+    }
+}
+
+TEST(Outputs, OfTheSameCommandAgainNeedNoWord) {
+    const Folder folder;
+    folder.write("a.cir", small_deck);
+    folder.write("f.csv", numbers());
+    for (const std::string words :
+         {"respond press -o answer --traces --npz --bin 10ms --wav --report", "respond press -o answer --vectors -a sa1-kim",
+          "respond f.csv -o answer", "respond press --population 'grid 4x4' -o answer --report --events aer",
+          "respond press --report page.html", "respond press --report", "run a.cir -o x.csv", "run a.cir -o x.raw",
+          "run a.cir -o y.raw --ascii", "export a.cir -o x.cir", "study fig3 --report s.html --markdown s.md",
+          "stream --in press --pace fast -o a.csv --save-state a.state", "stream --in press --pace fast -o a.jsonl --format jsonl",
+          "stream --in press --pace fast -o a.aer --format aer", "stream --in press --pace fast -o a.aedat --format aedat2"})
+        for (int k = 0; k < 2; ++k) {
+            const auto ran = test::run(folder, words + " -q");
+            EXPECT_EQ(ran.status, 0) << words << '\n' << ran.err;
+        }
+    const auto cir = read_file(folder / "a.cir");
+    folder.write("a.cir", cir + ".save v(out) i(v1)\n");
+    EXPECT_EQ(test::run(folder, "run a.cir -o x.csv -q").status, 0) << "other columns of the same netlist";
+    folder.write("empty.csv", "");
+    EXPECT_EQ(test::run(folder, "stream --in press --pace fast -q -o empty.csv").status, 0) << "nothing is lost with it";
+}
+
+TEST(Outputs, TwoOfOneCommandAreTwoFiles) {
+    const Folder folder;
+    const auto ran = test::run(folder, "stream --in press --pace fast -o x.csv --save-state ./x.csv");
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.err.find("two outputs of this command have this name"), std::string::npos) << ran.err;
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Outputs, ASummaryOfOthersRemovesAndReplacesNothing) {
+    const Folder folder;
+    for (const char* name : {"thesis.tex", "vectors.csv", "traces-x.csv", "notes.html", "target.csv"}) folder.write(name, "mine");
+    fs::create_directory(folder / "d");
+    for (const char* name : {"thesis.tex", "notes.html"}) folder.write(std::string("d/") + name, "mine");
+    fs::create_symlink("../target.csv", folder / "d/psth.csv");
+    folder.write("d/summary.json",
+                 R"({"program":"corpuscle","files":["thesis.tex","../thesis.tex","notes.html","psth.csv","../vectors.csv",".",""]})");
+    const auto ran = test::run(folder, "respond press -o d");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
+    for (const char* name : {"thesis.tex", "vectors.csv", "traces-x.csv", "notes.html", "target.csv", "d/thesis.tex", "d/notes.html"})
+        EXPECT_EQ(read_file(folder / name), "mine") << name;
+    EXPECT_TRUE(fs::is_symlink(folder / "d/psth.csv"));
+}
+
+TEST(Outputs, AnInputThatAnEarlierRunWroteStays) {
+    const Folder folder;
+    ASSERT_EQ(test::run(folder, "respond press --traces -o . -q").status, 0);
+    const auto ran = test::run(folder, "respond traces.csv --channel 1 -o .");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_TRUE(fs::exists(folder / "traces.csv"));
+    EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
+}
+
+TEST(Outputs, OfKilledRunsAreClearedByTheNext) {
+    const Folder folder;
+    const auto begin = [&](std::vector<std::string> words) {
+        const pid_t child = test::fork_child();
+        if (child != 0) return child;
+        words.insert(words.begin(), test::program());
+        std::vector<char*> arguments;
+        for (auto& w : words) arguments.push_back(w.data());
+        arguments.push_back(nullptr);
+        if (::chdir(folder.path().c_str()) == 0) ::execv(arguments[0], arguments.data());
+        std::_Exit(99);
+    };
+    const auto parts = [&] {
+        int count = 0;
+        for (const auto& name : folder.names()) count += name.find(".part-") != name.npos;
+        return count;
+    };
+    const auto endless = begin({"respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--traces", "-q", "-o", "a"});
+    for (int k = 0; k < 500 && parts() < 3; ++k) ::usleep(10000);
+    EXPECT_EQ(parts(), 3);
+    EXPECT_EQ(test::run(folder, "respond press -o a -q").status, 0) << "while another is at work there";
+    EXPECT_EQ(parts(), 3) << "what is in use stays";
+    test::signal_child(endless, SIGKILL);
+    ::waitpid(endless, nullptr, 0);
+    folder.write("a/mine.csv.part-3", "mine");
+    folder.write("a/spikes.csv.part-iii", "mine");
+    EXPECT_EQ(test::run(folder, "respond press -o a -q").status, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "mine.csv.part-3", "spikes.csv", "spikes.csv.part-iii", "summary.json"}));
+}
+
+TEST(Outputs, PartsFollowNoLinks) {
+    const Folder folder;
+    folder.write("victim", "mine");
+    const auto part = fmt::format("x.csv.part-{}", ::getpid());
+    fs::create_symlink("victim", folder / part);
+    auto file = test::sure(OutputFile::create(folder / "x.csv"));
+    ASSERT_TRUE(file.write("1\n"));
+    ASSERT_TRUE(file.commit());
+    EXPECT_EQ(read_file(folder / "x.csv"), "1\n");
+    fs::create_symlink("victim", folder / "y.csv.part");
+    const auto growing = OutputFile::growing(folder / "y.csv");
+    ASSERT_FALSE(growing);
+    EXPECT_NE(growing.error().text().find("is a link or no plain file"), std::string::npos) << growing.error().text();
+    EXPECT_EQ(read_file(folder / "victim"), "mine");
+    fs::create_symlink("victim", folder / "r.sqlite-writer");
+    folder.write("s.toml", "afferent = \"sa1\"\nforce = \"press\"\n[[vary]]\nwhat = \"sa1.f_B\"\nvalues = [\"20 Hz\", \"21 Hz\"]\n");
+    EXPECT_EQ(test::run(folder, "sweep s.toml -o r.sqlite -q").status, 1);
+    EXPECT_EQ(read_file(folder / "victim"), "mine");
+}
+
+TEST(Outputs, ADeviceIsWrittenInPlace) {
+    auto file = test::sure(OutputFile::create("/dev/null"));
+    EXPECT_TRUE(file.write("x"));
+    EXPECT_TRUE(file.commit());
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(Outputs, AFullDiskBehindStandardOutputIsAnError) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const Folder folder;
+    folder.write("a.cir", small_deck);
+    ASSERT_EQ(test::run(folder, "respond press -o a -q").status, 0);
+    for (const std::string words :
+         {"respond press", "respond press --json", "respond press --population 'grid 4x4'", "run a.cir", "run a.cir --json", "study fig3",
+          "compare a/spikes.csv a/spikes.csv", "export a.cir", "list", "list --json", "--help", "--version"}) {
+        const auto status = std::system(("cd '" + folder.path() + "' && '" + test::program() + "' " + words + " >/dev/full 2>err").c_str());
+        EXPECT_EQ(WEXITSTATUS(status), 1) << words;
+        EXPECT_NE(read_file(folder / "err").find("standard output cannot be written to the end: No space left on device"),
+                  std::string::npos)
+            << words;
+    }
+}
+
+TEST(Outputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
+    const Folder folder;
+    const auto status = std::system(
+        ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program() + "' respond press --traces -o big -q) 2>err").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_EQ(read_file(folder / "err"), "corpuscle: big/traces.csv: cannot be written to the end: File too large\n");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"err"});
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,160 @@
+// What is printed: help that fits, names that cannot harm, commands that tell no directories.
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "io/spikes.hpp"
+#include "io/utf8.hpp"
+#include "support/places.hpp"
+#include "support/program.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using Json = nlohmann::json;
+
+std::size_t widest_line(const std::string& text) {
+    std::size_t widest = 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        widest = std::max(widest, static_cast<std::size_t>(std::count_if(
+                                      line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; })));
+    return widest;
+}
+
+/// No control character but the end of a line, no mark of direction, nothing but UTF-8.
+bool is_harmless(const std::string& text) {
+    for (const std::string mark : {"\xe2\x80\xae", "\xe2\x80\x8f", "\xe2\x81\xa6", "\xc2\x9b", "\x7f"})
+        if (text.find(mark) != text.npos) return false;
+    return is_utf8(text) && std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < 32 && c != '\n'; });
+}
+
+TEST(PrintedText, HelpFitsInAHundredColumnsAndShowsExamplesFirst) {
+    const Folder folder;
+    for (const std::string verb : {"", "respond", "compare", "study", "run", "export", "sweep", "sweep show", "sweep merge", "sweep dump",
+                                   "sweep calibrate", "stream", "list"}) {
+        const auto help = test::run(folder, verb + " --help");
+        EXPECT_EQ(help.status, 0) << verb;
+        EXPECT_LE(widest_line(help.out), 100U) << verb;
+        const auto example = help.out.find("\n  corpuscle "), options = help.out.find("\nOptions:");
+        ASSERT_NE(options, help.out.npos) << help.out;
+        EXPECT_TRUE(verb == "study" || example < options) << verb;
+        EXPECT_EQ(test::run(folder, "help " + verb).out, help.out) << verb;
+    }
+}
+
+TEST(PrintedText, TheProgramAloneHelpsAndAWrongVerbIsToldTheRightOne) {
+    const Folder folder;
+    const auto alone = test::run(folder, "");
+    EXPECT_EQ(alone.status, 0);
+    EXPECT_EQ(alone.out, test::run(folder, "--help").out);
+    const auto wrong = test::run(folder, "resond press");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_EQ(wrong.err, "corpuscle: there is no verb 'resond'; did you mean 'respond'?\n");
+    const auto far = test::run(folder, "frobnicate");
+    EXPECT_EQ(far.status, 2);
+    EXPECT_NE(far.err.find("there is no verb 'frobnicate'; there are respond, compare"), std::string::npos) << far.err;
+    for (const std::string verb : {"respond", "stream", "sweep show", "list"})
+        EXPECT_EQ(test::run(folder, verb + " --version").out, test::run(folder, "--version").out) << verb;
+}
+
+TEST(PrintedText, AReportIsAPageByItsName) {
+    const Folder folder;
+    for (const std::string words : {"respond press --report x.pdf", "respond press --report my_report", "study fig3 --report x",
+                                    "sweep show r.sqlite --report r.sqlite"}) {
+        const auto ran = test::run(folder, words);
+        EXPECT_EQ(ran.status, 2) << words;
+        EXPECT_NE(ran.err.find("needs a name that ends in .html, such as "), std::string::npos) << ran.err;
+    }
+    EXPECT_TRUE(folder.names().empty());
+    EXPECT_EQ(test::run(folder, "respond --report press -q").status, 0) << "a stimulus behind --report is a force";
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"report.html"});
+}
+
+TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
+    const Folder folder;
+    std::string text =
+        "time_s,\"a\x1b]0,title\x07"
+        "b_N\",\"c\xc2\x9b"
+        "d_N\",\"e\xe2\x80\xae"
+        "f_N\",g\xe9_N\n";
+    for (int k = 0; k < 300; ++k) text += fmt::format("{},{},2,3,1\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
+    folder.write("c.csv", text);
+    folder.write("n.cir", "a \x1b[31m title\nv1 in 0 1\nr1 in 0 1k\n.op\n.expect v(in) 2 1e-9\n");
+    for (const std::string words :
+         {"respond c.csv -o c", "respond c.csv --json", "respond c.csv --channel \"$(printf 'x\\033[31mz')\"",
+          "respond \"$(printf 'no\\nname\\033')\"", "compare c/spikes.csv c/spikes.csv", "compare c/spikes.csv c/spikes.csv --json",
+          "run n.cir", "run n.cir --json", "run \"$(printf 'no\\033.cir')\"", "\"$(printf 'verb\\033')\"",
+          "respond \"$(printf -- '--x\\033')\""}) {
+        const auto ran = test::run(folder, words);
+        EXPECT_TRUE(is_harmless(ran.out)) << words << '\n' << ran.out;
+        EXPECT_TRUE(is_harmless(ran.err)) << words << '\n' << ran.err;
+    }
+    const auto table = test::run(folder, "respond c.csv").out;
+    EXPECT_NE(table.find("a\\x1b]0,title\\x07b"), std::string::npos) << table;
+    EXPECT_NE(table.find("e\\u202ef"), std::string::npos) << table;
+    EXPECT_EQ(Json::parse(test::run(folder, "respond c.csv --json").out)["inputs"][0]["channels"][0],
+              "a\x1b]0,title\x07"
+              "b")
+        << "as data it is what it was";
+}
+
+TEST(PrintedText, SpikesCsvIsUtf8AndNamesComeBackAsTheyWere) {
+    const Folder folder;
+    std::string text = "time_s,Kraft f\xfcr_N,\"h \"\"q, r\"\" i_N\",=cmd|x_N\n";
+    for (int k = 0; k < 500; ++k) text += fmt::format("{0},{1},{1},{1}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
+    folder.write("c.csv", text);
+    ASSERT_EQ(test::run(folder, "respond c.csv -o c -q").status, 0);
+    EXPECT_TRUE(is_utf8(test::read_file(folder / "c/spikes.csv")));
+    std::set<std::string> channels;
+    for (const auto& train : test::sure(read_spikes(folder / "c/spikes.csv"))) channels.insert(train.channel);
+    EXPECT_EQ(channels, (std::set<std::string>{"Kraft f\xc3\xbcr", "h \"q, r\" i", "=cmd|x"}));
+    EXPECT_EQ(utf8_text("\x80 \xb5"), "\xe2\x82\xac \xc2\xb5") << "Windows' euro, Latin-1's micro";
+}
+
+TEST(PrintedText, PagesAndSummariesTellNoDirectories) {
+    const Folder folder;
+    std::filesystem::create_directories(folder / "secret/deep");
+    std::string text = "t_s,fz_N\n";
+    for (int k = 0; k < 300; ++k) text += fmt::format("{},{}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
+    folder.write("secret/deep/f.csv", text);
+    folder.write("secret/deep/layout.csv", "channel,name,x_mm,y_mm\nfz,thumb,1,2\n");
+    const auto at = folder / "secret/deep/";
+    ASSERT_EQ(test::run(folder, "respond '" + at + "f.csv' --layout='" + at + "layout.csv' -o secret/answer --report -q").status, 0);
+    for (const char* name : {"report.html", "summary.json", "spikes.csv"})
+        EXPECT_EQ(test::read_file(folder / ("secret/answer/" + std::string(name))).find("secret"), std::string::npos) << name;
+    EXPECT_NE(
+        test::read_file(folder / "secret/answer/report.html").find("corpuscle respond f.csv --layout=layout.csv -o answer --report -q"),
+        std::string::npos);
+}
+
+TEST(PrintedText, OneDocumentHoldsTheTimeOfEverySpike) {
+    const Folder folder;
+    const auto document = Json::parse(test::run(folder, "respond press noise -a sa1,fa1 --json -o a").out);
+    std::size_t count = 0;
+    for (const auto& unit : document["spikes"]) count += unit["times_s"].size();
+    ASSERT_EQ(document["spikes"].size(), 4U);
+    EXPECT_EQ(document["spikes"][1]["afferent"], "fa1");
+    std::size_t rows = 0;
+    for (const auto& train : test::sure(read_spikes(folder / "a/spikes.csv"))) rows += train.times.size();
+    EXPECT_EQ(count, rows);
+    EXPECT_NEAR(document["spikes"][0]["times_s"][0].get<double>(), 0.319558712, 1e-9);
+    EXPECT_FALSE(Json::parse(test::read_file(folder / "a/summary.json")).contains("spikes")) << "spikes.csv has them";
+}
+
+TEST(PrintedText, TablesFitInAHundredColumnsAndHaveNoMinusZero) {
+    const Folder folder;
+    std::string text = "t_s,fz_N\n";
+    for (int k = 0; k < 300; ++k) text += fmt::format("{},{}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
+    folder.write("f.csv", text);
+    ASSERT_EQ(test::run(folder, "respond press -a sa1,sa1-kim -o a -q").status, 0);
+    for (const std::string words : {"compare a/spikes.csv a/spikes.csv", "respond press -a sa1,sa1-kim --copies 9 --spread sa1.f_B=10%"})
+        EXPECT_LE(widest_line(test::run(folder, words).out), 100U) << test::run(folder, words).out;
+    EXPECT_NE(test::run(folder, "respond f.csv --scale=-1").out.find(", -2 to 0 N\n"), std::string::npos)
+        << test::run(folder, "respond f.csv --scale=-1").out;
+}
+
+}  // namespace
+}  // namespace corpuscle

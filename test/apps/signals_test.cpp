@@ -1,0 +1,94 @@
+// Signals: who gets them, and what they end.
+
+#include <sys/stat.h>
+#include <filesystem>
+#include <fstream>
+
+#include "support/child_process.hpp"
+#include "support/places.hpp"
+#include "support/program.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Folder;
+
+/// Lines of our sources that signal a process, as file:text.
+std::vector<std::string> lines_that_signal() {
+    std::vector<std::string> out;
+    for (const char* room : {"src", "apps", "test", "bench", "examples"})
+        for (const auto& entry : fs::recursive_directory_iterator(test::root() + "/" + room)) {
+            const auto path = entry.path().string();
+            if (!entry.is_regular_file() || !(path.ends_with(".cpp") || path.ends_with(".hpp") || path.ends_with(".py"))) continue;
+            std::ifstream in(path);
+            for (std::string line; std::getline(in, line);)
+                for (const std::string call : {" kill(", "::kill(", "(kill(", "killpg(", "os.kill", "sigqueue("})
+                    if (line.find(call) != line.npos && line.find("\"") == line.npos) {
+                        out.push_back(path.substr(test::root().size() + 1) + ":" + line);
+                        break;
+                    }
+        }
+    return out;
+}
+
+/// Where fork() or forkpty() fails, -1 is no process: a signal to it reaches every process of the machine.
+TEST(Signals, AreSentOnlyBehindACheckThatTheProcessWasStarted) {
+    const std::map<std::string, std::string> checked = {
+        {"src/io/helper_process.cpp", "behind child > 0"},
+        {"src/study/sweep/rank_words.cpp", "signal 0, which asks; behind a check of the id"},
+        {"test/support/child_process.hpp", "the check itself, and what says so"},
+    };
+    for (const auto& line : lines_that_signal()) EXPECT_TRUE(checked.contains(line.substr(0, line.find(':')))) << line;
+}
+
+TEST(Signals, AProcessThatWasNotStartedIsNeverSignalled) {
+    EXPECT_FALSE(test::signal_child(-1, 0));
+    EXPECT_FALSE(test::signal_child(0, 0));
+    EXPECT_FALSE(test::signal_child(-::getpid(), 0));
+    EXPECT_TRUE(test::signal_child(::getpid(), 0));
+}
+
+/// Its standard input is a pipe that stays open and quiet.
+int status_after(int signal, const Folder& folder, std::vector<std::string> words) {
+    int quiet[2];
+    if (::pipe2(quiet, O_CLOEXEC) != 0) return -1;
+    const pid_t child = test::fork_child();
+    if (child == 0) {
+        words.insert(words.begin(), test::program());
+        std::vector<char*> arguments;
+        for (auto& w : words) arguments.push_back(w.data());
+        arguments.push_back(nullptr);
+        ::dup2(quiet[0], 0);
+        if (::chdir(folder.path().c_str()) == 0 && std::freopen(".err", "w", stderr)) ::execv(arguments[0], arguments.data());
+        std::_Exit(99);
+    }
+    ::close(quiet[0]);
+    ::usleep(300'000);
+    test::signal_child(child, signal);
+    int status = -1;
+    for (int k = 0; k < 300 && ::waitpid(child, &status, WNOHANG) == 0; ++k) ::usleep(10'000);
+    if (status == -1) test::signal_child(child, SIGKILL), ::waitpid(child, nullptr, 0);
+    ::close(quiet[1]);
+    return status;
+}
+
+TEST(Signals, OneEndsAReadThatWaits) {
+    const Folder folder;
+    ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+    const std::vector<std::vector<std::string>> commands = {
+        {"respond", "-", "--rate", "1kHz", "-o", "new"},
+        {"respond", "fifo", "--rate", "1kHz", "-o", "new"},  // nobody writes it
+        {"run", "/dev/stdin"},
+    };
+    for (const auto& words : commands)
+        for (const int signal : {SIGINT, SIGTERM}) {
+            const int status = status_after(signal, folder, words);
+            ASSERT_TRUE(WIFEXITED(status)) << words[0] << ' ' << words[1] << ", signal " << signal << ", status " << status;
+            EXPECT_EQ(WEXITSTATUS(status), 130) << test::read_file(folder / ".err");
+            EXPECT_FALSE(fs::exists(folder / "new"));
+        }
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,155 @@
+// What a transient reports between its steps, and right after a corner: circuits whose answers are known.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "circuit/in_time.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double whole_turn = 2 * std::numbers::pi;
+
+/// The largest distance of a curve, straight between its points, from what it should be.
+template <class Exact>
+double furthest_from(const Ran& run, const std::string& curve, const Exact& exact, double from = 0) {
+    const auto t = run.curve("time"), v = run.curve(curve);
+    double most = 0;
+    for (std::size_t k = 1; k < t.size(); ++k)
+        for (const double part : {0.0, 0.5, 1.0}) {
+            const double at = t[k - 1] + part * (t[k] - t[k - 1]);
+            if (at >= from) most = std::max(most, std::abs(v[k - 1] + part * (v[k] - v[k - 1]) - exact(at)));
+        }
+    return most;
+}
+
+const std::string slow_inverter =
+    "inverter\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nvin in 0 sin(0.35 0.35 1k)\nmp out in vdd vdd pch w=1.5u l=0.5u\n"
+    "mn out in 0 0 nch w=1.5u l=0.5u\n";
+
+TEST(BetweenSteps, AnInverterStaysBetweenItsRails) {
+    const auto run = ran(slow_inverter +
+                         ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n"
+                         ".meas tran edge when v(out)=0.35 rise=1\n");
+    EXPECT_GT(run.number("low"), -1e-5);
+    EXPECT_LT(run.number("high"), 0.7 + 1e-5);
+    EXPECT_GT(run.number("high"), 0.7 - 1e-3);
+    // its input is slow: the edge is where .dc finds it
+    const auto still = ran(slow_inverter + ".dc vin 0 0.7 0.1m\n.meas dc at when v(out)=0.35\n");
+    EXPECT_NEAR(run.number("edge"), (0.5e-3 + std::asin((0.35 - still.number("at")) / 0.35) / (whole_turn * 1e3)), 20e-9);
+}
+
+TEST(BetweenSteps, ASineOverAResistorIsASine) {
+    const auto run =
+        ran("sine\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nr2 out 0 1k\n.tran 1u 3m\n"
+            ".meas tran top max v(in)\n.meas tran half max v(out)\n.meas tran rms rms v(in)\n.meas tran i max i(v1)\n");
+    EXPECT_NEAR(run.number("top"), 1, 2e-5);
+    EXPECT_NEAR(run.number("half"), 0.5, 2e-5);
+    EXPECT_NEAR(run.number("rms"), std::sqrt(0.5), 5e-5);
+    EXPECT_NEAR(run.number("i"), 0.5e-3, 2e-8);
+    const auto sine = [](double t) { return std::sin(whole_turn * 1e3 * t); };
+    EXPECT_LT(furthest_from(run, "v(in)", sine), 1e-4);
+    EXPECT_LT(furthest_from(run, "v(out)", [&](double t) { return sine(t) / 2; }), 1e-4);
+}
+
+TEST(BetweenSteps, ASourceIsAsItIsWritten) {
+    const auto run =
+        ran("cap\nv1 in 0 sin(0.2 1 1k)\nv2 top in 2\nc1 top 0 1n\nr1 top 0 1meg\n.tran 100u 3m\n.meas tran top max v(in)\n"
+            ".meas tran sum max v(top)\n.meas tran low min v(in)\n");
+    const auto sine = [](double t) { return 0.2 + std::sin(whole_turn * 1e3 * t); };
+    EXPECT_NEAR(run.number("top"), 1.2, 3e-5);
+    EXPECT_NEAR(run.number("low"), -0.8, 3e-5);
+    EXPECT_NEAR(run.number("sum"), 3.2, 1e-4);
+    EXPECT_LT(furthest_from(run, "v(in)", sine), 1e-4);
+    EXPECT_LT(furthest_from(run, "v(top)", [&](double t) { return sine(t) + 2; }), 1e-4);
+    const auto current = [&](double t) { return -(1e-9 * whole_turn * 1e3 * std::cos(whole_turn * 1e3 * t) + (sine(t) + 2) / 1e6); };
+    EXPECT_LT(furthest_from(run, "i(v1)", current, 1e-5), 1e-4 * 1e-5);
+}
+
+TEST(BetweenSteps, ADiodeLetsNothingBack) {
+    const auto run =
+        ran("diode\nv1 in 0 sin(0 5 1k)\nd1 in out d\nr1 out 0 1k\n.model d d(is=1e-14)\n.tran 1u 3m\n"
+            ".meas tran low min v(out)\n.meas tran high max v(out)\n.meas tran i max i(v1)\n");
+    EXPECT_GT(run.number("low"), -1e-5);
+    EXPECT_LT(run.number("i"), 1e-8);
+    // 5 V = v + V_T ln(1 + v / 1k / 10 fA)
+    double v = 4;
+    for (int k = 0; k < 50; ++k) v = 5 - 0.0258649 * std::log1p(v / 1e3 / 1e-14);
+    EXPECT_NEAR(run.number("high"), v, 1e-4);
+}
+
+TEST(BetweenSteps, TwoDiodesClampWhatTheyClamp) {
+    const auto run =
+        ran("two\nv1 in 0 sin(0 5 1k)\nr1 in out 1k\nd1 out 0 d\nd2 0 out d\nc1 out 0 10f\n.model d d(is=1e-14)\n"
+            ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n");
+    double v = 0.7;
+    for (int k = 0; k < 50; ++k) v = 0.0258649 * std::log1p((5 - v) / 1e3 / 1e-14);
+    EXPECT_NEAR(run.number("high"), v, 1e-4);
+    EXPECT_NEAR(run.number("low"), -v, 1e-4);
+}
+
+/// A coil's voltage jumps where its source begins to rise, a capacitor's current likewise: a point of their own follows the corner.
+TEST(AfterACorner, AJumpIsNotDrawnAsARamp) {
+    const auto run =
+        ran("corner\nv1 a 0 pwl(0 0 1m 0 2m 1 3m 1)\nc1 a 0 1u\nl1 b 0 1m\nr2 b 0 1meg\ni1 0 b pwl(0 0 1m 0 2m 1m 3m 1m)\n"
+            ".tran 10u 3m\n");
+    const auto inside = [](double t) { return t > 1e-3 && t <= 2e-3; };
+    const auto t = run.curve("time"), i = run.curve("i(v1)"), v = run.curve("v(b)");
+    double early = 1;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+        EXPECT_NEAR(i[k], inside(t[k]) ? -1e-3 : 0, 1e-7) << t[k];
+        EXPECT_NEAR(v[k], inside(t[k]) ? 1e-3 : 0, 1e-7) << t[k];
+        if (t[k] > 1e-3) early = std::min(early, t[k] - 1e-3);
+    }
+    EXPECT_LT(early, 1e-9);
+    const auto ramps =
+        ran("exp\nv1 a 0 exp(0 1 1m 0.1m 2m 0.2m)\nc1 a 0 1n\n.tran 10u 4m\n.meas tran low min i(v1)\n"
+            ".meas tran high max i(v1)\n");
+    EXPECT_NEAR(ramps.number("low"), -1e-9 / 0.1e-3, 1e-9);
+    EXPECT_NEAR(ramps.number("high"), 1e-9 / 0.2e-3 * (1 - std::exp(-10)), 1e-9);
+}
+
+/// A comparator has no charge and no corner that a source would name; its edge is where its input crosses.
+TEST(BetweenSteps, AFormulasJumpIsWhereItsInputCrosses) {
+    const auto run =
+        ran("comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"
+            ".meas tran first when v(out)=0.5 rise=1\n.meas tran last when v(out)=0.5 fall=3\n.meas tran high max v(out)\n"
+            ".meas tran low min v(out)\n");
+    const double up = std::asin(0.3) / whole_turn * 1e-3;
+    EXPECT_NEAR(run.number("first"), up, 1e-8);
+    EXPECT_NEAR(run.number("last"), 2e-3 + 0.5e-3 - up, 1e-8);
+    EXPECT_NEAR(run.number("low"), 0, 1e-6);
+    EXPECT_NEAR(run.number("high"), 1, 1e-6);
+}
+
+/// i(v2) is the formula's current; v(a), all there is to weigh by charge, hardly moves where it jumps.
+TEST(AcceptedPoints, SatisfyTheEquationsWhereAFormulaJumps) {
+    const auto run =
+        ran("jump\ni1 0 a pulse(1u -1u 0 1n 1n 0.3m 0.6m)\nc1 a 0 1n\nr1 a 0 100meg\nv2 b 0 1\nb1 b 0 i=50u*u(v(a)-0.1)\n"
+            ".ic v(a)=0\n.tran 1u 3m\n");
+    const auto a = run.curve("v(a)"), i = run.curve("i(v2)"), t = run.curve("time");
+    int jumps = 0;
+    for (std::size_t k = 1; k < a.size(); ++k) {
+        if (std::abs(a[k] - 0.1) > 2e-5) {
+            EXPECT_NEAR(i[k], a[k] > 0.1 ? -50e-6 : 0, 1e-9) << t[k] << " " << a[k];
+        }
+        jumps += std::abs(i[k] - i[k - 1]) > 25e-6;
+    }
+    EXPECT_EQ(jumps, 10);
+}
+
+/// With nothing but what a spike is to look at: where the level is crossed within a step is as exact as the steps are.
+TEST(BetweenSteps, ASpikeOfANodeWithoutChargeIsWhereItIs) {
+    const auto run = ran(slow_inverter + ".spike v(out) 0.35\n.tran 50u 5m 0 100u\n");
+    const auto fine = ran(slow_inverter + ".spike v(out) 0.35\n.options accuracy=fine\n.tran 1u 5m 0 1u\n");
+    ASSERT_EQ(run.number("spikes"), 5);
+    ASSERT_EQ(fine.number("spikes"), 5);
+    EXPECT_NEAR(run.number("first_spike"), fine.number("first_spike"), 20e-9);
+    EXPECT_NEAR(run.number("last_spike"), fine.number("last_spike"), 20e-9);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit

@@ -1,0 +1,192 @@
+// Drawn circuits in time: every point that is reported, and the straight line to the next, lies where a run at a thousandth of the
+// tolerances has it.
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "circuit/random_circuits.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// A kind of circuit, and of those drawn the ones that no two runs agree on, each with the reason.
+struct DrawnKind {
+    const char* name;
+    int many;
+    std::string (*draw)(Dice&);
+    std::map<int, const char*> excused;
+};
+
+constexpr double stop = 3e-3;  // s
+
+std::string course(Dice& dice, double low, double high) {
+    const double middle = (low + high) / 2, swing = (high - low) / 2;
+    switch (dice.one_of(4)) {
+        case 0:
+            return fmt::format("sin({:g} {:g} {:g})", middle, swing, dice.decades(300, 5e3));
+        case 1:
+            return fmt::format("pulse({:g} {:g} {:g} {:g} {:g} {:g} {:g})", low, high, dice.between(0, 3e-4), dice.decades(1e-7, 1e-4),
+                               dice.decades(1e-7, 1e-4), dice.between(2e-4, 5e-4), dice.between(8e-4, 2e-3));
+        case 2:
+            return fmt::format("pwl(0 {:g} {:g} {:g} {:g} {:g} {:g} {:g})", low, dice.between(1e-4, 5e-4), high, dice.between(6e-4, 1e-3),
+                               dice.between(low, high), dice.between(1.2e-3, 2e-3), low);
+        default:
+            return fmt::format("exp({:g} {:g} {:g} {:g} {:g} {:g})", low, high, dice.between(1e-4, 5e-4), dice.decades(1e-5, 1e-3),
+                               dice.between(1e-3, 2e-3), dice.decades(1e-5, 1e-3));
+    }
+}
+
+/// Each node hangs on an earlier one by a resistor or a diode; clamps, capacitors and loads come and go.
+std::string diodes(Dice& dice) {
+    const int nodes = 3 + dice.one_of(4);
+    const double volts = dice.decades(0.3, 10);
+    std::string out = fmt::format("drawn diodes\nv1 n1 0 {}\n", course(dice, dice.one_of(2) ? -volts : 0, volts));
+    for (int k = 2; k <= nodes; ++k) {
+        const int from = 1 + dice.one_of(k - 1), way = dice.one_of(3);
+        if (way == 0)
+            out += fmt::format("r{} n{} n{} {:g}\n", k, from, k, dice.decades(1e3, 1e6));
+        else
+            out += fmt::format("d{} n{} n{} d\nr{} n{} n{} {:g}\n", k, way == 1 ? from : k, way == 1 ? k : from, k, from, k,
+                               dice.decades(1e6, 1e8));
+        if (dice.one_of(2)) out += fmt::format("rl{} n{} 0 {:g}\n", k, k, dice.decades(1e3, 1e7));
+        if (dice.one_of(2)) out += fmt::format("c{} n{} 0 {:g}\n", k, k, dice.decades(1e-14, 1e-7));
+        if (dice.one_of(4) == 0) out += fmt::format("cx{} n{} n{} {:g}\n", k, k, 1 + dice.one_of(k - 1), dice.decades(1e-13, 1e-8));
+        if (dice.one_of(4) == 0) out += fmt::format("dc{} n{} 0 d\n", k, k);
+        if (dice.one_of(4) == 0) out += fmt::format("dg{} 0 n{} d\n", k, k);
+    }
+    return out + fmt::format(".model d d(is={:g} n={:g} cjo={:g})\n", dice.decades(1e-16, 1e-10), dice.between(1, 2),
+                             dice.one_of(2) ? 0 : dice.decades(1e-14, 1e-11));
+}
+
+/// Inverters, loaded stages, followers and passes, one behind another under a supply of 0.7 V; most of their charges are their own.
+std::string transistors(Dice& dice) {
+    const int nodes = 3 + dice.one_of(3);
+    std::string out = fmt::format("drawn transistors\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nv1 n1 0 {}\n", course(dice, 0, 0.7));
+    const auto size = [&] { return fmt::format("w={:.3g}u l={:.3g}u", dice.between(0.4, 6), dice.between(0.4, 2)); };
+    for (int k = 2; k <= nodes; ++k) {
+        const int from = 1 + dice.one_of(k - 1), other = 1 + dice.one_of(k - 1);
+        switch (dice.one_of(5)) {
+            case 0:
+            case 1:
+                out += fmt::format("mp{0} n{0} n{1} vdd vdd pch {2}\nmn{0} n{0} n{1} 0 0 nch {3}\n", k, from, size(), size());
+                break;
+            case 2:
+                out += fmt::format("mn{0} n{0} n{1} 0 0 nch {2}\nr{0} vdd n{0} {3:g}\n", k, from, size(), dice.decades(1e5, 1e8));
+                break;
+            case 3:
+                out += fmt::format("mn{0} vdd n{1} n{0} 0 nch {2}\nr{0} n{0} 0 {3:g}\n", k, from, size(), dice.decades(1e5, 1e8));
+                break;
+            default:
+                out += fmt::format("mn{0} n{1} n{2} n{0} 0 nch {3}\nr{0} n{0} 0 {4:g}\n", k, from, other, size(), dice.decades(1e6, 1e9));
+        }
+        if (dice.one_of(3) == 0) out += fmt::format("c{} n{} 0 {:g}\n", k, k, dice.decades(1e-16, 1e-11));
+    }
+    return out;
+}
+
+/// A run as a polyline, each unknown's smallest and largest value in a stretch of time.
+class Drawn {
+    const Points& points_;
+
+public:
+    explicit Drawn(const Points& points) : points_(points) {}
+    double at(double t, std::size_t n) const {
+        const auto& all = points_.t;
+        const auto after = static_cast<std::size_t>(std::upper_bound(all.begin(), all.end(), t) - all.begin());
+        if (after == 0) return points_.x.front()[n];
+        if (after == all.size()) return points_.x.back()[n];
+        const double part = (t - all[after - 1]) / (all[after] - all[after - 1]);
+        return points_.x[after - 1][n] + part * (points_.x[after][n] - points_.x[after - 1][n]);
+    }
+    /// How far x is from all that unknown n is within `slack` of t.
+    double distance(double t, std::size_t n, double x, double slack) const {
+        double low = at(t - slack, n), high = low;
+        const auto take = [&](double y) { low = std::min(low, y), high = std::max(high, y); };
+        take(at(t + slack, n)), take(at(t, n));
+        const auto& all = points_.t;
+        for (auto k = std::lower_bound(all.begin(), all.end(), t - slack); k != all.end() && *k <= t + slack; ++k)
+            take(points_.x[static_cast<std::size_t>(k - all.begin())][n]);
+        return std::max({low - x, x - high, 0.0});
+    }
+};
+
+/// The worst of all points, of 10 x reltol x span + floor; `where` says which.
+double worst_point(const InTime& circuit, const Points& run, const Points& fine, const TransientPlan& plan, std::string& where) {
+    const double slack = 10 * plan.reltol * 1e-4 * stop;  // when a jump comes, and which points follow a corner at once
+    const Drawn truth(fine);
+    const auto count = static_cast<std::size_t>(circuit.system().size());
+    std::vector<double> low = fine.x[0], high = fine.x[0];
+    for (const auto& x : fine.x)
+        for (std::size_t n = 0; n < count; ++n) low[n] = std::min(low[n], x[n]), high[n] = std::max(high[n], x[n]);
+    double largest = 0;
+    for (std::size_t n = 0; n < count; ++n)
+        if (!circuit.system().is_voltage(static_cast<int>(n))) largest = std::max({largest, std::abs(low[n]), std::abs(high[n])});
+    double worst = 0;
+    for (std::size_t k = 1; k < run.t.size(); ++k)
+        for (const double part : {0.5, 1.0})
+            for (std::size_t n = 0; n < count; ++n) {
+                const double t = run.t[k - 1] + part * (run.t[k] - run.t[k - 1]);
+                const double x = run.x[k - 1][n] + part * (run.x[k][n] - run.x[k - 1][n]);
+                const bool voltage = circuit.system().is_voltage(static_cast<int>(n));
+                const double floor = 10 * (voltage ? plan.vntol : plan.abstol + 1e-9 * largest);
+                const double off = truth.distance(t, n, x, slack) / (10 * plan.reltol * (high[n] - low[n]) + floor);
+                if (off > worst)
+                    worst = off, where = fmt::format("{} is {:.9g} at {:.9g} s{}, and {:.9g} by the finer run", circuit.system().names()[n],
+                                                     x, t, part < 1 ? " (between points)" : "", truth.at(t, n));
+            }
+    return worst;
+}
+
+class ReportedPoints : public testing::TestWithParam<DrawnKind> {};
+
+TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
+    const auto kind = GetParam();
+    for (int k = 0; k < kind.many; ++k) {
+        Dice dice(static_cast<std::uint64_t>(1000 + k));
+        const auto text = kind.draw(dice) + fmt::format(".tran 1u {:g}\n", stop);
+        if (kind.excused.count(k)) continue;
+        const auto circuit = InTime::text(text);
+        TransientPlan plan;
+        plan.all_reported = true;
+        auto finer = plan;
+        for (double* tolerance : {&finer.reltol, &finer.vntol, &finer.abstol}) *tolerance /= 1000;
+        const auto run = circuit.run(plan), fine = circuit.run(finer);
+        ASSERT_EQ(run.wrong + fine.wrong, "") << kind.name << " " << k << "\n" << text;
+        std::string where;
+        const double worst = worst_point(circuit, run, fine, plan, where);
+        if (std::getenv("CORPUSCLE_SHOW"))
+            std::printf("%s %d: %.2f, %ld steps, %ld rejected, %ld iterations; finer %ld; %s\n", kind.name, k, worst, run.work.steps,
+                        run.work.rejected, run.work.iterations, fine.work.steps, where.c_str());
+        EXPECT_LE(worst, 1) << kind.name << " " << k << ": " << where << "\n" << text;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, ReportedPoints,
+                         testing::Values(DrawnKind{"Diodes", 60, diodes, {}}, DrawnKind{"Transistors", 60, transistors, {}}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+/// What swings by itself is compared by its period.
+TEST(ReportedOscillation, HasThePeriodOfAFinerRun) {
+    const auto ring = [](const std::string& options) {
+        std::string text = "ring\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\n.options " + options + "\n.ic v(n0)=0\n";
+        for (int k = 0; k < 5; ++k)
+            text += fmt::format("mp{0} n{1} n{0} vdd vdd pch w=1.5u l=0.5u\nmn{0} n{1} n{0} 0 0 nch w=0.5u l=0.5u\n", k, (k + 1) % 5);
+        return ran(text +
+                   ".tran 1n 0.3u\n.meas tran period trig v(n0)=0.35 rise=3 targ v(n0)=0.35 rise=13\n"
+                   ".meas tran high max v(n0)\n.meas tran low min v(n0)\n");
+    };
+    const auto usual = ring("accuracy=normal"), fine = ring("reltol=1e-8 vntol=1e-9");
+    EXPECT_NEAR(usual.number("period"), fine.number("period"), 1e-3 * fine.number("period"));
+    EXPECT_NEAR(usual.number("high"), fine.number("high"), 1e-3);
+    EXPECT_NEAR(usual.number("low"), fine.number("low"), 1e-3);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit

@@ -1,0 +1,425 @@
+// Recordings as loggers, spreadsheets and scripts write them: clocks, units, preambles, packing; and what is no force.
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cstdlib>
+
+#include "support/recordings.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using test::recording;
+using test::try_recording;
+
+std::string logger_file(const std::string& name) { return test::root() + "/examples/data/loggers/" + name; }
+
+/// What is read of a text.
+test::WholeRecording read_logged(const Folder& folder, const std::string& text, const RecordingOptions& options = {},
+                                 const std::string& name = "x.csv") {
+    return recording(folder.write(name, text), options);
+}
+
+std::string refused_logged(const Folder& folder, const std::string& text, const RecordingOptions& options = {},
+                           const std::string& name = "x.csv") {
+    return test::refusal(folder.write(name, text), options);
+}
+
+bool some_remark(const test::WholeRecording& r, const std::string& words) {
+    return std::any_of(r.remarks.begin(), r.remarks.end(), [&](const auto& s) { return s.find(words) != s.npos; });
+}
+
+/// Rows of a ramp, each made by `row` of the time and the force.
+template <class Row>
+std::string rows_of(int count, const Row& row) {
+    std::string text;
+    for (int k = 0; k < count; ++k) text += row(k, 0.01 * k, 0.05 * k);
+    return text;
+}
+
+TEST(LoggerFiles, SevenKindsAreReadAlikeWithoutAnyOption) {
+    const auto press = recording(logger_file("preamble.csv"));
+    ASSERT_EQ(press.force[0].size(), 200U);
+    EXPECT_NEAR(*std::max_element(press.force[0].begin(), press.force[0].end()), 2.4, 0.15);
+    for (const auto* name : {"excel.csv", "iso-time.csv", "unix-time.csv", "slash-units.csv", "unit-row.csv", "labview.lvm"}) {
+        const auto same = recording(logger_file(name));
+        ASSERT_EQ(same.force.size(), 1U) << name;
+        EXPECT_NEAR(same.clock.rate(), 100, 1e-9) << name;
+        EXPECT_NEAR(same.clock.t0, 0, 1e-12) << name;
+        ASSERT_EQ(same.force[0].size(), 200U) << name;
+        for (std::size_t k = 0; k < 200; ++k) EXPECT_NEAR(same.force[0][k], press.force[0][k], 1e-9) << name << ", sample " << k;
+    }
+}
+
+TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatTakesOneOut) {
+    const Folder folder;
+    std::filesystem::copy(logger_file("trials.csv"), folder / "trials.csv");
+    const auto said = try_recording(folder / "trials.csv").error().text();
+    const auto at = said.find("awk ");
+    ASSERT_NE(at, said.npos) << said;
+    EXPECT_NE(said.find("told apart by 'trial'"), said.npos) << said;
+    ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
+    const auto one = recording(folder / "trial.csv");
+    EXPECT_EQ(one.names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(one.force[0].size(), 100U);
+    EXPECT_TRUE(some_remark(one, "'trial' tells trials apart: left out"));
+}
+
+TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
+    for (const std::string separator : {";", "\t", " "}) {
+        const Folder folder;
+        std::string text = "# of a study\nsubject" + separator + "t_s" + separator + "F_N\n";
+        for (const std::string subject : {"S01", "S02"})
+            text += rows_of(30, [&](int, double t, double F) { return subject + separator + fmt::format("{}{}{}\n", t, separator, F); });
+        const auto said = try_recording(folder.write("all.txt", text)).error().text();
+        const auto at = said.find("awk ");
+        ASSERT_NE(at, said.npos) << said;
+        ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
+        EXPECT_EQ(recording(folder / "trial.csv").force[0].size(), 30U) << said;
+    }
+}
+
+TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
+    const Folder folder;
+    for (const std::string heading :
+         {"Zeit [s]", "unix_time_s", "t_s", "Elapsed Time (sec)", "Time/s", "duration [s]", "time in s", "stamp_s"}) {
+        const auto r =
+            read_logged(folder, heading + ";F [N]\n" + rows_of(20, [](int, double t, double F) { return fmt::format("{};{}\n", t, F); }));
+        EXPECT_NEAR(r.clock.rate(), 100, 1e-6) << heading;
+        EXPECT_EQ(r.names, std::vector<std::string>{"F"}) << heading;
+    }
+    const auto path = folder.write(
+        "x.csv", "Zeit [ms];Kraft [N]\n" + rows_of(20, [](int k, double, double F) { return fmt::format("{};{}\n", 10 * k, F); }));
+    EXPECT_NEAR(recording(path).clock.rate(), 100, 1e-6);
+    for (const std::string asked : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
+        EXPECT_NEAR(recording(path, {.time = asked}).clock.rate(), 100, 1e-6) << asked;
+    EXPECT_TRUE(some_remark(recording(path), "'Zeit' was taken as the time"));
+}
+
+TEST(LoggerFiles, AColumnWithATimeLikeNameThatDoesNotRiseIsNoTime) {
+    const Folder folder;
+    EXPECT_NE(refused_logged(folder, "response_time,F_N\n0.3,1\n0.2,2\n0.4,3\n").find("there is no time column"), std::string::npos);
+}
+
+TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
+    const Folder folder;
+    const auto clock = [&](const std::string& first, const std::string& second, const std::string& third) {
+        return read_logged(folder, "when;F_N\n" + first + ";1\n" + second + ";2\n" + third + ";3\n").clock.rate();
+    };
+    EXPECT_NEAR(clock("2026-03-01T12:00:00.000Z", "2026-03-01T12:00:00.005Z", "2026-03-01T12:00:00.010Z"), 200, 1e-6);
+    EXPECT_NEAR(clock("2026-03-01 12:00:00.000", "2026-03-01 12:00:00.005", "2026-03-01 12:00:00.010"), 200, 1e-6);
+    EXPECT_NEAR(clock("2026-03-01T12:00:00,000+01:00", "2026-03-01T12:00:00,005+01:00", "2026-03-01T12:00:00,010+01:00"), 200, 1e-6);
+    EXPECT_NEAR(clock("01.03.2026 12:00:00.000", "01.03.2026 12:00:00.005", "01.03.2026 12:00:00.010"), 200, 1e-6);
+    EXPECT_NEAR(clock("12:00:00.000", "12:00:00.005", "12:00:00.010"), 200, 1e-6);
+    EXPECT_NEAR(clock("23:59:59.995", "00:00:00.000", "00:00:00.005"), 200, 1e-6) << "midnight passes";
+    EXPECT_NEAR(clock("2026-02-28 23:59:59.995", "2026-03-01 00:00:00.000", "2026-03-01 00:00:00.005"), 200, 1e-6);
+    const auto r = read_logged(folder, "time,F_N\n2026-03-01T12:00:00,1\n2026-03-01T12:00:01,2\n2026-03-01T12:00:02,3\n");
+    EXPECT_EQ(r.clock.t0, 0);
+    EXPECT_TRUE(some_remark(r, "0 s is 2026-03-01 12:00:00.000, the first time in 'time'"));
+    const auto bare = read_logged(folder, "2026-03-01T12:00:00.000,1\n2026-03-01T12:00:00.010,2\n2026-03-01T12:00:00.020,3\n");
+    EXPECT_EQ(bare.force[0].size(), 3U) << "without a header the first row is a row";
+    const auto two = read_logged(folder, "Date,Time,F_N\n2026-03-01,12:00:00.00,1\n2026-03-01,12:00:00.01,2\n2026-03-01,12:00:00.02,3\n");
+    EXPECT_EQ(two.force.size(), 1U);
+    EXPECT_NEAR(two.clock.rate(), 100, 1e-6);
+}
+
+TEST(LoggerFiles, TimesThatCannotBeReadNameTheRemedyThatWorks) {
+    const Folder folder;
+    const std::string text = "time,F_N\n03/01/2026 12:00,1\n03/01/2026 12:01,2\n";
+    EXPECT_NE(refused_logged(folder, text).find("'03/01/2026 12:00' where a number should be; --rate, such as --rate 1kHz, takes the rows"),
+              std::string::npos);
+    EXPECT_EQ(recording(folder / "x.csv", {.rate = 1000}).force[0].size(), 2U);
+    EXPECT_NE(refused_logged(folder, "time,F_N\n12:00:00.0,1\n12:00:00.1,2\n", {.time_unit = "ms"}).find("have no unit; leave it out"),
+              std::string::npos);
+}
+
+TEST(LoggerFiles, TimesSince1970AreRecognisedByTheirSize) {
+    const Folder folder;
+    for (const auto& [start, step, unit] :
+         {std::tuple{1772366400.0, 0.01, "s"}, {1772366400e3, 10.0, "ms"}, {1772366400e6, 1e4, "us"}, {1772366400e9, 1e7, "ns"}}) {
+        std::string text = "timestamp,F_N\n";
+        for (int k = 0; k < 50; ++k) text += fmt::format("{:.2f},{}\n", start + k * step, 0.1 * k);
+        const auto r = read_logged(folder, text);
+        EXPECT_NEAR(r.clock.rate(), 100, 1e-3) << unit;
+        EXPECT_EQ(r.clock.t0, 0) << unit;
+        EXPECT_TRUE(some_remark(r, fmt::format("are {} since 1970; 0 s is 2026-03-01 12:00:00.000 (UTC)", unit))) << unit;
+    }
+}
+
+TEST(LoggerFiles, UnitsBehindASlashAndInARowOfTheirOwnAreSeen) {
+    const Folder folder;
+    const auto slash = read_logged(folder, "Time/s,Fz/mN,v/(m/s)\n0,500,1\n1,1000,1\n");
+    EXPECT_EQ(slash.names, std::vector<std::string>{"Fz"});
+    EXPECT_NEAR(slash.force[0][1], 1, 1e-12);
+    EXPECT_TRUE(some_remark(slash, "'v' is in m/s, which is no force: left out"));
+    const auto topics = read_logged(folder, "time,/ft/wrench/force/z,imu/x\n0,1,2\n1,1,2\n");
+    EXPECT_EQ(topics.names, (std::vector<std::string>{"/ft/wrench/force/z", "imu/x"})) << "paths are names";
+    const auto row = read_logged(folder, "Time;Fz;note\n[s];[mN];-\n0;500;a\n1;1000;b\n");
+    EXPECT_EQ(row.names, std::vector<std::string>{"Fz"});
+    EXPECT_NEAR(row.force[0][1], 1, 1e-12);
+}
+
+TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
+    const Folder folder;
+    const std::string table =
+        "time_s,fx_N,fz_N\n" + rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},1,{}\n", t, F); });
+    for (const std::string before :
+         {"Subject: S07\n", "Subject,S07\nRate,100\nGain,2\n", "Logger 3\nSubject: S07\nRate: 100\n\n", "a;b;c;d\n\n"}) {
+        const auto r = read_logged(folder, before + table);
+        EXPECT_EQ(r.names, (std::vector<std::string>{"fx", "fz"})) << before;
+        EXPECT_EQ(r.force[0].size(), 20U) << before;
+        EXPECT_TRUE(some_remark(r, "before the table")) << before;
+    }
+    const auto alike = read_logged(folder, "Subject,S07\nRate,100\ntime_s,F_N\n0,1\n1,2\n");
+    EXPECT_EQ(alike.names, std::vector<std::string>{"F"});
+    RecordingOptions skip;
+    skip.table.skip = 2;
+    EXPECT_EQ(read_logged(folder, "x,y\n1,2\ntime_s,F_N\n0,1\n1,2\n", skip).names, std::vector<std::string>{"F"});
+    EXPECT_NE(refused_logged(folder, "x,y\nfirst,second\n1,2\n3,4\n", {.rate = 10}).find("--skip LINES passes over lines before the table"),
+              std::string::npos);
+    skip.table.skip = 100;
+    EXPECT_EQ(refused_logged(folder, "x,y\n1,2\n", skip), "x.csv: no data in this file");
+    EXPECT_NE(test::refusal(folder.write("x.npy", "?"), skip).find("--skip 100: lines are of files of text"), std::string::npos);
+}
+
+TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
+    const Folder folder;
+    const std::string table = rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); });
+    EXPECT_NE(refused_logged(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 should be"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, "t,F\n0,1\n\n0.1,2,3\n0.2,3,4\n0.3,4,5\n").find("x.csv:4: 3 columns where 2 should be"),
+              std::string::npos);
+    EXPECT_NE(refused_logged(folder, "time,force\n0,1,5\n0.1,2,6\n0.2,2,6\n").find("x.csv:2: 3 columns where 2 should be"),
+              std::string::npos);
+}
+
+TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndRemarks) {
+    const Folder folder;
+    const auto lvm = [&](const std::string& x, const std::string& rows) {
+        return read_logged(
+            folder,
+            "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\t" + x +
+                "\n***End_of_Header***\t\n\t\nChannels\t2\t\t\nY_Unit_Label\tmN\tmN\t\nX_Dimension\tTime\tTime\t\nDelta_X\t0,01\t0,01"
+                "\t\n***End_of_Header***\t\t\t\n" +
+                rows,
+            {}, "x.lvm");
+    };
+    const auto one = lvm("One", "X_Value\tFz\tFx\tComment\n0,00\t500\t1\tfirst\n0,01\t600\t2\n0,02\t700\t3\t\n");
+    EXPECT_EQ(one.names, (std::vector<std::string>{"Fz", "Fx"}));
+    EXPECT_NEAR(one.force[0][2], 0.7, 1e-12);
+    EXPECT_NEAR(one.clock.rate(), 100, 1e-9);
+    const auto none = lvm("No", "X_Value\tFz\tFx\tComment\n\t500\t1\tfirst\n\t600\t2\n\t700\t3\t\n");
+    EXPECT_EQ(none.names, (std::vector<std::string>{"Fz", "Fx"}));
+    EXPECT_NEAR(none.clock.rate(), 100, 1e-9) << "from Delta_X";
+    const auto two = lvm("Multi", "X_Value\tFz\tX_Value\tFx\tComment\n0,00\t500\t0,00\t1\n0,01\t600\t0,01\t2\n0,02\t700\t0,02\t3\n");
+    EXPECT_EQ(two.names, (std::vector<std::string>{"Fz", "Fx"}));
+    EXPECT_NE(refused_logged(folder, "LabVIEW Measurement\nSeparator\tTab\n", {}, "x.lvm").find("this LabVIEW file has no table"),
+              std::string::npos);
+}
+
+TEST(LoggerFiles, AnIndexColumnIsLeftOutAndTold) {
+    const Folder folder;
+    const auto line = [](int k, double t, double F) { return fmt::format("{},{:.2f},{:.3f}\n", k, t, F); };
+    const auto pandas = read_logged(folder, ",time_s,fz_N\n" + rows_of(30, line));
+    EXPECT_EQ(pandas.names, std::vector<std::string>{"fz"});
+    EXPECT_TRUE(some_remark(pandas, "'ch1' counts the rows: left out (--channel 1 takes it)"));
+    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1"}}).force[0][7], 7) << "the remedy";
+    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1-2"}}).names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(read_logged(folder, "sample,time_s,fz_N\n" + rows_of(3, line)).names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(30, line)).names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(3, line)).names, (std::vector<std::string>{"k", "fz"})) << "too few to tell";
+    EXPECT_EQ(read_logged(folder, "F_N\n1\n2\n3\n4\n5\n6\n7\n8\n9\n", {.rate = 10}).names, std::vector<std::string>{"F"}) << "all there is";
+    EXPECT_EQ(
+        read_logged(folder, "a_N,b_N\n" + rows_of(30, [](int k, double, double F) { return fmt::format("{},{}\n", k, F); }), {.rate = 10})
+            .names,
+        (std::vector<std::string>{"a", "b"}))
+        << "a column in newtons is a force however it runs";
+    const auto timed =
+        read_logged(folder, ",fz_N\n" + rows_of(30, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); }));
+    EXPECT_EQ(timed.names, std::vector<std::string>{"fz"});
+    EXPECT_NEAR(timed.clock.rate(), 100, 1e-6) << "an unnamed index of times";
+}
+
+TEST(LoggerFiles, AColumnInAUnitThatIsNoForceNeverPassesAsNewtons) {
+    const Folder folder;
+    const auto r = read_logged(folder, "time_s,fz,temp_C,Tx [Nm],angle_deg\n0,1,31,2,3\n1,2,31,2,3\n");
+    EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
+    EXPECT_TRUE(some_remark(r, "'temp' is in C, which is no force: left out (if the header is wrong, --channel 2 --unit N takes it)"));
+    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"2"}, .unit = "N"}).force[0][0], 31) << "the remedy";
+    EXPECT_EQ(recording(folder / "x.csv", {.scale = 2}).names, std::vector<std::string>{"fz"}) << "nor does a scale make it one";
+    EXPECT_NE(refused_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n").find("'humidity' is in %, which is no force"),
+              std::string::npos);
+    EXPECT_NE(refused_logged(folder, "time_s,temp_C\n0,1\n1,1\n").find("'temp' is in C"), std::string::npos);
+    EXPECT_EQ(read_logged(folder, "time_s,left_A,left_C,left_F\n0,1,2,3\n1,1,2,3\n").names,
+              (std::vector<std::string>{"left_A", "left_C", "left_F"}))
+        << "letters that name sensors";
+    EXPECT_EQ(read_logged(folder, "time_s,force_min,force_max\n0,1,2\n1,1,2\n").names,
+              (std::vector<std::string>{"force_min", "force_max"}));
+}
+
+TEST(LoggerFiles, ACommentWithAsManyFieldsAsTheDataIsTheHeader) {
+    const Folder folder;
+    const auto ros = read_logged(folder, "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.wrench.force.z\n" +
+                                             rows_of(30, [](int k, double, double F) {
+                                                 const auto t = 1772366400000000000 + 10'000'000LL * k;
+                                                 return fmt::format("{},{},{},base,{}\n", t, k, t, F);
+                                             }));
+    EXPECT_EQ(ros.names, std::vector<std::string>{"field.wrench.force.z"});
+    EXPECT_EQ(ros.force[0].size(), 30U) << "no row became the header";
+    EXPECT_NEAR(ros.clock.rate(), 100, 1e-3);
+    EXPECT_EQ(read_logged(folder, "# made by hand, twice\ntime,force\n0,1\n1,2\n").names, std::vector<std::string>{"force"})
+        << "words under a comment are the header";
+}
+
+TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
+    const Folder folder;
+    const auto r = read_logged(folder, "time_s,fz_N,phase,notes\n0,1,rest,\n1,2,press,\n2,3,press,\n");
+    EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
+    EXPECT_TRUE(some_remark(r, "'phase' holds words, not numbers: left out"));
+    EXPECT_TRUE(some_remark(r, "'notes' is empty: left out"));
+    EXPECT_EQ(refused_logged(folder, "time_s,fz_N\n0,1\n1,\n2,3\n"),
+              "x.csv:3:3: column 'fz': nothing where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves "
+              "its row out");
+    EXPECT_EQ(recording(folder / "x.csv", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(refused_logged(folder, "time_s,phase\n0,rest\n1,press\n"),
+              "x.csv: no column holds readings: 'phase' holds words, not numbers");
+}
+
+TEST(LoggerFiles, ChannelsAreChosenByRangesOfNamesAndCountedOnesAreCalledByName) {
+    const Folder folder;
+    const auto path = folder.write("x.csv", "time_s,Channel 0_N,Channel 1_N,Channel 2_N,\"a,b_N\"\n0,1,2,3,4\n1,1,2,3,4\n");
+    const auto counted = recording(path, {.channels = {"2-3"}});
+    EXPECT_TRUE(some_remark(counted, "--channel 2-3 is 'Channel 1' to 'Channel 2'"));
+    for (const auto* range : {"'Channel 1'-'Channel 2'", "Channel 1-Channel 2", "Channel 1_N-Channel 2"})
+        EXPECT_EQ(recording(path, {.channels = {range}}).names, counted.names) << range;
+    EXPECT_EQ(recording(path, {.channels = {"a,b"}}).names, std::vector<std::string>{"a,b"});
+}
+
+TEST(LoggerFiles, ATimeUnitAgainstTheHeaderIsTold) {
+    const Folder folder;
+    const auto r = read_logged(folder, "time_s,F_N\n0,1\n1,2\n2,3\n", {.time_unit = "ms"});
+    EXPECT_NEAR(r.clock.rate(), 1000, 1e-9);
+    EXPECT_TRUE(some_remark(r, "the header says 'time' is in s; read as ms, as --time-unit says"));
+}
+
+std::string packed(const std::string& text) {
+    std::string out(text.size() + 1000, '\0');
+    z_stream z{};
+    ::deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+    z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data())), z.avail_in = static_cast<uInt>(text.size());
+    z.next_out = reinterpret_cast<Bytef*>(out.data()), z.avail_out = static_cast<uInt>(out.size());
+    ::deflate(&z, Z_FINISH);
+    out.resize(z.total_out);
+    ::deflateEnd(&z);
+    return out;
+}
+
+TEST(LoggerFiles, GzipIsUnpackedInPiecesAndItsDamageNamed) {
+    const Folder folder;
+    const auto text = "time_s,F_N\n" + rows_of(60'000, [](int, double t, double F) { return fmt::format("{:.2f},{:.2f}\n", t, F); });
+    const auto plain = read_logged(folder, text);
+    EXPECT_EQ(read_logged(folder, packed(text), {}, "x.csv.gz").force, plain.force);
+    const auto half = text.find("300.00,");
+    EXPECT_EQ(read_logged(folder, packed(text.substr(0, half)) + packed(text.substr(half)), {}, "x.csv.gz").force, plain.force)
+        << "two members";
+    EXPECT_EQ(read_logged(folder, packed(text) + std::string(512, '\0'), {}, "x.csv.gz").force, plain.force) << "padded";
+    auto whole = packed(text);
+    EXPECT_NE(refused_logged(folder, whole.substr(0, whole.size() / 2), {}, "x.gz").find("this gzip file ends too early"),
+              std::string::npos);
+    whole[whole.size() / 2] ^= 0x55;
+    EXPECT_NE(refused_logged(folder, whole, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, packed(text) + "more", {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, packed("\x93NUMPY..."), {}, "x.npy.gz").find("unpack it first: gunzip -k"), std::string::npos);
+}
+
+TEST(LoggerFiles, AGzipBombTakesNoMoreMemoryThanALineMay) {
+    const Folder folder;
+    EXPECT_NE(refused_logged(folder, packed(std::string(80'000'000, '1')), {}, "x.gz").find("a line of more than 64 MB"),
+              std::string::npos);
+}
+
+std::string utf16(const std::string& ascii, bool big, bool mark) {
+    std::string out = mark ? (big ? "\xfe\xff" : "\xff\xfe") : "";
+    for (const char c : ascii) (big ? (out += '\0') += c : (out += c) += '\0');
+    return out;
+}
+
+TEST(LoggerFiles, Utf16IsReadWithAndWithoutItsMark) {
+    const Folder folder;
+    for (const bool big : {false, true})
+        for (const bool mark : {false, true}) {
+            const auto r = read_logged(folder, utf16("time_s\tF_N\r\n0\t1\r\n1\t2\r\n", big, mark));
+            EXPECT_EQ(r.names, std::vector<std::string>{"F"});
+            EXPECT_EQ(r.force[0], (std::vector<double>{1, 2}));
+        }
+    const auto letters =
+        utf16("time_s,", false, true) + std::string("\x4b\x00\x3d\xd8\x4b\xdc,\x00", 8) + utf16("x\n0,1,2\n1,2,3\n", false, false);
+    EXPECT_EQ(read_logged(folder, letters).names.at(0), "K\xf0\x9f\x91\x8b") << "a pair of surrogates";
+    EXPECT_NE(refused_logged(folder, utf16("t,F\n0,1\n", false, true) + "x").find("ends within a letter"), std::string::npos);
+}
+
+TEST(LoggerFiles, JsonIsReadALineARecordAsAListAndAsColumns) {
+    const Folder folder;
+    for (const std::string text :
+         {R"({"t":0,"fz_N":1.5,"name":"x"}
+{"t":0.5,"fz_N":2.5,"name":"y"}
+{"t":1,"fz_N":3.5,"name":"z"}
+)",
+          R"([{"t":0,"fz_N":1.5}, {"t":0.5,"fz_N":2.5},
+ {"t":1,"fz_N":3.5}])",
+          R"({"t":[0,0.5,1],"fz_N":[1.5,2.5,3.5],"subject":"S07"})", R"({"t":{"0":0,"1":0.5,"2":1},"fz_N":{"0":1.5,"1":2.5,"2":3.5}})",
+          R"({"columns":["t","fz_N"],"index":[0,1,2],"data":[[0,1.5],[0.5,2.5],[1,3.5]]})",
+          R"({"samples":[{"t":0,"fz_N":1.5},{"t":0.5,"fz_N":2.5},{"t":1,"fz_N":3.5}]})"}) {
+        const auto r = read_logged(folder, text, {}, "x.json");
+        EXPECT_EQ(r.names, std::vector<std::string>{"fz"}) << text;
+        EXPECT_EQ(r.force[0], (std::vector<double>{1.5, 2.5, 3.5})) << text;
+        EXPECT_EQ(r.clock.rate(), 2) << text;
+    }
+    const auto nested = read_logged(folder,
+                                    "{\"stamp\":\"2026-03-01T12:00:00Z\",\"force\":{\"z\":1},\"taxels\":[2,3]}\n"
+                                    "{\"stamp\":\"2026-03-01T12:00:01Z\",\"force\":{\"z\":2},\"taxels\":[4,5]}\n");
+    EXPECT_EQ(nested.names, (std::vector<std::string>{"force.z", "taxels.1", "taxels.2"}));
+    EXPECT_EQ(nested.force[2], (std::vector<double>{3, 5}));
+    const auto rows = read_logged(folder, "[[1,2],[3,4],[5,6]]", {.rate = 10});
+    EXPECT_EQ(rows.force, (std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}}));
+}
+
+TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {
+    const Folder folder;
+    const std::pair<std::string, std::string> cases[] = {
+        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":}\n", "x.json:2:12: this is no whole JSON"},
+        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":1}\n", "x.json:2: record 2: 'F' has no number; --bad-fields interpolate"},
+        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":NaN}\n{\"t\":2,\"F\":1}\n", "x.json:2: record 2: 'F' has no number"},
+        {"{\"a\":[1,2],\"b\":[1]}", "'a' has 2 values and 'b' has 1"},
+        {"{\"a\":1,\"b\":{\"c\":2}}", "no table in this JSON"},
+        {std::string(1000, '[') + std::string(1000, ']'), "nested more than 16 deep"},
+        {"{\"t\":0,\"F\":1e999}\n{\"t\":1,\"F\":1}\n", "a number that is too large"},
+        {"[{\"t\":0,\"F\":1},{\"t\":1,", "this is no whole JSON"},
+    };
+    for (const auto& [text, said] : cases)
+        EXPECT_NE(refused_logged(folder, text, {}, "x.json").find(said), std::string::npos) << refused_logged(folder, text, {}, "x.json");
+    folder.write("x.json", "{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":3}\n");
+    EXPECT_EQ(recording(folder / "x.json", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
+}
+
+TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
+    const Folder folder;
+    const std::tuple<std::string, std::string, std::string> cases[] = {
+        {"x.xlsx", std::string("PK\x03\x04 [Content_Types].xml\0", 24), "pandas.read_excel('"},
+        {"x.parquet", "PAR1....", "pandas.read_parquet('"},
+        {"x.feather", "ARROW1..", "pandas.read_feather('"},
+        {"x.tdms", std::string("TDSm\x0e\0\0\0", 8), "nptdms.TdmsFile.read('"},
+        {"x.pkl", "\x80\x04\x95....", "pandas.read_pickle('"},
+        {"v5.mat", "MATLAB 5.0 MAT-file, Platform: GLNXA64", "scipy.io.loadmat('"},
+        {"x.csv.bz2", "BZh91AY", "bunzip2 -k "},
+        {"x.zip", std::string("PK\x03\x04 x.csv\0", 11), "unzip "},
+        {"x.dat", "\x89HDF\r\n", "x.h5"},
+        {"x.bin", std::string("ab\0cd", 5), "this is no text: it has NUL bytes"},
+    };
+    for (const auto& [name, bytes, said] : cases)
+        EXPECT_NE(refused_logged(folder, bytes, {}, name).find(said), std::string::npos) << refused_logged(folder, bytes, {}, name);
+}
+
+}  // namespace
+}  // namespace corpuscle

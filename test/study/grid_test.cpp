@@ -1,0 +1,105 @@
+// A sweep over a plain grid tells what every axis does, and nothing that only chance would need.
+
+#include "study/sweep/grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "study/sweep/run_sweep.hpp"
+#include "study/sweep/sweep_document.hpp"
+#include "study/sweep/sweep_summary.hpp"
+#include "support/program.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using test::run;
+using test::sure;
+
+constexpr const char* grid_file = R"(afferent = "sa1"
+force = "press"
+measures = ["spikes", "peak_rate", "first_spike"]
+[[vary]]
+what = "press.F_max"
+list = ["1N", "2N", "3N", "4N"]
+[[vary]]
+what = "sa1.f_B"
+list = ["20Hz", "40Hz", "80Hz"]
+)";
+
+/// z = 10 x + y over x in 0 ... 3, y in 0 ... 2; the last unit has none.
+SweepTable made_grid() {
+    SweepTable out;
+    out.units = 12, out.is_grid = true;
+    out.axes = {{"x", "V"}, {"kind", "", "", {"a", "b", "c"}}}, out.measures = {{"z", ""}};
+    out.axis_values.resize(2), out.measure_values.resize(1);
+    for (int unit = 0; unit < 12; ++unit) {
+        out.unit.push_back(unit), out.end.push_back(unit == 11 ? UnitEnd::lost : UnitEnd::done);
+        out.axis_values[0].push_back(unit / 3), out.axis_values[1].push_back(unit % 3);
+        out.measure_values[0].push_back(unit == 11 ? std::nan("") : 10.0 * (unit / 3) + unit % 3);
+    }
+    out.points = {{0, 1, 2, 3}, {0, 1, 2}};
+    return out;
+}
+
+TEST(Grid, EffectsAreTheMeansAtEachValueAndTheirShareOfTheVariance) {
+    auto table = made_grid();
+    table.measure_values[0][11] = 32, table.end[11] = UnitEnd::done;
+    const auto effects = effects_of(table, table.measure_values[0]);
+    ASSERT_EQ(effects.size(), 2U);
+    EXPECT_EQ(effects[0].axis, 0U);
+    EXPECT_EQ(effects[0].means, (std::vector<double>{1, 11, 21, 31}));
+    EXPECT_EQ(effects[1].means, (std::vector<double>{15, 16, 17}));
+    EXPECT_NEAR(effects[0].share, 125 / (125 + 2.0 / 3), 1e-12) << "variances of 10 x and of y";
+    EXPECT_NEAR(effects[0].share + effects[1].share, 1, 1e-12);
+    EXPECT_EQ(means_over(table, table.measure_values[0], 1, 0)[2], (std::vector<double>{2, 12, 22, 32}));
+    EXPECT_EQ(point_label(table, 11), "x = 3 V, kind = c");
+}
+
+TEST(Grid, WithoutAUnitIsToldFromThoseThatAreThere) {
+    const auto table = made_grid();
+    const auto effects = effects_of(table, table.measure_values[0]);
+    ASSERT_EQ(effects.size(), 2U);
+    EXPECT_EQ(effects[0].means.back(), 30.5);
+    EXPECT_TRUE(std::isnan(means_over(table, table.measure_values[0], 0, 1)[3][2]));
+    EXPECT_TRUE(effects_of(table, std::vector<double>(12, 5)).empty());
+}
+
+TEST(Grid, TellsEveryAxisAndNoChance) {
+    const Folder folder;
+    folder.write("grid.toml", grid_file);
+    ASSERT_EQ(run(folder, "sweep grid.toml --out r.sqlite --quiet").status, 0);
+    const auto told = run(folder, "sweep show r.sqlite");
+    ASSERT_EQ(told.status, 0) << told.err;
+    for (const auto* there : {"A grid of press.F_max (4 values) by sa1.f_B (3 values)", "What each axis does", "press.F_max", "sa1.f_B",
+                              "20 Hz", "80 Hz", "press.F_max = 4 N, sa1.f_B = 20 Hz"})
+        EXPECT_NE(told.out.find(there), std::string::npos) << there << "\n" << told.out;
+    for (const auto* chance : {"95 %", "normal", "+-", "±", "chips", "sigma", "chance for"})
+        EXPECT_EQ(told.out.find(chance), std::string::npos) << chance << "\n" << told.out;
+    const auto document = nlohmann::json::parse(run(folder, "sweep show r.sqlite --json").out);
+    EXPECT_TRUE(document["grid"].get<bool>());
+    ASSERT_EQ(document["depends_on"].size(), 3U);
+    for (const auto& d : document["depends_on"]) EXPECT_EQ(d["effects"].size(), 2U) << d;
+    EXPECT_TRUE(document["all"]["measures"][0]["mean"]["low"].is_null());
+    EXPECT_TRUE(document["points"][0]["measures"][0]["sigma"]["value"].is_null());
+}
+
+TEST(Grid, IsNoneWhereAnythingIsDrawn) {
+    const Folder folder;
+    folder.write("drawn.toml", std::string(grid_file) + "[[vary]]\nwhat = \"sa1.f_C\"\nhow = \"uniform\"\nfrom = \"5Hz\"\nto = \"10Hz\"\n");
+    ASSERT_EQ(run(folder, "sweep drawn.toml --units 2 --out r.sqlite --quiet").status, 0);
+    EXPECT_FALSE(draws_nothing(sure(SweepResults::look(folder / "r.sqlite"))));
+    folder.write("plain.toml", grid_file);
+    ASSERT_EQ(run(folder, "sweep plain.toml --seed 3 --out p.sqlite --quiet").status, 0);
+    EXPECT_TRUE(draws_nothing(sure(SweepResults::look(folder / "p.sqlite"))));
+    folder.write("step.cir", "t\nv1 a 0 1\nr1 a 0 {r}\n.param r=1k\n.step param r list 1k 2k 3k\n.op\n.meas op i find i(v1)\n");
+    ASSERT_EQ(run(folder, "sweep step.cir --out s.sqlite --quiet").status, 0);
+    EXPECT_TRUE(draws_nothing(sure(SweepResults::look(folder / "s.sqlite"))));
+}
+
+}  // namespace
+}  // namespace corpuscle

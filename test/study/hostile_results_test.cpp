@@ -1,0 +1,192 @@
+// A sweep's file of results that another program has changed: it is refused with what is wrong and what to do, and nothing in it is run.
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+#include <filesystem>
+#include <fstream>
+
+#include "study/sweep/dump.hpp"
+#include "study/sweep/run_sweep.hpp"
+#include "study/sweep/sqlite.hpp"
+#include "support/plain_sweep.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using test::PlainSweep;
+using test::sure;
+
+/// Results of 100 units, then changed as by another program.
+std::string changed_results(const Folder& folder, const std::string& statements) {
+    const auto path = folder / "r.sqlite";
+    const PlainSweep sweep(100);
+    {
+        auto results = sure(SweepResults::open(path, sweep));
+        std::vector<UnitOutcome> all;
+        for (std::int64_t unit = 0; unit < 100; ++unit) all.push_back(sweep.outcome(unit));
+        EXPECT_TRUE(results.add(sweep, std::move(all)) && results.fold());
+    }
+    sqlite3* file = nullptr;
+    EXPECT_EQ(sqlite3_open(path.c_str(), &file), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(file, statements.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(file);
+    sqlite3_close(file);
+    return path;
+}
+
+std::string refusal_of(const std::string& path) {
+    const auto results = SweepResults::look(path);
+    return results ? "" : results.error().text();
+}
+
+/// What the first version that wrote such files put there.
+constexpr const char* first_format = R"tables(
+CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, sentence TEXT NOT NULL,
+                     words TEXT NOT NULL, at_least REAL, at_most REAL, stored TEXT NOT NULL);
+CREATE TABLE spikes(unit INTEGER NOT NULL, train INTEGER NOT NULL, times BLOB NOT NULL, PRIMARY KEY(unit, train)) WITHOUT ROWID;
+CREATE TABLE traces(unit INTEGER NOT NULL, trace INTEGER NOT NULL, samples BLOB NOT NULL, PRIMARY KEY(unit, trace)) WITHOUT ROWID;
+CREATE TABLE units(unit INTEGER PRIMARY KEY, ended TEXT NOT NULL, steps INTEGER NOT NULL, iterations INTEGER NOT NULL,
+                   alone INTEGER NOT NULL, why TEXT NOT NULL, "temp" REAL, "v(q)" REAL);
+INSERT INTO about VALUES('facts', '["title","results format"]'), ('title', 'old'), ('results format', '1'), ('units', '2'),
+    ('trains', '["out"]'), ('traces', '[]'), ('trace_times', '[]');
+INSERT INTO columns VALUES(0, 'axis', 'temp', 'C', '', '[]', NULL, NULL, 'temp'), (1, 'measure', 'v(q)', 'V', '', '[]', 0.3, NULL, 'v(q)');
+INSERT INTO units VALUES(0, 'done', 1, 2, 0, '', 27, 0.35), (1, 'lost', 1, 2, 0, 'no rest', 85, NULL);
+INSERT INTO spikes VALUES(0, 0, X'000000000000F03F');
+PRAGMA application_id = 1400333680;
+)tables";
+
+std::string written(const Folder& folder, const std::string& statements) {
+    const auto path = folder / "old.sqlite";
+    sqlite3* file = nullptr;
+    EXPECT_EQ(sqlite3_open(path.c_str(), &file), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(file, statements.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(file);
+    sqlite3_close(file);
+    return path;
+}
+
+TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
+    const Folder folder;
+    const auto results = sure(SweepResults::look(written(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
+    EXPECT_EQ(results.finished(), 2);
+    std::string text;
+    ASSERT_TRUE(dump_results(results, [&](const std::string& more) { return text += more, true; }));
+    EXPECT_EQ(text, "unit,ended,steps,iterations,alone,why,temp,v(q),spikes of out\n0,done,1,2,0,,27,0.35,1\n1,lost,1,2,0,no rest,85,,\n");
+    const Folder later;
+    const auto refused = SweepResults::look(written(later, std::string(first_format) + "PRAGMA user_version = 2;"));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use that one"),
+              std::string::npos)
+        << refused.error().text();
+}
+
+TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
+    const struct {
+        const char *statements, *said;
+    } cases[] = {{"ALTER TABLE units RENAME COLUMN gain TO gian", "its table 'units' has no column 'gain'"},
+                 {"ALTER TABLE units RENAME COLUMN ended TO over", "its table 'units' has no column 'ended'"},
+                 {"ALTER TABLE spikes RENAME COLUMN times TO t", "its table 'spikes' has no column 'times'"},
+                 {"ALTER TABLE columns RENAME COLUMN unit TO u", "its table 'columns' has no column 'unit'"},
+                 {"ALTER TABLE traces RENAME TO trace", "it has no table 'traces'"},
+                 {"PRAGMA user_version = 0", "it does not say of which format it is"},
+                 {"UPDATE about SET value = '-5' WHERE key = 'units'", "it is of -5 units"},
+                 {"UPDATE about SET value = '[[' WHERE key = 'trains'", "says nothing readable of its sweep"}};
+    for (const auto& c : cases) {
+        const Folder folder;
+        const auto said = refusal_of(changed_results(folder, c.statements));
+        EXPECT_NE(said.find(c.said), std::string::npos) << c.statements << ": " << said;
+        EXPECT_NE(said.find("with --out"), std::string::npos) << said;
+    }
+}
+
+TEST(HostileResults, OfUnitsThatTheSweepDoesNotHaveAreRefused) {
+    for (const auto* unit : {"-1", "100", "4611686018427387904"}) {
+        const Folder folder;
+        const auto path = changed_results(folder, fmt::format("UPDATE units SET unit = {} WHERE unit = 7", unit));
+        EXPECT_NE(refusal_of(path).find(fmt::format("it holds unit {}, of a sweep of 100 units (0 to 99)", unit)), std::string::npos)
+            << refusal_of(path);
+        EXPECT_FALSE(SweepResults::open(path, PlainSweep(100)));
+    }
+}
+
+TEST(HostileResults, RunNothingThatTheirSchemaHolds) {
+    const Folder folder;
+    const auto path = changed_results(folder,
+                                      "DELETE FROM units WHERE unit > 50; DELETE FROM spikes; DELETE FROM traces;"
+                                      "CREATE TRIGGER t AFTER INSERT ON units BEGIN UPDATE units SET ended = 'lost'; END");
+    const PlainSweep sweep(100);
+    auto results = sure(SweepResults::open(path, sweep));
+    std::vector<UnitOutcome> one;
+    one.push_back(sweep.outcome(60));
+    ASSERT_TRUE(results.add(sweep, std::move(one)));
+    std::int64_t lost = 0, should = 0;
+    ASSERT_TRUE(results.each([&](const SweepResults::Row& row) {
+        lost += row.end == UnitEnd::lost, should += sweep.outcome(row.unit).end == UnitEnd::lost;
+        return true;
+    }));
+    EXPECT_EQ(lost, should);
+}
+
+TEST(HostileResults, WithAViewForATableAreRefused) {
+    const Folder folder;
+    const auto path = changed_results(folder,
+                                      "ALTER TABLE units RENAME TO old;"
+                                      "CREATE VIEW units AS WITH RECURSIVE n(unit) AS (SELECT 1 UNION ALL SELECT unit + 1 FROM n) "
+                                      "SELECT unit, 'done' AS ended, 1 AS steps, 1 AS iterations, 0 AS alone, '' AS why FROM n");
+    const auto said = refusal_of(path);
+    EXPECT_NE(said.find("changed by another program"), std::string::npos) << said;
+}
+
+TEST(HostileResults, WithAVeryLargeTextAreRefusedBeforeItIsTakenIn) {
+    const Folder folder;
+    const auto path = changed_results(folder, "UPDATE columns SET words = '[\"' || hex(zeroblob(5000000)) || '\"]' WHERE position = 0");
+    EXPECT_NE(refusal_of(path).find("its table columns holds more than 4 MB of words"), std::string::npos) << refusal_of(path);
+    const Folder other;
+    const auto big = changed_results(other, "UPDATE about SET value = zeroblob(100000000) WHERE key = 'trace_times'");
+    EXPECT_NE(refusal_of(big).find("a text or a blob is larger than 64 MB"), std::string::npos) << refusal_of(big);
+}
+
+TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
+    const Folder folder;
+    const PlainSweep sweep(100);
+    const auto path = changed_results(folder,
+                                      "DELETE FROM units WHERE unit < 50; DELETE FROM spikes WHERE unit < 50; DELETE FROM traces WHERE "
+                                      "unit < 50; ALTER TABLE units ADD COLUMN extra; ALTER TABLE units RENAME COLUMN why TO w;"
+                                      "ALTER TABLE units ADD COLUMN why TEXT NOT NULL DEFAULT ''; UPDATE units SET why = w");
+    auto into = sure(SweepResults::open(folder / "all.sqlite", sweep));
+    const auto taken = into.take(sure(SweepResults::look(path)));
+    ASSERT_TRUE(taken) << taken.error().text();
+    EXPECT_EQ(*taken, 50);
+    ASSERT_TRUE(into.each([&](const SweepResults::Row& row) {
+        const auto o = sweep.outcome(row.unit);
+        EXPECT_EQ(row.steps, o.steps);
+        EXPECT_EQ(row.why, o.why);
+        return true;
+    }));
+}
+
+TEST(HostileResults, NeverMakeALinkOrSomebodysFileEmpty) {
+    const Folder folder;
+    folder.write("thesis.tex", "years of work\n");
+    std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-writer");
+    const auto refused = SweepResults::open(folder / "r.sqlite", PlainSweep(10));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().text().find("r.sqlite-writer: stands where the mark"), std::string::npos) << refused.error().text();
+    std::filesystem::remove(folder / "r.sqlite-writer");
+    folder.write("r.sqlite-writer", "years of work\n");
+    EXPECT_FALSE(SweepResults::open(folder / "r.sqlite", PlainSweep(10)));
+    EXPECT_EQ(test::read_file(folder / "r.sqlite-writer"), "years of work\n");
+    std::filesystem::remove(folder / "r.sqlite-writer");
+    std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-fold");
+    folder.write("left-by-one-that-was-killed", "4711 1790000000.000 5 10 host\n");
+    std::filesystem::rename(folder / "left-by-one-that-was-killed", folder / "r.sqlite-writer");
+    EXPECT_TRUE(SweepResults::open(folder / "r.sqlite", PlainSweep(10)));
+    EXPECT_EQ(test::read_file(folder / "thesis.tex"), "years of work\n");
+}
+
+}  // namespace
+}  // namespace corpuscle
