@@ -155,7 +155,15 @@ class LiveRun {
         for (const auto& s : quality.warnings) clear_status(), tell_warning(fmt::format("{}: {}", source_->name(), s));
     }
 
-    std::string misfit_text(const FrameMisfit& misfit) const { return text_of(misfit, layout_, words_.population); }
+    std::string misfit_text(const FrameMisfit& misfit) const {
+        const auto text = text_of(misfit, layout_, words_.layout.empty() ? words_.population : words_.layout);
+        const auto stamps = layout_.stamp == FrameStamp::none ? 0U : 1U;
+        if (misfit.why != FrameMisfit::width || !words_.layout.empty() || misfit.found <= stamps) return text;
+        const auto& plan = skin_->innervation().plan;
+        if (plan.is_by_channel) return fmt::format("{}; --channels {} takes frames of this width", text, misfit.found - stamps);
+        if (misfit.found - stamps > plan.sites.size()) return text;
+        return fmt::format("{}; --layout FILE says which sites the numbers of a frame are", text);
+    }
 
     /// A stream that has answered no frame has done nothing.
     Result<void> check_frames() const {

@@ -34,6 +34,25 @@ std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8
     return all;
 }
 
+/// The same bytes as datagrams: each holds whole frames or none, and leaves nothing behind.
+void take_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t piece) {
+    FrameDecoder decoder(layout);
+    std::vector<double> force(layout.sites);
+    while (!bytes.empty()) {
+        const auto room = decoder.room();
+        const auto count = std::min({room.size() - 1, bytes.size(), piece});
+        std::copy_n(bytes.begin(), count, room.begin());
+        const bool is_whole = decoder.came_datagram(count);
+        require(is_whole == (layout.kind == FrameKind::csv || count % layout.bytes() == 0));
+        bytes = bytes.subspan(count);
+        for (auto found = decoder.next(); found != FrameDecoder::Found::nothing; found = decoder.next())
+            if (found == FrameDecoder::Found::frame) require(decoder.take(force) <= force.size());
+        require(!decoder.begun());
+    }
+    for (const double f : force) require(std::abs(f) <= layout.limit);
+    if (const auto& misfit = decoder.first_misfit()) require(!text_of(*misfit, layout, "hand").empty());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -43,5 +62,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     layout.sites = 1 + data[1] % 5, layout.scale = data[0] / 16 % 2 == 0 ? 1 : 1e-3;
     const std::span bytes(data + 3, size - 3);
     require(all_of(layout, bytes, 1 + data[2]) == all_of(layout, bytes, size));
+    take_datagrams(layout, bytes, 1 + data[2]);
     return 0;
 }

@@ -390,6 +390,7 @@ TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
     Child child(folder, {"--population", "fingertip", "--rate", "1kHz"});
     child.send("1,2,3,4\n");
     EXPECT_TRUE(child.said("frame 1 has 4 numbers; 'fingertip' has ")) << "at once: " << child.told();
+    EXPECT_TRUE(child.said("--layout FILE says which sites")) << child.told();
     child.close_in();
     EXPECT_EQ(child.wait(), 1);
     EXPECT_TRUE(child.said("no frame could be read from standard input: frame 1 has 4 numbers")) << child.told();
