@@ -19,11 +19,13 @@ constexpr double least_told = 0.0005;  // of shares: less reads 0.0 %
 class Writing {
     double factor_ = 1;
     int decimals_ = 4;
-    bool far_ = false;  // from 1, without a unit that could take a prefix
+    bool far_ = false;    // from 1, without a unit that could take a prefix
+    bool whole_ = false;  // whole numbers stand without decimals
     std::string unit_;
 
 public:
-    Writing(const std::string& unit, const MeasureSummary& m) : unit_(unit) {
+    Writing(const std::string& unit, const MeasureSummary& m, bool counts = false)
+        : whole_(counts && unit.empty() && m.least == std::round(m.least) && m.greatest == std::round(m.greatest)), unit_(unit) {
         const double size = std::max(std::abs(m.least), std::abs(m.greatest)),
                      typical = std::abs(m.mean.value) > 0.01 * size ? std::abs(m.mean.value) : size;
         if (!(typical > 0)) return;
@@ -39,6 +41,7 @@ public:
     const std::string& unit() const { return unit_; }
     std::string operator()(double x) const {
         if (std::isnan(x)) return "-";
+        if (whole_ && !far_ && x == std::round(x)) return fmt::format("{:.0f}", x);
         return far_ ? fmt::format("{:.4g}", x * factor_) : fmt::format("{:.{}f}", x * factor_, decimals_);
     }
     std::string interval(const Estimate& e) const {
@@ -206,7 +209,7 @@ std::string grid_measures(const SweepTable& from, const SweepSummary& s) {
     Rows rows = {{"measure", "units", "least", "at", "most", "at", "mean"}};
     for (std::size_t m = 0; m < from.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
-        const Writing shown(from.measures[m].unit, one);
+        const Writing shown(from.measures[m].unit, one, true);
         const bool varies = one.least < one.greatest;
         rows.push_back({named(from.measures[m], shown.unit()), fmt::format("{}", one.count), shown(one.least),
                         varies ? where_it_is(from, m, one.least) : "all", shown(one.greatest),
@@ -221,7 +224,7 @@ std::string effects_text(const SweepTable& from, const SweepSummary& s) {
     for (std::size_t d = 0; d < s.dependences.size(); ++d) {
         const auto& one = s.dependences[d];
         const bool is_yield = d >= from.measures.size();
-        const Writing shown(is_yield ? "" : from.measures[d].unit, is_yield ? MeasureSummary{} : s.all.measures[d]);
+        const Writing shown(is_yield ? "" : from.measures[d].unit, is_yield ? MeasureSummary{} : s.all.measures[d], true);
         const auto mean = [&](double x) { return is_yield ? percent(x) + " %" : shown(x); };
         const auto name = is_yield ? one.measure : named(from.measures[d], shown.unit());
         double rest = 1;
@@ -250,7 +253,7 @@ std::string grid_points(const SweepTable& from, const SweepSummary& s) {
     if (limits) rows[0].emplace_back("passed");
     std::vector<Writing> shown;
     for (std::size_t m = 0; m < from.measures.size(); ++m) {
-        shown.emplace_back(from.measures[m].unit, s.all.measures[m]);
+        shown.emplace_back(from.measures[m].unit, s.all.measures[m], true);
         rows[0].push_back(named(from.measures[m], shown.back().unit()));
     }
     for (const auto& p : s.points) {

@@ -87,7 +87,12 @@ public:
         Measures measures(circuit_);
         for (const auto& head : heads_)
             if (auto ok = measures.begin(head.command->name, head.plot); !ok) return ok;
-        return measures.check(numbers());
+        const auto known = numbers();
+        if (auto ok = measures.check(known); !ok) return ok;
+        for (const auto& c : circuit_.commands)
+            if (c.name == "expect")
+                if (auto wrong = unknown_expectation(c, known)) return *wrong;
+        return {};
     }
 
 private:
@@ -127,6 +132,19 @@ private:
         const auto hint = own ? fmt::format("; '.save {}' makes it one, of M, D and R; a source of 0 V in series shows any other", word)
                               : did_you_mean(word, known);
         return error_at(c, k, fmt::format(".{}: there is no curve '{}'{}", c.name, word, hint));
+    }
+
+    /// .expect of what neither a measure nor an analysis is called, and that is no curve.
+    std::optional<Error> unknown_expectation(const Command& c, const std::vector<std::string>& given) const {
+        if (c.words.empty()) return {};  // run() says how it is written
+        const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
+        std::vector<std::string_view> known(given.begin(), given.end());
+        for (const auto& other : circuit_.commands)
+            if ((other.name == "meas" || other.name == "measure") && other.words.size() > 1) known.push_back(other.words[1]);
+        if (std::find(known.begin(), known.end(), name) != known.end()) return {};
+        for (std::size_t h = 0; h < heads_.size(); ++h)
+            if (CurveView::of(heads_[h].plot, name, &names_[h])) return {};
+        return bad_input(fmt::format(".expect: nothing is called '{}'{}", name, did_you_mean(name, known)), c.place);
     }
 
     /// Names that analyses may give numbers.

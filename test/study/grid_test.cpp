@@ -46,7 +46,7 @@ SweepTable made_grid() {
     return out;
 }
 
-TEST(Grid, EffectsAreTheMeansAtEachValueAndTheirShareOfTheVariance) {
+TEST(PlainGrid, EffectsAreTheMeansAtEachValueAndTheirShareOfTheVariance) {
     auto table = made_grid();
     table.measure_values[0][11] = 32, table.end[11] = UnitEnd::done;
     const auto effects = effects_of(table, table.measure_values[0]);
@@ -60,7 +60,7 @@ TEST(Grid, EffectsAreTheMeansAtEachValueAndTheirShareOfTheVariance) {
     EXPECT_EQ(point_label(table, 11), "x = 3 V, kind = c");
 }
 
-TEST(Grid, WithoutAUnitIsToldFromThoseThatAreThere) {
+TEST(PlainGrid, WithoutAUnitIsToldFromThoseThatAreThere) {
     const auto table = made_grid();
     const auto effects = effects_of(table, table.measure_values[0]);
     ASSERT_EQ(effects.size(), 2U);
@@ -69,7 +69,7 @@ TEST(Grid, WithoutAUnitIsToldFromThoseThatAreThere) {
     EXPECT_TRUE(effects_of(table, std::vector<double>(12, 5)).empty());
 }
 
-TEST(Grid, TellsEveryAxisAndNoChance) {
+TEST(PlainGrid, TellsEveryAxisAndNoChance) {
     const Folder folder;
     folder.write("grid.toml", grid_file);
     ASSERT_EQ(run(folder, "sweep grid.toml --out r.sqlite --quiet").status, 0);
@@ -88,7 +88,7 @@ TEST(Grid, TellsEveryAxisAndNoChance) {
     EXPECT_TRUE(document["points"][0]["measures"][0]["sigma"]["value"].is_null());
 }
 
-TEST(Grid, IsNoneWhereAnythingIsDrawn) {
+TEST(PlainGrid, IsNoneWhereAnythingIsDrawn) {
     const Folder folder;
     folder.write("drawn.toml", std::string(grid_file) + "[[vary]]\nwhat = \"sa1.f_C\"\nhow = \"uniform\"\nfrom = \"5Hz\"\nto = \"10Hz\"\n");
     ASSERT_EQ(run(folder, "sweep drawn.toml --units 2 --out r.sqlite --quiet").status, 0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "study/sweep/axis.hpp"
 #include "study/sweep/drawn.hpp"
@@ -69,7 +70,8 @@ std::vector<AxisEffect> effects_of(const SweepTable& table, const std::vector<do
         }
         out.push_back(std::move(effect));
     }
-    std::stable_sort(out.begin(), out.end(), [](const AxisEffect& x, const AxisEffect& y) { return x.share > y.share; });
+    std::sort(out.begin(), out.end(),
+              [](const AxisEffect& x, const AxisEffect& y) { return std::pair(-x.share, x.axis) < std::pair(-y.share, y.axis); });
     return out;
 }
 
