@@ -110,7 +110,7 @@ Result<void> SkinCheckpoint::keep() {
     auto out = OutputFile::create(file_);
     if (!out) return out.error();
     if (auto ok = out->write(bytes); !ok) return ok;
-    return out->commit();
+    return out->commit(Sync::always);
 }
 
 void SkinCheckpoint::done() {
