@@ -160,7 +160,6 @@ Result<void> OutputFile::commit(Sync sync) {
     constexpr auto costly = std::chrono::seconds(1);
     synced_ = sync == Sync::always || std::chrono::steady_clock::now() - begun_ > costly;
     if (synced_ && !is_on_disk(::fileno(file_))) return broken();
-    if (!synced_) (void)::sync_file_range(::fileno(file_), 0, 0, SYNC_FILE_RANGE_WRITE);
     if (!grows_ && !close()) return broken();  // one that grows is kept from others until it has its name
     if (std::rename(part_.c_str(), path_.c_str()) != 0)
         return bad_input(fmt::format("cannot be put in its place: {}", std::strerror(errno)), {path_});

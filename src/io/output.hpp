@@ -13,7 +13,7 @@
 
 namespace corpuscle {
 
-/// What is quick to make again is only begun to be written to the disk; waiting for that takes several times as long as a short run.
+/// What is quick to make again is left to the system: waiting for the disk takes several times as long as a short run.
 enum class Sync { if_costly, always };
 
 class OutputFile {
