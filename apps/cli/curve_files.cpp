@@ -82,9 +82,9 @@ Result<void> CurveFiles::end() {
 Result<void> CurveFiles::finish() {
     for (auto& file : files_)
         if (auto ok = file.commit(); !ok) return ok;
-    const bool written = !files_.empty();
+    const bool synced = std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f.is_synced(); });
     files_.clear();
-    return written ? sync_directory_of(words_.out) : Result<void>();
+    return synced ? sync_directory_of(words_.out) : Result<void>();
 }
 
 Result<std::string> CurveFiles::finish_early(bool interrupted) {

@@ -29,7 +29,7 @@ bool is_curve_name(std::string_view name) {
     for (const std::string_view part : {".re", ".im"})
         if (name.ends_with(part)) name.remove_suffix(part.size());
     if (name.size() > 1 && name.starts_with('"') && name.ends_with('"')) name = name.substr(1, name.size() - 2);
-    for (const std::string_view known : {"step", "time", "frequency", "onoise_spectrum", "inoise_spectrum"})
+    for (const std::string_view known : {"step", "time", "frequency", "onoise_spectrum", "inoise_spectrum", "onoise_total", "inoise_total"})
         if (name == known) return true;
     if (name.ends_with("-sweep")) return true;
     const auto bracket = name.find('(');

@@ -13,7 +13,7 @@ namespace corpuscle {
 Result<void> put_whole(OutputFile& file, const std::string& text) {
     if (auto ok = file.write(text); !ok) return ok;
     if (auto ok = file.commit(); !ok) return ok;
-    return sync_directory_of(file.path());
+    return file.is_synced() ? sync_directory_of(file.path()) : Result<void>();
 }
 
 Result<void> write_whole(const std::string& path, const std::string& text) {

@@ -14,13 +14,13 @@ namespace corpuscle {
 
 OutputFile::OutputFile(OutputFile&& o) noexcept
     : path_(std::move(o.path_)), part_(std::move(o.part_)), made_(std::move(o.made_)), file_(std::exchange(o.file_, nullptr)),
-      size_(o.size_), grows_(o.grows_) {
+      size_(o.size_), grows_(o.grows_), synced_(o.synced_), begun_(o.begun_) {
     o.part_.clear();
 }
 
 OutputFile& OutputFile::operator=(OutputFile&& o) noexcept {
     std::swap(path_, o.path_), std::swap(part_, o.part_), std::swap(made_, o.made_), std::swap(file_, o.file_), std::swap(size_, o.size_),
-        std::swap(grows_, o.grows_);
+        std::swap(grows_, o.grows_), std::swap(synced_, o.synced_), std::swap(begun_, o.begun_);
     return *this;
 }
 
@@ -152,12 +152,14 @@ Result<void> OutputFile::rewrite(std::size_t at, std::string_view text) {
     return written == static_cast<ssize_t>(text.size()) ? Result<void>() : broken();
 }
 
-Result<void> OutputFile::commit() {
+Result<void> OutputFile::commit(Sync sync) {
     if (std::fflush(file_) != 0) return broken();
     if (std::ferror(file_) != 0) return bad_input("could not be written to the end", {path_});
     const auto close = [&] { return std::fclose(std::exchange(file_, nullptr)) == 0; };
     if (part_.empty()) return close() ? Result<void>() : broken();
-    if (!is_on_disk(::fileno(file_))) return broken();
+    constexpr auto costly = std::chrono::seconds(1);
+    synced_ = sync == Sync::always || std::chrono::steady_clock::now() - begun_ > costly;
+    if (synced_ && !is_on_disk(::fileno(file_))) return broken();
     if (!grows_ && !close()) return broken();  // one that grows is kept from others until it has its name
     if (std::rename(part_.c_str(), path_.c_str()) != 0)
         return bad_input(fmt::format("cannot be put in its place: {}", std::strerror(errno)), {path_});

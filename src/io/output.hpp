@@ -2,6 +2,7 @@
 // Files are written beside their place and put there when they are whole: nothing half-written is left behind, but for those that
 // grow so slowly that half of one is worth having.
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -12,12 +13,16 @@
 
 namespace corpuscle {
 
+/// What is quick to make again is left to the system: waiting for the disk takes several times as long as a short run.
+enum class Sync { if_costly, always };
+
 class OutputFile {
     std::string path_, part_;
     std::vector<std::string> made_;  // directories that were not there before
     std::FILE* file_ = nullptr;
     std::size_t size_ = 0;
-    bool grows_ = false;
+    bool grows_ = false, synced_ = false;
+    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 
     static Result<OutputFile> prepare(const std::string& path);
     Error broken() const;
@@ -38,9 +43,10 @@ public:
     /// Over what stands there; of one that grows.
     Result<void> rewrite(std::size_t at, std::string_view text);
     std::size_t size() const { return size_; }  ///< what was written
-    /// Puts the file in its place once its bytes are on the disk; refuses if one could not be written. Behind the last of a directory,
-    /// sync_directory_of() keeps the names, too.
-    Result<void> commit();
+    /// Puts the file in its place; refuses if a byte could not be written. Of one that took longer than a second to make, or always, its
+    /// bytes are on the disk before: behind the last of a directory sync_directory_of() keeps the names, too.
+    Result<void> commit(Sync = Sync::if_costly);
+    bool is_synced() const { return synced_; }
     const std::string& path() const { return path_; }
     /// For a library that writes into a file that is open.
     std::FILE* stream() { return file_; }

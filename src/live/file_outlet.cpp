@@ -123,7 +123,7 @@ Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const E
         format, ring, path, [file](std::string_view text) { return file->write(text); },
         [file] {
             const auto done = file->commit();
-            return done ? sync_directory_of(file->path()) : done;
+            return done && file->is_synced() ? sync_directory_of(file->path()) : done;
         }));
 }
 

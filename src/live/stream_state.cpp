@@ -77,7 +77,7 @@ Result<void> save_stream(const std::string& path, const StreamState& state) {
     if (!file) return file.error();
     const auto bytes = packed(state);
     if (auto ok = file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok) return ok;
-    if (auto ok = file->commit(); !ok) return ok;
+    if (auto ok = file->commit(Sync::always); !ok) return ok;
     return sync_directory_of(path);
 }
 

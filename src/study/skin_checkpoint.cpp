@@ -302,8 +302,7 @@ Result<void> SkinCheckpoint::keep() {
     auto out = OutputFile::create(file_);
     if (!out) return out.error();
     if (auto ok = out->write(bytes); !ok) return ok;
-    if (auto ok = out->commit(); !ok) return ok;
-    return sync_directory_of(file_);
+    return out->commit(Sync::always);
 }
 
 /// The lock is held until both are gone; an output of the same name is no checkpoint and stays.

@@ -199,9 +199,25 @@ TEST(Outputs, PartsFollowNoLinks) {
     EXPECT_NE(growing.error().text().find("is a link or no plain file"), std::string::npos) << growing.error().text();
     EXPECT_EQ(read_file(folder / "victim"), "mine");
     fs::create_symlink("victim", folder / "r.sqlite-writer");
-    folder.write("s.toml", "afferent = \"sa1\"\nforce = \"press\"\n[[vary]]\nwhat = \"sa1.f_B\"\nvalues = [\"20 Hz\", \"21 Hz\"]\n");
-    EXPECT_EQ(test::run(folder, "sweep s.toml -o r.sqlite -q").status, 1);
+    folder.write("s.toml", "afferent = \"sa1\"\nforce = \"press\"\n[[vary]]\nwhat = \"sa1.f_B\"\nlist = [\"20 Hz\", \"21 Hz\"]\n");
+    const auto sweep = test::run(folder, "sweep s.toml -o r.sqlite -q");
+    EXPECT_EQ(sweep.status, 1);
+    EXPECT_NE(sweep.err.find("symbolic links"), std::string::npos) << sweep.err;
     EXPECT_EQ(read_file(folder / "victim"), "mine");
+}
+
+TEST(Outputs, ThatCostMoreThanASecondOrAreToBeTakenUpAreSyncedBeforeTheyHaveTheirNames) {
+    const Folder folder;
+    auto quick = test::sure(OutputFile::create(folder / "quick.csv")), kept = test::sure(OutputFile::create(folder / "x.state")),
+         slow = test::sure(OutputFile::create(folder / "slow.csv"));
+    ASSERT_TRUE(quick.commit());
+    ASSERT_TRUE(kept.commit(Sync::always));
+    ::usleep(1'050'000);
+    ASSERT_TRUE(slow.commit());
+    EXPECT_FALSE(quick.is_synced());
+    EXPECT_TRUE(kept.is_synced());
+    EXPECT_TRUE(slow.is_synced());
+    EXPECT_TRUE(sync_directory_of(folder / "slow.csv"));
 }
 
 TEST(Outputs, ADeviceIsWrittenInPlace) {

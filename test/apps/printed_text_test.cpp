@@ -60,6 +60,12 @@ TEST(PrintedText, TheProgramAloneHelpsAndAWrongVerbIsToldTheRightOne) {
         EXPECT_EQ(test::run(folder, verb + " --version").out, test::run(folder, "--version").out) << verb;
 }
 
+TEST(PrintedText, AsManyChannelsAreOfferedAsAreTaken) {
+    const Folder folder;
+    EXPECT_NE(test::run(folder, "stream --help").out.find("[1 - 4194304]"), std::string::npos);
+    EXPECT_EQ(test::run(folder, "stream --rate 1kHz --channels 4194305 < /dev/null").status, 2);
+}
+
 TEST(PrintedText, AReportIsAPageByItsName) {
     const Folder folder;
     for (const std::string words : {"respond press --report x.pdf", "respond press --report my_report", "study fig3 --report x",

@@ -79,7 +79,7 @@ TEST(Signals, OneEndsAReadThatWaits) {
     const std::vector<std::vector<std::string>> commands = {
         {"respond", "-", "--rate", "1kHz", "-o", "new"},
         {"respond", "fifo", "--rate", "1kHz", "-o", "new"},  // nobody writes it
-        {"run", "/dev/stdin"},
+        {"run", "fifo"},
     };
     for (const auto& words : commands)
         for (const int signal : {SIGINT, SIGTERM}) {
