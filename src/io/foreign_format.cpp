@@ -21,7 +21,7 @@ struct Foreign {
 // In Python the names stand in single quotes.
 constexpr std::string_view workbook = R"py(python3 -c "import pandas; pandas.read_excel({0}).to_csv({1}.csv', index=False)")py";
 
-constexpr Foreign foreign[] = {
+constexpr Foreign foreign_formats[] = {
     {"PK\x03\x04", "opendocument", ".ods", "an OpenDocument spreadsheet", workbook},
     {"PK\x03\x04", "", ".xlsx", "an Excel workbook", workbook},
     {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", workbook},
@@ -51,7 +51,7 @@ constexpr Foreign foreign[] = {
 struct Misnamed {
     std::string_view first, what, extension;
 };
-constexpr Misnamed misnamed[] = {
+constexpr Misnamed misnamed_formats[] = {
     {"\x89HDF", "an HDF5 file", ".h5"}, {"\x93NUMPY", "NumPy's array", ".npy"}, {"PK\x03\x04", "NumPy's arrays", ".npz"},
     {"RIFF", "a WAV file", ".wav"},     {"fLaC", "a FLAC file", ".flac"},
 };
@@ -86,7 +86,7 @@ std::string shell_word(const std::string& path) {
 
 std::string foreign_format(std::string_view first, const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
-    for (const auto& f : foreign) {
+    for (const auto& f : foreign_formats) {
         const bool zip = f.first == "PK\x03\x04";
         if (!first.starts_with(f.first)) continue;
         if (zip && extension != f.extension &&
@@ -100,7 +100,7 @@ std::string foreign_format(std::string_view first, const std::string& path) {
 std::string misnamed_format(std::string_view first, const std::string& path) {
     if (first.starts_with("PK\x03\x04") && first.find(".npy") == first.npos)
         return fmt::format("this is a ZIP archive; take out what is in it: unzip {}", shell_word(path));
-    for (const auto& m : misnamed)
+    for (const auto& m : misnamed_formats)
         if (first.starts_with(m.first)) {
             const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
             return fmt::format("this is {}, and it is known by the end of its name: ln -s {} {}", m.what, shell_word(path),
