@@ -65,6 +65,8 @@ TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatTakesOneOut) {
     EXPECT_EQ(one.names, std::vector<std::string>{"fz"});
     EXPECT_EQ(one.force[0].size(), 100U);
     EXPECT_TRUE(some_remark(one, "'trial' tells trials apart: left out"));
+    EXPECT_TRUE(some_remark(recording(folder / "trials.csv", {.rate = 100}),
+                            "the times in 'time' go back (by 990 ms or less), as those of several"));
 }
 
 TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
