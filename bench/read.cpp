@@ -87,8 +87,9 @@ int main(int argc, char** argv) {
     bytes_alone(path);  // once before, so that the file is in memory for all alike if it fits
     report("bytes alone (blocks of 1 MB)", bytes, [&] { return bytes_alone(path); });
     report("numbers", bytes, [&] { return numbers(path); });
-    report("force, --time none --rate 100Hz: one pass", bytes,
-           [&] { return force(path, {.channels = {"2-17"}, .time = "none", .rate = 100, .scale = 0.008}); });
-    report("force, on its own clock: two passes", bytes, [&] { return force(path, {.scale = 0.008}); });
+    RecordingOptions by_rate, by_clock;
+    by_rate.channels = {"2-17"}, by_rate.time = "none", by_rate.rate = 100, by_rate.scale = by_clock.scale = 0.008;
+    report("force, --time none --rate 100Hz: one pass", bytes, [&] { return force(path, by_rate); });
+    report("force, on its own clock: two passes", bytes, [&] { return force(path, by_clock); });
     std::filesystem::remove(path);
 }

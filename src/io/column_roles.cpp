@@ -28,16 +28,18 @@ struct Roles {
         return last > begin && !std::isinf(begin);
     }
 
-    /// Are all of them whole numbers, each above the last by `step`, or by anything if that is 0?
-    bool counts(std::size_t c, double step) const {
+    /// Are all of them whole numbers, each above the last by what `step` allows?
+    template <class Step>
+    bool counts(std::size_t c, const Step& step) const {
         const auto& x = first[c].numbers;
         if (x.size() < 2 || first[c].values != x.size()) return false;
-        for (std::size_t k = 0; k < x.size(); ++k) {
-            if (std::floor(x[k]) != x[k]) return false;
-            if (k > 0 && (step > 0 ? x[k] - x[k - 1] != step : !(x[k] > x[k - 1]))) return false;
-        }
-        return true;
+        for (std::size_t k = 0; k < x.size(); ++k)
+            if (std::floor(x[k]) != x[k] || (k > 0 && !step(x[k] - x[k - 1]))) return false;
+        return x[1] > x[0];
     }
+    static bool by_one(double step) { return step == 1; }
+    static bool upwards(double step) { return step > 0; }
+    static bool by_one_or_anew(double step) { return step == 1 || step < 0; }  // an index of each trial
 
     bool evenly_rises(std::size_t c) const {
         const auto& x = first[c].numbers;
@@ -82,7 +84,7 @@ struct Roles {
             out.remarks.push_back(
                 fmt::format("{} was taken as the time (--time none takes no column as that)",
                             name.empty() ? fmt::format("column {}, which has no name,", *out.time + 1) : "'" + name + "'"));
-        } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !counts(0, 0)) {
+        } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !counts(0, upwards)) {
             out.time = 0, out.time_is_guessed = true;
             out.remarks.push_back(fmt::format("{} has no name, rises evenly and was taken as the time (--time none takes it as a channel)",
                                               "the first column"));
@@ -92,9 +94,9 @@ struct Roles {
     bool is_index(std::size_t c) const {
         const auto& column = columns[c];
         if (!column.unit.empty() || !holds_numbers(c)) return false;
-        if (c == 0 && column.name.empty()) return counts(c, 0);
-        if (names_index(column.name)) return counts(c, 1);
-        return c == 0 && first[c].numbers.size() >= rows_of_an_index && counts(c, 1);
+        if (c == 0 && column.name.empty()) return counts(c, upwards);
+        if (names_index(column.name)) return counts(c, by_one_or_anew);
+        return c == 0 && first[c].numbers.size() >= rows_of_an_index && counts(c, by_one);
     }
 
     bool is_whole(std::size_t c) const {

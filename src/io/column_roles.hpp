@@ -21,8 +21,8 @@ struct FirstFields {
 
 struct ColumnRoles {
     std::optional<std::size_t> time = {};
-    bool time_is_guessed = false;  ///< by how it runs, not by its name
-    std::vector<std::string> remarks = {};
+    bool time_is_guessed = false;           ///< by how it runs, not by its name
+    std::vector<std::string> remarks = {};  ///< of the time
 };
 
 /// Marks the columns that hold stamps or are to be left out, and finds the time. `first`: a member a column. `named`: the columns have

@@ -18,14 +18,14 @@ struct Foreign {
     std::string_view command;  ///< {0}: the file, {1}: the new one's name without extension
 };
 
-// In Python the names stand in single quotes.
+// In Python the names stand in single quotes. An index goes along where there may be one: it may be the time.
 constexpr std::string_view workbook = R"py(python3 -c "import pandas; pandas.read_excel({0}).to_csv({1}.csv', index=False)")py";
 
-constexpr Foreign foreign[] = {
+constexpr Foreign foreign_formats[] = {
     {"PK\x03\x04", "opendocument", ".ods", "an OpenDocument spreadsheet", workbook},
     {"PK\x03\x04", "", ".xlsx", "an Excel workbook", workbook},
     {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", workbook},
-    {"PAR1", "", ".parquet", "a Parquet file", R"py(python3 -c "import pandas; pandas.read_parquet({0}).to_csv({1}.csv', index=False)")py"},
+    {"PAR1", "", ".parquet", "a Parquet file", R"py(python3 -c "import pandas; pandas.read_parquet({0}).to_csv({1}.csv')")py"},
     {"ARROW1", "", ".feather", "a Feather (Arrow) file",
      R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py"},
     {"FEA1", "", ".feather", "a Feather file", R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py"},
@@ -34,13 +34,13 @@ constexpr Foreign foreign[] = {
     {"MATLAB 5.0 MAT-file", "", "", "a MATLAB file of version 5 to 7 (one of save -v7.3 is read)",
      R"py(python3 -c "import numpy, scipy.io; numpy.savez({1}.npz', **{{k: v for k, v in scipy.io.loadmat({0}).items() if k[0] != '_'}})")py"},
     {"\x80\x02", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
     {"\x80\x03", "", ".pickle", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
     {"\x80\x04", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
     {"\x80\x05", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv', index=False)")py"},
+     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
     {"BZh", "", ".bz2", "packed with bzip2", "bunzip2 -k {2}"},
     {"\xfd\x37zXZ", "", ".xz", "packed with xz", "xz -dk {2}"},
     {"\x28\xb5\x2f\xfd", "", ".zst", "packed with zstd", "zstd -d {2}"},
@@ -51,7 +51,7 @@ constexpr Foreign foreign[] = {
 struct Misnamed {
     std::string_view first, what, extension;
 };
-constexpr Misnamed misnamed[] = {
+constexpr Misnamed misnamed_formats[] = {
     {"\x89HDF", "an HDF5 file", ".h5"}, {"\x93NUMPY", "NumPy's array", ".npy"}, {"PK\x03\x04", "NumPy's arrays", ".npz"},
     {"RIFF", "a WAV file", ".wav"},     {"fLaC", "a FLAC file", ".flac"},
 };
@@ -86,7 +86,7 @@ std::string shell_word(const std::string& path) {
 
 std::string foreign_format(std::string_view first, const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
-    for (const auto& f : foreign) {
+    for (const auto& f : foreign_formats) {
         const bool zip = f.first == "PK\x03\x04";
         if (!first.starts_with(f.first)) continue;
         if (zip && extension != f.extension &&
@@ -100,7 +100,7 @@ std::string foreign_format(std::string_view first, const std::string& path) {
 std::string misnamed_format(std::string_view first, const std::string& path) {
     if (first.starts_with("PK\x03\x04") && first.find(".npy") == first.npos)
         return fmt::format("this is a ZIP archive; take out what is in it: unzip {}", shell_word(path));
-    for (const auto& m : misnamed)
+    for (const auto& m : misnamed_formats)
         if (first.starts_with(m.first)) {
             const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
             return fmt::format("this is {}, and it is known by the end of its name: ln -s {} {}", m.what, shell_word(path),

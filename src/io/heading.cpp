@@ -28,7 +28,7 @@ constexpr std::string_view never_force[] = {"deg", "\u00b0", "rad",      "degC",
                                             "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
 
 /// Letters, and min, that more often mean something else behind a name (left_F, sensor_A) than a unit.
-constexpr std::string_view letters[] = {"", "1", "%", "F", "A", "S", "T", "C", "K", "h", "min"};
+constexpr std::string_view ambiguous_units[] = {"", "1", "%", "F", "A", "S", "T", "C", "K", "h", "min"};
 
 /// Does the name before it show that such a letter is a unit: temp_C, motor_current_A?
 bool shows_unit(std::string_view name, std::string_view letter) {
@@ -40,7 +40,7 @@ bool shows_unit(std::string_view name, std::string_view letter) {
 
 /// What may stand behind a name and be its unit.
 bool is_suffix_unit(std::string_view name, std::string_view s) {
-    if (in_list(letters, s)) return shows_unit(name, s);
+    if (in_list(ambiguous_units, s)) return shows_unit(name, s);
     return is_unit(s);
 }
 

@@ -92,7 +92,10 @@ public:
             for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, rows_looked_at); ++k) v.first.add_other(v.first.nothing);
             first.push_back(std::move(v.first));
         }
-        roles_ = assign_roles(columns_, first, !called_.contains("ch1"));
+        const bool named = std::any_of(columns_.begin(), columns_.end(), [](const Column& c) {
+            return !c.name.starts_with("ch") || c.name.find_first_not_of("0123456789", 2) != c.name.npos;
+        });
+        roles_ = assign_roles(columns_, first, named);
         if (roles_.time && columns_[*roles_.time].stamps) {
             const auto& s = *values_[*roles_.time].stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
@@ -105,7 +108,7 @@ public:
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return roles_.time; }
     bool time_is_guessed() const override { return roles_.time_is_guessed; }
-    std::vector<std::string> column_remarks() const override { return roles_.remarks; }
+    std::vector<std::string> time_remarks() const override { return roles_.remarks; }
     double done() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
     Place place(std::size_t row) const override {

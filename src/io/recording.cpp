@@ -178,11 +178,11 @@ public:
         : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)) {}
 
     Result<void> open() {
-        remarks_ = table_->remarks();
         const auto time = choose_time(*table_, options_.time, path_);
         if (!time) return time.error();
-        if (*time == table_->time_column() || !table_->time_column())
-            for (auto& remark : table_->column_remarks()) remarks_.push_back(std::move(remark));
+        remarks_ = table_->remarks();
+        if (*time && *time == table_->time_column())
+            for (auto& remark : table_->time_remarks()) remarks_.push_back(std::move(remark));
         if (holds_spikes(*time)) return bad_input("this is a file of spikes, not of force; 'corpuscle compare' reads it", {path_});
         const auto chosen = choose(*time);
         if (!chosen) return chosen.error();

@@ -66,7 +66,12 @@ std::string uneven(const std::string& name, const ClockCheck& c) {
 
 /// The clock that `rate` gives, with what the times say against it.
 Result<Clock> by_rate(double rate, const std::string& name, const ClockCheck& times, std::vector<std::string>& remarks) {
-    if (times.count() > 1 && std::abs(times.mean_step() * rate - 1) > 0.01)
+    if (times.count() > 1 && times.least_step() < 0)
+        remarks.push_back(
+            fmt::format("the times in '{}' go back (by {} or less), as those of several trials one under another do; --rate takes all "
+                        "rows as one recording",
+                        name, format_quantity(-times.least_step(), "s")));
+    else if (times.count() > 1 && std::abs(times.mean_step() * rate - 1) > 0.01)
         remarks.push_back(
             fmt::format("--rate says {}, the times in '{}' say {} on the mean", hertz(rate), name, hertz(1 / times.mean_step())));
     else if (times.count() > 1 && !times.even())

@@ -21,6 +21,7 @@ bool names_spike_time(std::string_view name) {
 
 std::string listed_headings(const std::vector<std::string>& headings) {
     std::vector<std::string> names;
+    if (headings.empty()) return "none";
     for (const auto& h : headings) names.push_back("'" + h.substr(0, 40) + "'");
     if (names.size() > 12) names.resize(12), names.push_back("...");
     return fmt::format("{}", fmt::join(names, ", "));

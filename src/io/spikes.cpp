@@ -59,8 +59,8 @@ std::string csv_field(const std::string& text) {
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& columns) {
     std::string first(512, '\0');
     std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
-    for (const auto& [magic, what] : {std::pair{"\x89HDF", "an HDF5 file"}, {"RIFF", "a sound"}, {"fLaC", "a sound"}})
-        if (first.starts_with(magic))
+    for (const auto& [begin, what] : {std::pair{"\x89HDF", "an HDF5 file"}, {"RIFF", "a sound"}, {"fLaC", "a sound"}})
+        if (first.starts_with(begin))
             return bad_input(fmt::format("this is {}, no file of spikes: these are CSV, JSON lines, .npy, .npz or address events", what),
                              {path});
     if (first.starts_with("PK") && (first.find(".npy") != first.npos || path.ends_with(".npz"))) return read_npz_spikes(path);

@@ -36,8 +36,6 @@ public:
     virtual const std::vector<Column>& columns() const = 0;
     /// Rows a second, if the file says it; Hz.
     virtual std::optional<double> rate() const { return {}; }
-    /// What the user should know of how the file is read.
-    virtual std::vector<std::string> remarks() const { return {}; }
     /// With gaps allowed a field that is no finite number reads as NaN; else it is an error that names its place.
     void allow_gaps(bool allowed) { gaps_allowed_ = allowed; }
     /// Which column is the time, if the file shows it ...
@@ -47,8 +45,10 @@ public:
     /// Reads up to `rows` rows of the columns `wanted` into out[i]; fewer than asked for only at the end.
     virtual Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) = 0;
     virtual Result<void> rewind() = 0;
-    /// How columns were taken without being named: one as the time, one left out.
-    virtual std::vector<std::string> column_remarks() const { return {}; }
+    /// What the user should know of how the file is read,
+    virtual std::vector<std::string> remarks() const { return {}; }
+    /// and of the time column that it shows.
+    virtual std::vector<std::string> time_remarks() const { return {}; }
     /// If the rows of several trials may stand one under another: what makes a file of one of them. Else "".
     virtual std::string one_trial() const { return {}; }
     /// How much of the file has been read, 0 to 1.

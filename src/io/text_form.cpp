@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/foreign_format.hpp"
 #include "io/labview.hpp"
 #include "signal/text.hpp"
 
@@ -33,6 +34,13 @@ Result<std::vector<HeadLine>> read_head(Lines& lines, std::size_t skip) {
         if (lines.number() <= static_cast<long>(skip)) continue;
         if (line.find('\0') != line.npos)
             return bad_input("this is no text: it has NUL bytes, as binary files have", {lines.path(), lines.number()});
+        if (line.find('\r') != line.npos && line.find('"') == line.npos)
+            return bad_input(
+                fmt::format(
+                    "its lines end in a way that only old Macs know (CR alone); make a file of it that is read: tr '\\r' '\\n' < {} "
+                    "> lines.csv",
+                    shell_word(lines.path())),
+                {lines.path(), lines.number()});
         if (is_comment(line)) {
             if (const auto s = trimmed(line); !s.empty()) comment = trimmed(s.substr(1));
             gap = true;
@@ -47,9 +55,10 @@ Result<std::vector<HeadLine>> read_head(Lines& lines, std::size_t skip) {
 
 /// Excel's first line: "sep=;" names the separator.
 std::optional<char> named_separator(std::string_view line) {
-    line = trimmed(line);
+    while (line.ends_with(' ') && line.size() > 5) line.remove_suffix(1);
     if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
-    if (line.size() == 5 && lower(line.substr(0, 4)) == "sep=") return line[4];
+    constexpr std::string_view separators = ",;\t|: ~^/&";
+    if (line.size() == 5 && lower(line.substr(0, 4)) == "sep=" && separators.find(line[4]) != separators.npos) return line[4];
     return line.size() == 6 && lower(line.substr(0, 4)) == "sep=" && line.substr(4) == "\\t" ? std::optional('\t') : std::nullopt;
 }
 
@@ -283,9 +292,8 @@ class FormFinder {
     void tell_passed_over() {
         if (passed_over_ == 0) return;
         const auto first = head_[0].number, last = head_[passed_over_ - 1].number;
-        form_.roles.remarks.insert(form_.roles.remarks.begin(),
-                                   first == last ? fmt::format("line {} stands before the table and was passed over", first)
-                                                 : fmt::format("lines {} to {} stand before the table and were passed over", first, last));
+        form_.remarks.push_back(first == last ? fmt::format("line {} stands before the table and was passed over", first)
+                                              : fmt::format("lines {} to {} stand before the table and were passed over", first, last));
     }
 
 public:

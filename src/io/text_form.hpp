@@ -15,11 +15,12 @@ struct TextForm {
     ColumnRoles roles;
     std::optional<TimeStamp> first_stamp = {};  ///< of the time, or of the first column that holds some
     std::optional<double> rate = {};            ///< Hz, if the file says it
-    long first_row = 1;                         ///< its line
-    bool named = false;                         ///< by a header
-    bool last_may_be_missing = false;           ///< the last field of a row, with its separator
-    std::optional<std::size_t> trial = {};      ///< the column that may tell trials apart,
-    std::string first_trial = {};               ///< and what its first row says
+    std::vector<std::string> remarks = {};
+    long first_row = 1;                     ///< its line
+    bool named = false;                     ///< by a header
+    bool last_may_be_missing = false;       ///< the last field of a row, with its separator
+    std::optional<std::size_t> trial = {};  ///< the column that may tell trials apart,
+    std::string first_trial = {};           ///< and what its first row says
 };
 
 /// Reads the head of the file and rewinds it. `skip`: lines that are not looked at.

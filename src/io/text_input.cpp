@@ -104,7 +104,7 @@ public:
     double done() const override { return packed_->done(); }
 };
 
-void append_utf8(std::string& out, unsigned long c) {
+void append_letter(std::string& out, unsigned long c) {
     const auto byte = [&](unsigned long b) { out += static_cast<char>(b); };
     if (c < 0x80) return byte(c);
     if (c < 0x800) return byte(0xc0 | c >> 6), byte(0x80 | (c & 0x3f));
@@ -124,14 +124,14 @@ class Utf16Text final : public TextInput {
     void take(unsigned long unit) {
         const bool low = unit >= 0xdc00 && unit < 0xe000;
         if (high_ != 0) {
-            append_utf8(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
+            append_letter(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
             high_ = 0;
             if (low) return;
         }
         if (unit >= 0xd800 && unit < 0xdc00)
             high_ = unit;
         else
-            append_utf8(out_, low ? 0xfffd : unit);
+            append_letter(out_, low ? 0xfffd : unit);
     }
 
     Result<void> refill() {
@@ -145,7 +145,7 @@ class Utf16Text final : public TextInput {
             const auto a = static_cast<unsigned char>(block[k]), b = static_cast<unsigned char>(block[k + 1]);
             take(big_endian_ ? a * 256UL + b : b * 256UL + a);
         }
-        if (ended_ && high_ != 0) append_utf8(out_, 0xfffd), high_ = 0;
+        if (ended_ && high_ != 0) append_letter(out_, 0xfffd), high_ = 0;
         return {};
     }
 

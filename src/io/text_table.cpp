@@ -184,7 +184,8 @@ public:
     std::optional<std::size_t> time_column() const override { return time_; }
     bool time_is_guessed() const override { return time_ && (!form_.named || form_.roles.time_is_guessed); }
     std::optional<double> rate() const override { return form_.rate; }
-    std::vector<std::string> column_remarks() const override {
+    std::vector<std::string> remarks() const override { return form_.remarks; }
+    std::vector<std::string> time_remarks() const override {
         auto all = form_.roles.remarks;
         if (time_ && columns_[*time_].stamps && form_.first_stamp) {
             const auto& s = *form_.first_stamp;
@@ -196,7 +197,7 @@ public:
 
     /// awk does it, but for quotes and what is packed.
     std::string one_trial() const override {
-        if (!form_.trial || form_.dialect.separator == '"') return "";
+        if (!form_.trial || std::string_view("\"'\\^]").find(form_.dialect.separator) != std::string_view::npos) return "";
         const auto& name = columns_[*form_.trial].name;
         const auto& value = form_.first_trial;
         const auto said = fmt::format(
@@ -209,7 +210,7 @@ public:
         if (!plain) return said + "; make a file of each";
         double number;
         const char separator = dialect_.separator;
-        const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F'{}'", separator);
+        const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F' *[{}] *'", separator);
         const auto awk = fmt::format("awk{} 'NR<{} || ${}=={}'", fields, form_.first_row, *form_.trial + 1,
                                      dialect_.number(value, number) ? value : "\"" + value + "\"");
         const bool packed = lines_.path().ends_with(".gz");

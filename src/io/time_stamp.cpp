@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000, day_length = 86'400 * second;
+constexpr std::int64_t a_second = 1'000'000'000, a_day = 86'400 * a_second;  // ns
 
 /// Takes what a stamp is made of from the front of a text; `good` as long as it was there.
 struct StampReader {
@@ -74,14 +74,14 @@ std::optional<std::int64_t> take_time_of_day(StampReader& r) {
     if (!r.good || hour > 23 || minute > 59 || whole > 60) return {};
     std::int64_t fraction = 0;
     if (r.take('.') || r.take(',') || r.take(':')) {  // the last as some loggers write milliseconds
-        std::int64_t unit = second;
+        std::int64_t unit = a_second;
         while (!r.rest.empty() && StampReader::is_digit(r.rest[0])) {
             if (unit > 1) fraction += (unit /= 10) * (r.rest[0] - '0');
             r.rest.remove_prefix(1);
         }
-        if (unit == second) return {};
+        if (unit == a_second) return {};
     }
-    return (hour * 3600LL + minute * 60LL + whole) * second + fraction;
+    return (hour * 3600LL + minute * 60LL + whole) * a_second + fraction;
 }
 
 /// "Z", "+01:00", "+0100", "+01": nanoseconds ahead of universal time.
@@ -94,7 +94,7 @@ std::optional<std::int64_t> take_zone(StampReader& r) {
     r.take(':');
     const int minutes = r.rest.empty() ? 0 : r.digits(2, 2);
     if (!r.good || hours > 14 || minutes > 59) return {};
-    const std::int64_t ahead = (hours * 3600LL + minutes * 60LL) * second;
+    const std::int64_t ahead = (hours * 3600LL + minutes * 60LL) * a_second;
     return west ? -ahead : ahead;
 }
 
@@ -112,8 +112,8 @@ std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
     const auto ahead = take_zone(r);
     if (!ahead || !r.rest.empty()) return {};
     TimeStamp out{day.value_or(0), *time - *ahead, day.has_value()};
-    for (; out.nanoseconds < 0; out.nanoseconds += day_length) --out.day;
-    for (; out.nanoseconds >= day_length; out.nanoseconds -= day_length) ++out.day;
+    for (; out.nanoseconds < 0; out.nanoseconds += a_day) --out.day;
+    for (; out.nanoseconds >= a_day; out.nanoseconds -= a_day) ++out.day;
     return out;
 }
 
@@ -124,7 +124,7 @@ bool is_date(std::string_view text) {
 
 double seconds_between(const TimeStamp& from, const TimeStamp& to) {
     const double days = static_cast<double>(to.day - from.day);
-    if (std::abs(days) < 1e5) return static_cast<double>((to.day - from.day) * day_length + (to.nanoseconds - from.nanoseconds)) / 1e9;
+    if (std::abs(days) < 1e5) return static_cast<double>((to.day - from.day) * a_day + (to.nanoseconds - from.nanoseconds)) / 1e9;
     return days * 86'400 + static_cast<double>(to.nanoseconds - from.nanoseconds) / 1e9;
 }
 

@@ -302,7 +302,8 @@ Result<void> SkinCheckpoint::keep() {
     auto out = OutputFile::create(file_);
     if (!out) return out.error();
     if (auto ok = out->write(bytes); !ok) return ok;
-    return out->commit(Sync::always);
+    if (auto ok = out->commit(Sync::always); !ok) return ok;
+    return sync_directory_of(file_);
 }
 
 /// The lock is held until both are gone; an output of the same name is no checkpoint and stays.

@@ -65,14 +65,18 @@ TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatTakesOneOut) {
     EXPECT_EQ(one.names, std::vector<std::string>{"fz"});
     EXPECT_EQ(one.force[0].size(), 100U);
     EXPECT_TRUE(some_remark(one, "'trial' tells trials apart: left out"));
+    EXPECT_TRUE(some_remark(recording(folder / "trials.csv", {.rate = 100}),
+                            "the times in 'time' go back (by 990 ms or less), as those of several"));
 }
 
 TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
-    for (const std::string separator : {";", "\t", " "}) {
+    for (const std::string separator : {";", "\t", " ", " , "}) {
         const Folder folder;
-        std::string text = "# of a study\nsubject" + separator + "t_s" + separator + "F_N\n";
+        std::string text = "# of a study\nn" + separator + "subject" + separator + "t_s" + separator + "F_N\n";
         for (const std::string subject : {"S01", "S02"})
-            text += rows_of(30, [&](int, double t, double F) { return subject + separator + fmt::format("{}{}{}\n", t, separator, F); });
+            text += rows_of(30, [&](int, double t, double F) {
+                return "7" + separator + subject + separator + fmt::format("{}{}{}\n", t, separator, F);
+            });
         const auto said = try_recording(folder.write("all.txt", text)).error().text();
         const auto at = said.find("awk ");
         ASSERT_NE(at, said.npos) << said;
@@ -96,6 +100,7 @@ TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
     for (const std::string asked : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
         EXPECT_NEAR(recording(path, {.time = asked}).clock.rate(), 100, 1e-6) << asked;
     EXPECT_TRUE(some_remark(recording(path), "'Zeit' was taken as the time"));
+    EXPECT_FALSE(some_remark(recording(path, {.time = "none", .rate = 10}), "was taken as the time"));
 }
 
 TEST(LoggerFiles, AColumnWithATimeLikeNameThatDoesNotRiseIsNoTime) {
@@ -184,6 +189,15 @@ TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
     EXPECT_NE(test::refusal(folder.write("x.npy", "?"), skip).find("--skip 100: lines are of files of text"), std::string::npos);
 }
 
+TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
+    const Folder folder;
+    const auto said = try_recording(folder.write("x.csv", "time_s,F_N\r0,1\r1,2\r")).error().text();
+    const auto at = said.find("tr '");
+    ASSERT_NE(at, said.npos) << said;
+    ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0);
+    EXPECT_EQ(recording(folder / "lines.csv").force[0], (std::vector<double>{1, 2}));
+}
+
 TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
     const Folder folder;
     const std::string table = rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); });
@@ -227,6 +241,8 @@ TEST(LoggerFiles, AnIndexColumnIsLeftOutAndTold) {
     EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1"}}).force[0][7], 7) << "the remedy";
     EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1-2"}}).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "sample,time_s,fz_N\n" + rows_of(3, line)).names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(read_logged(folder, "sample,fz_N\n0,1\n1,1\n0,2\n1,2\n", {.rate = 10}).names, std::vector<std::string>{"fz"})
+        << "anew each trial";
     EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(30, line)).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(3, line)).names, (std::vector<std::string>{"k", "fz"})) << "too few to tell";
     EXPECT_EQ(read_logged(folder, "F_N\n1\n2\n3\n4\n5\n6\n7\n8\n9\n", {.rate = 10}).names, std::vector<std::string>{"F"}) << "all there is";
