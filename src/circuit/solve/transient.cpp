@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "circuit/solve/bend.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -82,6 +83,7 @@ void Transient::allow() {
         may_err_[n] = plan_.reltol * scale_[n] + (voltage ? plan_.vntol : plan_.abstol);
         if (charged_[n] || (plan_.all_reported && voltage)) allowed_[n] = may_err_[n];
         if (!voltage) largest = std::max(largest, scale_[n]);
+        if (!voltage && !plan_.all_reported) may_err_[n] *= Bend::current_may;
     }
     if (!plan_.all_reported) return;
     largest_charge_ = 0;
@@ -141,16 +143,13 @@ double Transient::noise(int unknown) const { return system_.is_voltage(unknown) 
 /// How far the curve in the step just solved is off half way, of what it may be; it goes through as many points as make that least.
 /// The first step after a corner has no third point to tell.
 double Transient::bend() {
-    curve_ = curves_.empty() ? 0 : 2;
-    const int seen = past_.seen();
-    if (curves_.empty() || seen < 2) return 0;
+    curve_ = 0;
+    if (curves_.empty()) return 0;
     const auto& next = past_.next();
     std::array<double, Past::most + 1> times{next.t};
     const auto before = past_.times();
     std::copy(before.begin(), before.end(), times.begin() + 1);
-    double least = 0;
-    for (int points = 2; points <= std::min(seen, StepControl::curve_points); ++points) {
-        const auto w = weights_of_bend(std::span(times).first(static_cast<std::size_t>(points) + 1));
+    const auto curve = least_bend(times, past_.seen(), [&](const PastWeights& w, int points) {
         double worst = 0;
         for (const int u : curves_) {
             const auto n = static_cast<std::size_t>(u);
@@ -158,9 +157,10 @@ double Transient::bend() {
             for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k) + 1] * past_[k].x[n];
             worst = std::max(worst, std::abs(sum) / (may_err_[n] + noise(u)));
         }
-        if (points == 2 || worst < least) least = worst, curve_ = points;
-    }
-    return least / StepControl::curved;
+        return worst;
+    });
+    curve_ = curve.points;
+    return curve.off;
 }
 
 /// Of the step just solved, had it been of this order, in units of what is allowed. Infinity: too few points to tell.
