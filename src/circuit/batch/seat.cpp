@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "circuit/solve/crossing.hpp"
+#include "circuit/solve/bend.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -178,25 +179,25 @@ void Seat::weigh(int order, lanes::ErrorCall& call, std::span<lanes::Row> of_pas
 /// As Transient::bend.
 double Seat::bend() {
     const auto curves = rig_->transient().curves();
-    curve_ = curves.empty() ? 0 : 2;
-    if (curves.empty() || seen_ < 2) return 0;
+    curve_ = 0;
+    if (curves.empty()) return 0;
     auto& b = memory_.block;
-    std::array<double, 9> all{t_};
-    std::copy(times_.begin(), times_.end(), all.begin() + 1);
-    double least = 0;
-    for (int points = 2; points <= std::min(seen_, StepControl::curve_points); ++points) {
-        const auto w = weights_of_bend(std::span(all).first(static_cast<std::size_t>(points) + 1));
+    std::array<double, 9> times{t_};
+    std::copy(times_.begin(), times_.end(), times.begin() + 1);
+    std::array<const lanes::Row*, StepControl::curve_points + 1> rows{b.x};
+    for (int k = 0; k < StepControl::curve_points; ++k) rows[static_cast<std::size_t>(k) + 1] = b.past_x + ring(k) * b.unknowns;
+    const auto curve = least_bend(times, seen_, [&](const PastWeights& w, int points) {
         double worst = 0;
-        for (const int u : curves) {
-            const auto n = static_cast<std::size_t>(u);
-            double sum = w[0] * b.x[n].of[lane_];
-            for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k) + 1] * past(b.past_x, k, n);
+        for (const int n : curves) {
+            double sum = 0;
+            for (std::size_t k = 0; k <= static_cast<std::size_t>(points); ++k) sum += w[k] * rows[k][n].of[lane_];
             const double may = plan_.reltol * b.scale[n].of[lane_] + (b.voltage[n] ? plan_.vntol : plan_.abstol);
-            worst = std::max(worst, std::abs(sum) / may);
+            worst = std::max(worst, std::abs(sum) / (b.voltage[n] ? may : Bend::current_may * may));
         }
-        if (points == 2 || worst < least) least = worst, curve_ = points;
-    }
-    return least / StepControl::curved;
+        return worst;
+    });
+    curve_ = curve.points;
+    return curve.off;
 }
 
 /// After Newton's steps have gone where they went; error infinite: they did not arrive.

@@ -1,5 +1,8 @@
 #include "circuit/device/source.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "circuit/device/course.hpp"
 #include "circuit/device/formula_inputs.hpp"
 #include "circuit/device/values.hpp"
@@ -122,15 +125,24 @@ public:
     std::optional<double> setting() const override { return gain_; }
 };
 
+/// Whether it compares, chooses or counts, as its text shows; one that cannot be written is taken to.
+bool has_jumps(const Formula& formula) {
+    const auto text = formula.text([](const FormulaInput&) { return std::string("x"); });
+    if (!text) return true;
+    constexpr std::string_view signs[] = {"?", "<", ">", "==", "!=", "&&", "||", "sgn(", "u(", "floor(", "ceil(", "int("};
+    return std::any_of(std::begin(signs), std::end(signs), [&](auto sign) { return text->find(sign) != std::string::npos; });
+}
+
 class FormulaCurrent final : public Device {
     Formula formula_;
     FormulaInputs inputs_;
     double m_;
+    bool jumps_ = has_jumps(formula_);
 
 public:
     FormulaCurrent(Formula formula, FormulaInputs inputs, double m) : formula_(std::move(formula)), inputs_(std::move(inputs)), m_(m) {}
     bool linear() const override { return false; }
-    bool jumps() const override { return true; }
+    bool jumps() const override { return jumps_; }
     void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
         inputs_.eval(formula_, v, at, [&](double i, std::span<const FormulaInputs::Slope> slopes) {
             out.f[0] += m_ * i * at.sources, out.f[1] -= m_ * i * at.sources;
@@ -145,11 +157,12 @@ public:
 class FormulaVoltage final : public Device {
     Formula formula_;
     FormulaInputs inputs_;
+    bool jumps_ = has_jumps(formula_);
 
 public:
     FormulaVoltage(Formula formula, FormulaInputs inputs) : formula_(std::move(formula)), inputs_(std::move(inputs)) {}
     bool linear() const override { return false; }
-    bool jumps() const override { return true; }
+    bool jumps() const override { return jumps_; }
     void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;

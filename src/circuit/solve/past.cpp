@@ -39,10 +39,10 @@ PastWeights weights_of_bend(std::span<const double> times) {
     double there = 1;  // the product of all but the last, half way
     for (std::size_t j = 0; j + 1 < times.size(); ++j) there *= half - times[j];
     for (std::size_t k = 0; k < times.size(); ++k) {
-        double part = there;
+        double apart = 1;
         for (std::size_t j = 0; j < times.size(); ++j)
-            if (j != k) part /= times[k] - times[j];
-        w[k] = part;
+            if (j != k) apart *= times[k] - times[j];
+        w[k] = there / apart;
     }
     return w;
 }

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "circuit/solve/bend.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
+constexpr double told_apart = 1e-12;          // of time: what two points are apart, right after a corner
 constexpr double shortest_part = 1e-15;       // of the whole: no step is shorter
 constexpr double far_off = 20, hopeless = 2;  // allowed units: of a first iteration that is looked at, of its error
 
@@ -86,6 +88,7 @@ void Transient::allow() {
         may_err_[n] = plan_.reltol * scale_[n] + (voltage ? plan_.vntol : plan_.abstol);
         if (charged_[n] || (plan_.all_reported && voltage)) allowed_[n] = may_err_[n];
         if (!voltage) largest = std::max(largest, scale_[n]);
+        if (!voltage && !plan_.all_reported) may_err_[n] *= Bend::current_may;
     }
     if (!plan_.all_reported) return;
     largest_charge_ = 0;
@@ -124,15 +127,14 @@ bool Transient::attempt(double t, double& error) {
     }
 }
 
-/// What has no charge has no error of its own in the first step of all: its value before a corner says nothing of that after it.
 double Transient::worst_error() {
     equations_.answer_to(error_);
-    constexpr double passing = 4;  // allowed units: an error without a charge is not handed on to the next step
+    constexpr double passing = 2;  // allowed units: an error without a charge is not handed on to the next step
     double worst = 0;
     others_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (charged_[n] && allowed_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / allowed_[n]);
-    if (!plan_.all_reported || past_.count() == 1 || plan_.method != Integration::bdf) return worst;
+    if (!plan_.all_reported || plan_.method != Integration::bdf) return worst;
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (!charged_[n] && may_err_[n] > 0)
             others_ = std::max(others_, std::abs(error_[n]) / (passing * (may_err_[n] + noise(static_cast<int>(n)))));
@@ -145,16 +147,14 @@ double Transient::noise(int unknown) const { return system_.is_voltage(unknown) 
 /// How far the curve in the step just solved is off half way, of what it may be; it goes through as many points as make that least.
 /// The first step after a corner has no third point to tell.
 double Transient::bend() {
-    curve_ = curves_.empty() ? 0 : 2;
-    const int seen = past_.seen();
-    if (curves_.empty() || seen < 2) return 0;
+    constexpr double written = 2;  // times as exact as what is only looked at: straight lines between points err, too
+    curve_ = 0;
+    if (curves_.empty()) return 0;
     const auto& next = past_.next();
     std::array<double, Past::most + 1> times{next.t};
     const auto before = past_.times();
     std::copy(before.begin(), before.end(), times.begin() + 1);
-    double least = 0;
-    for (int points = 2; points <= std::min(seen, StepControl::curve_points); ++points) {
-        const auto w = weights_of_bend(std::span(times).first(static_cast<std::size_t>(points) + 1));
+    const auto curve = least_bend(times, past_.seen(), [&](const PastWeights& w, int points) {
         double worst = 0;
         for (const int u : curves_) {
             const auto n = static_cast<std::size_t>(u);
@@ -162,9 +162,10 @@ double Transient::bend() {
             for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k) + 1] * past_[k].x[n];
             worst = std::max(worst, std::abs(sum) / (may_err_[n] + noise(u)));
         }
-        if (points == 2 || worst < least) least = worst, curve_ = points;
-    }
-    return least / StepControl::curved;
+        return worst;
+    });
+    curve_ = curve.points;
+    return plan_.all_reported ? written * curve.off : curve.off;
 }
 
 /// Of the step just solved, had it been of this order, in units of what is allowed. Infinity: too few points to tell.
@@ -238,9 +239,16 @@ void Transient::take() {
 
 /// Right after a corner: a point so soon that no charge has moved, where what has none stands after its jump.
 bool Transient::open(double t0, double corner, double& t) {
-    constexpr double at_once = 1e-6, told_apart = 1e-12;  // of the next step, of time
+    constexpr double at_once = 1e-8;  // of the next step
     if (opening_ != Opening::at_once) return false;
     opening_ = Opening::first;
+    // Newton's last step left a little charge over, which in so short a time would be a large current: it is let go
+    Moment now = past_[0];
+    equations_.at(now.t, now.x, rate_, now.q);
+    for (double& r : rate_) r = -r;
+    past_.clear();
+    past_.next() = std::move(now);
+    past_.accept();
     t = t0 + at_once * std::min({pace_.h, plan_.longest, corner - t0});
     double error = 0;
     jump_ = true;
@@ -251,14 +259,14 @@ bool Transient::open(double t0, double corner, double& t) {
 }
 
 Result<bool> Transient::step(double until) {
-    constexpr double first_part = 1.0 / 64;  // of a step after a corner, the first: nothing tells yet how much bends
+    constexpr double first_part = 1.0 / 256;  // of a step after a corner, the first: nothing tells yet how much bends
     if (std::exchange(bent_, false)) start_over(true);
     for (;;) {
         const double t0 = time(), corner = std::min(plan_.stop, system_.next_corner(t0));
         double h = std::min(pace_.h, plan_.longest), soon = 0;
         if (until < plan_.stop && t0 + 2.1 * h > until) return false;
         if (open(t0, corner, soon)) return true;
-        if (std::exchange(opening_, Opening::none) == Opening::first) h = first_part * std::min(h, corner - t0);
+        if (std::exchange(opening_, Opening::none) == Opening::first) h = std::max(first_part * std::min(h, corner - t0), told_apart * t0);
         const bool last = t0 + 1.01 * h >= corner;
         if (!last && t0 + 2 * h > corner) h = (corner - t0) / 2;
         const double t = last ? corner : t0 + h;

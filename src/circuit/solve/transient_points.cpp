@@ -69,7 +69,7 @@ void Transient::between(double t, std::span<double> x) const {
 
 /// The last step, in so many parts that straight lines between them will do.
 bool Transient::tell(const Each& each) {
-    constexpr double straight = 3;  // allowed units
+    constexpr double straight = 2;  // allowed units
     const double t0 = past_[1].t, t1 = past_[0].t;
     auto& x = error_;
     double bulge = 0;
