@@ -8,7 +8,8 @@
 #include <cstdint>
 
 #ifdef __AVX512F__
-// xsimd negates for AVX-512 by 0 - x, and so gives 0 where -0 is right; on every other instruction set, as for a double, only the sign turns.
+// xsimd negates for AVX-512 by 0 - x, which gives 0 where -0 is right. On every other instruction set, and for a double, only the sign
+// changes.
 template <>
 inline xsimd::batch<double> xsimd::batch<double>::operator-() const noexcept {
     return -data;
@@ -149,7 +150,9 @@ inline xsimd::batch_bool<float> none<Lanes<float>>() {
 /// The same bits read as numbers of type To. (xsimd 12 and later names the element's type, xsimd 8 the batch's.)
 template <class To, class V>
 xsimd::batch<To> bits_as(xsimd::batch<V> x) {
-    if constexpr (requires { { xsimd::bitwise_cast<To>(x) } -> std::same_as<xsimd::batch<To>>; })
+    if constexpr (requires {
+                      { xsimd::bitwise_cast<To>(x) } -> std::same_as<xsimd::batch<To>>;
+                  })
         return xsimd::bitwise_cast<To>(x);
     else
         return xsimd::bitwise_cast<xsimd::batch<To>>(x);

@@ -51,7 +51,8 @@ void expect_same_on_every_set(FrameLanes::Take FrameLanes::* take) {
             const auto bad = take_scalar(from, f, right);
             for (const auto set : instruction_sets()) {
                 std::vector<double> force(count, -0.0);
-                EXPECT_EQ((frame_lanes(set).*take)(reinterpret_cast<const char*>(from.data()), f, force.data(), count), bad) << name_of(set);
+                EXPECT_EQ((frame_lanes(set).*take)(reinterpret_cast<const char*>(from.data()), f, force.data(), count), bad)
+                    << name_of(set);
                 EXPECT_EQ(std::memcmp(force.data(), right.data(), count * sizeof(double)), 0) << name_of(set) << ", " << count;
             }
         }
