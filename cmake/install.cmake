@@ -3,6 +3,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS corpuscle-cli)
+install(TARGETS corpuscle-hdf5 corpuscle-sound RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/corpuscle)
 install(TARGETS corpuscle EXPORT corpuscle-targets)
 install(DIRECTORY src/ DESTINATION include/corpuscle FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" PATTERN "*.def")
 install(FILES ${PROJECT_BINARY_DIR}/generated/signal/version.hpp DESTINATION include/corpuscle/signal)

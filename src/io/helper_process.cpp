@@ -2,114 +2,80 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
+#include <spawn.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 namespace corpuscle {
 namespace {
 
-constexpr std::uint64_t longest_message = std::uint64_t{1} << 30;
-constexpr std::size_t piece = std::size_t{1} << 20;
+Error cannot_start(const std::string& program, int why) {
+    return bad_input(fmt::format("{} cannot be started: {}", program, std::strerror(why)));
+}
 
-bool send_all(int socket, const void* data, std::size_t size) {
-    for (const char* at = static_cast<const char*>(data); size > 0;) {
-        const auto sent = ::send(socket, at, size, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) continue;
-        if (sent <= 0) return false;
-        at += sent, size -= static_cast<std::size_t>(sent);
+/// A copy of a descriptor above those that the program gets, so that setting them up overwrites none of them.
+class HighDescriptor {
+    int number_;
+
+public:
+    explicit HighDescriptor(int of) : number_(::fcntl(of, F_DUPFD_CLOEXEC, 10)) {}
+    HighDescriptor(const HighDescriptor&) = delete;
+    HighDescriptor& operator=(const HighDescriptor&) = delete;
+    ~HighDescriptor() {
+        if (number_ >= 0) ::close(number_);
     }
-    return true;
+    int number() const { return number_; }
+};
+
+/// What the linker and sanitizers read; nothing that would have a library load or write something.
+std::vector<char*> environment() {
+    std::vector<char*> kept;
+    for (char** variable = environ; *variable; ++variable)
+        for (const char* name : {"LD_LIBRARY_PATH=", "ASAN_OPTIONS=", "UBSAN_OPTIONS=", "TSAN_OPTIONS="})
+            if (std::strncmp(*variable, name, std::strlen(name)) == 0) kept.push_back(*variable);
+    kept.push_back(nullptr);
+    return kept;
 }
 
-bool receive_all(int socket, void* data, std::size_t size) {
-    for (char* at = static_cast<char*>(data); size > 0;) {
-        const auto got = ::recv(socket, at, size, 0);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        at += got, size -= static_cast<std::size_t>(got);
-    }
-    return true;
-}
-
-/// Bytes of addresses in use: a limit below that would forbid everything.
-std::uint64_t memory_in_use() {
-    unsigned long long pages = 0;
-    if (std::FILE* f = std::fopen("/proc/self/statm", "r")) {
-        if (std::fscanf(f, "%llu", &pages) != 1) pages = 0;
-        std::fclose(f);
-    }
-    return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
-void limit(__rlimit_resource what, std::uint64_t to) {
-    const rlimit r{to, to};
-    (void)::setrlimit(what, &r);
-}
-
-/// Nothing of the parent but memory: no descriptors, no handlers, no terminal; no core, and bounded memory.
-int become_child(int socket) {
-    for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE})
-        std::signal(s, SIG_DFL);
-    sigset_t none;
+/// Neither a shell's ignored signals nor a thread's mask are handed on, and no descriptor but these two.
+int spawn(const std::string& program, const std::string& argument, int socket, int file, pid_t& child) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawnattr_init(&attributes);
+    for (int k = 0; k < 3; ++k) ::posix_spawn_file_actions_addopen(&actions, k, "/dev/null", O_RDWR, 0);
+    ::posix_spawn_file_actions_adddup2(&actions, socket, HelperProcess::socket_number);
+    ::posix_spawn_file_actions_adddup2(&actions, file, HelperProcess::file_number);
+    ::posix_spawn_file_actions_addclosefrom_np(&actions, HelperProcess::file_number + 1);
+    sigset_t none, all;
     ::sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    const int nowhere = ::open("/dev/null", O_RDWR);
-    if (socket < 3) socket = ::fcntl(socket, F_DUPFD, 3);
-    for (int k = 0; k < 3; ++k) ::dup2(nowhere, k);
-    if (socket != 3) ::dup2(socket, 3);
-    ::close_range(4, ~0U, 0);
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_AS, memory_in_use() + HelperProcess::memory);
-    return 3;
+    ::sigfillset(&all);
+    ::posix_spawnattr_setsigmask(&attributes, &none);
+    ::posix_spawnattr_setsigdefault(&attributes, &all);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    auto name = program, word = argument;
+    char* arguments[] = {name.data(), word.data(), nullptr};
+    const int failed = ::posix_spawn(&child, program.c_str(), &actions, &attributes, arguments, environment().data());
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::posix_spawnattr_destroy(&attributes);
+    return failed;
 }
 
 }  // namespace
 
-bool Message::get(void* data, std::size_t size) {
-    if (bytes_.size() - at_ < size) return false;
-    std::memcpy(data, bytes_.data() + at_, size);
-    at_ += size;
-    return true;
-}
-
-bool Message::get(std::string& s) {
-    std::uint64_t size = 0;
-    if (!get(size) || bytes_.size() - at_ < size) return false;
-    s = bytes_.substr(at_, size);
-    at_ += size;
-    return true;
-}
-
-bool Message::send(int socket) const {
-    const std::uint64_t size = bytes_.size();
-    return send_all(socket, &size, sizeof size) && send_all(socket, bytes_.data(), bytes_.size());
-}
-
-bool Message::receive(int socket) {
-    std::uint64_t size = 0;
-    bytes_.clear();
-    at_ = 0;
-    if (!receive_all(socket, &size, sizeof size) || size > longest_message) return false;
-    while (bytes_.size() < size) {
-        const auto had = bytes_.size();
-        bytes_.resize(had + std::min<std::size_t>(piece, size - had));
-        if (!receive_all(socket, bytes_.data() + had, bytes_.size() - had)) return false;
-    }
-    return true;
-}
-
-HelperProcess::HelperProcess(HelperProcess&& o) noexcept : socket_(std::exchange(o.socket_, -1)), child_(std::exchange(o.child_, -1)) {}
+HelperProcess::HelperProcess(HelperProcess&& o) noexcept
+    : socket_(std::exchange(o.socket_, -1)), child_(std::exchange(o.child_, -1)), program_(std::move(o.program_)) {}
 
 HelperProcess& HelperProcess::operator=(HelperProcess&& o) noexcept {
-    std::swap(socket_, o.socket_), std::swap(child_, o.child_);
+    std::swap(socket_, o.socket_), std::swap(child_, o.child_), std::swap(program_, o.program_);
     return *this;
 }
 
@@ -121,21 +87,19 @@ HelperProcess::~HelperProcess() {
     }
 }
 
-Result<HelperProcess> HelperProcess::start(const std::function<void(int)>& work) {
+Result<HelperProcess> HelperProcess::start(const std::string& program, int file, const std::string& argument) {
     int ends[2];
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        return bad_input(fmt::format("no process can be started to read it: {}", std::strerror(errno)));
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return cannot_start(program, errno);
     HelperProcess helper;
     helper.socket_ = ends[0];
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const int socket = become_child(ends[1]);
-        ::alarm(seconds_to_answer);
-        work(socket);
-        ::_exit(0);
-    }
+    helper.program_ = program;
+    const timeval patience{seconds_to_answer + 5, 0};  // beyond the program's own alarm, which is the usual end
+    (void)::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const HighDescriptor socket(ends[1]), opened(file);
     ::close(ends[1]);
-    if (child < 0) return bad_input(fmt::format("no process can be started to read it: {}", std::strerror(errno)));
+    if (socket.number() < 0 || opened.number() < 0) return cannot_start(program, errno);
+    pid_t child = -1;
+    if (const int failed = spawn(program, argument, socket.number(), opened.number(), child)) return cannot_start(program, failed);
     helper.child_ = child;
     return helper;
 }
@@ -143,10 +107,11 @@ Result<HelperProcess> HelperProcess::start(const std::function<void(int)>& work)
 Result<Message> HelperProcess::answer(const std::string& path, const std::string& library) {
     Message m;
     if (m.receive(socket_)) return m;
-    return death(path, library);
+    return failure(path, library);
 }
 
-Error HelperProcess::death(const std::string& path, const std::string& library) {
+Error HelperProcess::failure(const std::string& path, const std::string& library) {
+    const bool silent = errno == EAGAIN || errno == EWOULDBLOCK;
     int status = 0;
     const pid_t child = std::exchange(child_, -1);
     if (child > 0) ::kill(child, SIGKILL);  // one that broke the line without dying
@@ -154,21 +119,12 @@ Error HelperProcess::death(const std::string& path, const std::string& library) 
     }
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return {Code::interrupted, "interrupted", {path}};
-    if (signal == SIGALRM)
+    if (silent || signal == SIGALRM)
         return bad_input(fmt::format("{} did not read this file within {} s: damaged?", library, seconds_to_answer), {path});
+    if (signal == 0 && WEXITSTATUS(status) == other_version)
+        return bad_input(fmt::format("{} belongs to another version of Corpuscle; install both together", program_), {path});
     const auto how = signal ? fmt::format("signal {}", signal) : fmt::format("status {}", WEXITSTATUS(status));
     return bad_input(fmt::format("{} could not read this file ({}): damaged?", library, how), {path});
-}
-
-bool next_question(int socket, Message& m) {
-    if (!m.receive(socket)) return false;
-    ::alarm(HelperProcess::seconds_to_answer);
-    return true;
-}
-
-bool give_answer(int socket, const Message& m) {
-    ::alarm(0);
-    return m.send(socket);
 }
 
 }  // namespace corpuscle

@@ -1,70 +1,49 @@
 #pragma once
-// A child of our own for libraries that damaged files can crash or make run for ever: what breaks is the child, and the file is
-// refused. It knows nothing but its end of one socket; it dies with us, and of any question that it does not answer in time.
+// A program of ours that reads one file with a library that damaged files can crash or keep busy for ever. A crash costs an error.
 
 #include <sys/types.h>
 
-#include <cstdint>
-#include <functional>
 #include <string>
-#include <vector>
 
+#include "io/message.hpp"
 #include "signal/error.hpp"
 
 namespace corpuscle {
 
-/// Numbers and words in a row, on their way through a socket or to another rank; read in the order in which they were put.
-class Message {
-    std::string bytes_;
-    std::size_t at_ = 0;
-
-public:
-    Message() = default;
-    explicit Message(std::string bytes) : bytes_(std::move(bytes)) {}
-    const std::string& bytes() const { return bytes_; }
-
-    void put(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
-    void put(std::uint64_t n) { put(&n, sizeof n); }
-    void put(const std::string& s) {
-        put(s.size());
-        put(s.data(), s.size());
-    }
-    /// False if less is left.
-    bool get(void* data, std::size_t size);
-    bool get(std::uint64_t& n) { return get(&n, sizeof n); }
-    bool get(std::string& s);
-
-    bool send(int socket) const;
-    bool receive(int socket);
-};
-
+/// The program holds two descriptors: its end of a socket and the file. It is killed with this object, and when an answer takes too long.
 class HelperProcess {
     int socket_ = -1;
     pid_t child_ = -1;
+    std::string program_;
 
-    Error death(const std::string& path, const std::string& library);
+    Error failure(const std::string& path, const std::string& library);
 
 public:
     static constexpr unsigned seconds_to_answer = 60;
-    static constexpr std::uint64_t memory = std::uint64_t{4} << 30;  // bytes, beside what we have ourselves
+    static constexpr std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, above what the program needs to start
+    static constexpr int socket_number = 3, file_number = 4;         ///< the program's descriptors
+    static constexpr int other_version = 2;                          ///< exit status of a program that does not know `protocol`
+    static constexpr const char* protocol = "reader-1";              ///< the program's only argument
 
     HelperProcess() = default;
     HelperProcess(HelperProcess&& other) noexcept;
     HelperProcess& operator=(HelperProcess&& other) noexcept;
-    ~HelperProcess();  ///< ends the child
+    ~HelperProcess();
 
-    /// `work` runs in the child, from question to question, until it returns.
-    static Result<HelperProcess> start(const std::function<void(int socket)>& work);
+    /// Starts the program at this path with an open file; the caller keeps its own descriptor.
+    static Result<HelperProcess> start(const std::string& program, int file, const std::string& argument = protocol);
     pid_t id() const { return child_; }
 
-    /// The child's next message; if it dies instead, what that says about the file.
+    void ask(const Message& m) { (void)m.send(socket_); }  // answer() reports a program that is gone
+    /// The next message; if there is none, an error about the file. `library` begins its sentence.
     Result<Message> answer(const std::string& path, const std::string& library);
-    void ask(const Message& m) { (void)m.send(socket_); }  // a child that is gone is told of by answer()
 };
 
-/// In the child: the next question, and from now on the time for its answer is counted.
-bool next_question(int socket, Message&);
-/// In the child: the time is no longer counted.
-bool give_answer(int socket, const Message&);
+/// The path of an installed helper program: in the directory CORPUSCLE_LIBEXEC, if the environment has it; else beside the running program,
+/// in ../libexec/corpuscle from there, or in the libexec directory that this library was configured or found with.
+Result<std::string> helper_program(const std::string& name);
+
+/// Where helper programs are installed, for a library that was moved after it was configured. `directory` must live on.
+bool set_helper_directory(const char* directory);
 
 }  // namespace corpuscle

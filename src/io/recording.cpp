@@ -170,6 +170,7 @@ public:
           name_(std::filesystem::path(path_).stem().string()) {}
 
     Result<void> open() {
+        remarks_ = table_->remarks();
         const auto time = choose_time(*table_, options_.time, path_);
         if (!time) return time.error();
         if (holds_spikes(*time)) return bad_input("this is a file of spikes, not of force; 'corpuscle compare' reads it", {path_});

@@ -1,13 +1,20 @@
 #pragma once
-// Samples read by a helper process: the same to whoever fetches them.
-
-#include <functional>
+// Samples read by a helper program.
 
 #include "io/samples.hpp"
 
 namespace corpuscle {
 
-/// `open` runs in the child, and so does all that the samples do. `library` is who is to blame, at the start of a sentence.
-SamplesResult in_helper_process(const std::string& path, const std::string& library, const std::function<SamplesResult()>& open);
+/// The helper program that reads a kind of file.
+struct Reader {
+    std::string program;  ///< "corpuscle-hdf5"
+    std::string library;  ///< begins a sentence about what went wrong: "the HDF5 library"
+};
+
+/// Starts the program; it reads this file until the samples are destroyed.
+SamplesResult remote_samples(const std::string& path, const Reader&, const TableOptions& = {});
+
+/// The same through the program at this path.
+SamplesResult remote_samples_by(const std::string& program, const std::string& path, const Reader&, const TableOptions& = {});
 
 }  // namespace corpuscle

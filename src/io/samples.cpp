@@ -39,6 +39,7 @@ public:
 
     const std::vector<Column>& columns() const override { return facts().columns; }
     std::optional<double> rate() const override { return facts().rate > 0.0 ? facts().rate : std::nullopt; }
+    std::vector<std::string> remarks() const override { return facts().remarks; }
     std::optional<std::size_t> time_column() const override {
         if (facts().time) return facts().time;
         const auto found = std::find_if(columns().begin(), columns().end(), [](const auto& c) { return names_time(c.name); });
@@ -71,6 +72,7 @@ public:
         : times_(std::move(times)), samples_(std::move(samples)), facts_(samples_->facts()) {
         facts_.columns.insert(facts_.columns.begin(), times_->facts().columns[0]);
         facts_.time = 0;
+        facts_.remarks.insert(facts_.remarks.end(), times_->facts().remarks.begin(), times_->facts().remarks.end());
     }
 
     const SamplesFacts& facts() const override { return facts_; }

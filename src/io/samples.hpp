@@ -15,6 +15,7 @@ struct SamplesFacts {
     std::int64_t rows = 0;
     std::optional<double> rate = {};       ///< Hz
     std::optional<std::size_t> time = {};  ///< the column, if not by its name
+    std::vector<std::string> remarks = {};
 };
 
 class Samples {

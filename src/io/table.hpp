@@ -32,6 +32,8 @@ public:
     virtual const std::vector<Column>& columns() const = 0;
     /// Rows a second, if the file says it; Hz.
     virtual std::optional<double> rate() const { return {}; }
+    /// What the user should know of how the file is read.
+    virtual std::vector<std::string> remarks() const { return {}; }
     /// With gaps allowed a field that is no finite number reads as NaN; else it is an error that names its place.
     void allow_gaps(bool allowed) { gaps_allowed_ = allowed; }
     /// Which column is the time, if the file shows it ...

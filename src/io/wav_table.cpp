@@ -1,78 +1,14 @@
 #include "io/wav_table.hpp"
 
 #include <fmt/format.h>
-#include <sndfile.h>
-#include <algorithm>
 
-#include "io/bytes.hpp"
 #include "io/remote_samples.hpp"
 
 namespace corpuscle {
-namespace {
-
-struct Close {
-    void operator()(SNDFILE* f) const { sf_close(f); }
-};
-
-/// Only in the helper process: libsndfile reads many formats, and damaged files have crashed it before.
-class WavSamples final : public Samples {
-    std::string path_;
-    std::unique_ptr<SNDFILE, Close> file_;
-    SF_INFO info_{};
-    SamplesFacts facts_;
-    sf_count_t at_ = 0;  // the next frame
-    std::vector<double> frames_;
-
-    bool floating() const {
-        const int kind = info_.format & SF_FORMAT_SUBMASK;
-        return kind == SF_FORMAT_FLOAT || kind == SF_FORMAT_DOUBLE;
-    }
-
-public:
-    explicit WavSamples(std::string path) : path_(std::move(path)) {}
-
-    Result<void> open() {
-        file_.reset(sf_open(path_.c_str(), SFM_READ, &info_));
-        if (!file_) return bad_input(fmt::format("this is no sound file that can be read: {}", sf_strerror(nullptr)), {path_});
-        if (info_.channels < 1) return bad_input("this sound file has no channel", {path_});
-        if (info_.frames < 1) return bad_input("there are no samples in this sound file", {path_});
-        facts_.rows = info_.frames;
-        if (info_.samplerate > 0) facts_.rate = info_.samplerate;
-        for (int c = 0; c < info_.channels; ++c)
-            facts_.columns.push_back({fmt::format("ch{}", c + 1), floating() ? "" : "parts of full scale"});
-        return {};
-    }
-
-    const SamplesFacts& facts() const override { return facts_; }
-
-    Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
-                       std::vector<std::vector<double>>& out) override {
-        const auto width = facts_.columns.size();
-        if (at_ != first && sf_seek(file_.get(), first, SEEK_SET) != first)
-            return bad_input(fmt::format("sample {} cannot be found: {}", first + 1, sf_strerror(file_.get())), {path_});
-        frames_.resize(rows * width);
-        const auto got = sf_readf_double(file_.get(), frames_.data(), static_cast<sf_count_t>(rows));
-        at_ = first + got;
-        if (got < static_cast<sf_count_t>(rows))
-            return bad_input(fmt::format("the file ends after {} of {} samples: cut short?", at_, info_.frames), {path_});
-        for (std::size_t i = 0; i < wanted.size(); ++i)
-            for (std::size_t k = 0; k < rows; ++k) out[i][k] = frames_[k * width + wanted[i]];
-        return {};
-    }
-};
-
-}  // namespace
 
 Result<std::unique_ptr<Table>> open_wav_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a sound file has only one array", *options.dataset));
-    if (auto file = open_bytes(path); !file) return file.error();
-    return table_of(in_helper_process(path, "libsndfile",
-                                      [&]() -> SamplesResult {
-                                          auto samples = std::make_unique<WavSamples>(path);
-                                          if (auto ok = samples->open(); !ok) return ok.error();
-                                          return std::unique_ptr<Samples>(std::move(samples));
-                                      }),
-                    path);
+    return table_of(remote_samples(path, {"corpuscle-sound", "libsndfile"}, options), path);
 }
 
 }  // namespace corpuscle

@@ -1,27 +1,43 @@
-// A helper that dies, hangs up or is stopped costs an error; it never costs us.
+// A helper program that dies, hangs up or is stopped costs an error; it never costs us.
 
 #include "io/helper_process.hpp"
 
 #include <dirent.h>
+#include <fcntl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
+#include <iterator>
+#include <thread>
 
 #include "io/remote_samples.hpp"
+#include "io/samples_message.hpp"
+#include "readers/serve.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
 namespace {
 
-std::string death_of(const std::function<void(int)>& work) {
-    auto helper = test::sure(HelperProcess::start(work));
+using test::Folder;
+
+/// A program of these lines of shell.
+std::string script(const Folder& folder, const std::string& lines) {
+    const auto path = folder.write("script", "#!/bin/sh\n" + lines + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path;
+}
+
+std::string death_by(const std::string& lines) {
+    const Folder folder;
+    auto helper = test::sure(HelperProcess::start(script(folder, lines), STDIN_FILENO));
     const auto answer = helper.answer("x.h5", "the library");
     return answer ? "answered" : answer.error().text();
 }
 
-std::size_t descriptors() {
+std::size_t descriptors_open() {
     std::size_t count = 0;
     DIR* all = ::opendir("/proc/self/fd");
     while (::readdir(all)) ++count;
@@ -30,91 +46,116 @@ std::size_t descriptors() {
 }
 
 TEST(HelperProcess, WhatKillsItIsSaid) {
-    EXPECT_EQ(death_of([](int) { std::raise(SIGSEGV); }), "x.h5: the library could not read this file (signal 11): damaged?");
-    EXPECT_EQ(death_of([](int) { std::raise(SIGABRT); }), "x.h5: the library could not read this file (signal 6): damaged?");
-    EXPECT_EQ(death_of([](int) { ::_exit(3); }), "x.h5: the library could not read this file (status 3): damaged?");
-    EXPECT_EQ(death_of([](int) { std::raise(SIGALRM); }), "x.h5: the library did not read this file within 60 s: damaged?");
-    EXPECT_EQ(death_of([](int) { std::raise(SIGINT); }), "x.h5: interrupted");
+    EXPECT_EQ(death_by("kill -SEGV $$"), "x.h5: the library could not read this file (signal 11): damaged?");
+    EXPECT_EQ(death_by("kill -ABRT $$"), "x.h5: the library could not read this file (signal 6): damaged?");
+    EXPECT_EQ(death_by("exit 3"), "x.h5: the library could not read this file (status 3): damaged?");
+    EXPECT_EQ(death_by("kill -ALRM $$"), "x.h5: the library did not read this file within 60 s: damaged?");
+    EXPECT_EQ(death_by("kill -INT $$"), "x.h5: interrupted");
+    EXPECT_NE(death_by("[ \"$1\" = reader-0 ] || exit 2").find("script belongs to another version of Corpuscle; install both together"),
+              std::string::npos);
 }
 
-TEST(HelperProcess, TheTimeForAnAnswerRunsWhileAQuestionIsOpen) {
-    auto helper = test::sure(HelperProcess::start([](int socket) {
-        for (Message m; next_question(socket, m);) {
-            Message seconds;
-            const unsigned left = ::alarm(HelperProcess::seconds_to_answer);
-            seconds.put(left);
-            give_answer(socket, seconds);
-        }
-    }));
-    for (int k = 0; k < 2; ++k) {
-        helper.ask({});
-        auto answer = test::sure(helper.answer("x", "it"));
-        std::uint64_t seconds = 0;
-        EXPECT_TRUE(answer.get(seconds));
-        EXPECT_GE(seconds, HelperProcess::seconds_to_answer - 1U);
-    }
+TEST(HelperProcess, OneThatCannotBeStartedIsNamed) {
+    const auto none = HelperProcess::start("/nowhere/corpuscle-hdf5", STDIN_FILENO);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().text(), "/nowhere/corpuscle-hdf5 cannot be started: No such file or directory");
+    const Folder folder;
+    ::setenv("CORPUSCLE_LIBEXEC", folder.path().c_str(), 1);
+    const auto missing = helper_program("corpuscle-hdf5");
+    const auto found = helper_program("script");
+    const auto made = script(folder, "exit 0");
+    const auto there = helper_program("script");
+    ::unsetenv("CORPUSCLE_LIBEXEC");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().text(), "the program 'corpuscle-hdf5', which reads such files, is not there (looked in " + folder.path() +
+                                          "); set CORPUSCLE_LIBEXEC to its directory");
+    EXPECT_FALSE(found);
+    EXPECT_EQ(test::sure(there), made);
 }
 
 TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
-    const auto before = descriptors();
+    const Folder folder;
+    const auto leaked = ::open("/dev/null", O_RDONLY);  // without O_CLOEXEC, as some libraries open files
+    ::setenv("CORPUSCLE_SECRET", "x", 1);
+    const auto program = script(folder, "ls /proc/$$/fd | tr '\\n' ' ' >listed; env >environment; mv listed listed.whole; exec sleep 30");
+    const auto here = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    const auto before = descriptors_open();
     {
-        auto first = test::sure(HelperProcess::start([](int socket) {
-            Message m;
-            m.put(descriptors());
-            m.send(socket);
-            for (;;) ::pause();
-        }));
-        auto answer = test::sure(first.answer("x", "it"));
-        std::uint64_t held = 0;
-        EXPECT_TRUE(answer.get(held));
-        EXPECT_EQ(held, 4 + 3U) << "four of its own, '.', '..', and the list's";
+        auto first = test::sure(HelperProcess::start(program, leaked));
+        while (!std::filesystem::exists("listed.whole")) ::usleep(1000);
+        std::istringstream listed(test::read_file("listed.whole"));
+        std::vector<int> held{std::istream_iterator<int>(listed), {}};
+        std::erase_if(held, [](int number) { return number >= 10; });  // the shell's own: its script
+        std::sort(held.begin(), held.end());
+        EXPECT_EQ(held, (std::vector<int>{0, 1, 2, 3, 4}));
+        EXPECT_EQ(test::read_file("environment").find("CORPUSCLE_SECRET"), std::string::npos);
         auto second = std::move(first);
         EXPECT_EQ(::kill(second.id(), 0), 0);
     }
-    EXPECT_EQ(descriptors(), before);
+    EXPECT_EQ(descriptors_open(), before);
     EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+    std::filesystem::current_path(here);
+    ::unsetenv("CORPUSCLE_SECRET");
+    ::close(leaked);
 }
 
-/// Dies on the second fetch.
-class Mortal final : public Samples {
-    SamplesFacts facts_{{{"fz", "N"}}, 10, 100.0, {}};
-    int lives_ = 1;
-
-public:
-    const SamplesFacts& facts() const override { return facts_; }
-    Result<void> fetch(std::int64_t, std::size_t, std::span<const std::size_t>, std::vector<std::vector<double>>&) override {
-        if (lives_-- == 0) std::raise(SIGBUS);
-        return {};
-    }
-};
+std::string framed(const Message& m) {
+    const std::uint64_t size = m.bytes().size();
+    return std::string(reinterpret_cast<const char*>(&size), sizeof size) + m.bytes();
+}
 
 TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
-    auto samples = test::sure(in_helper_process("x.h5", "it", []() -> SamplesResult { return std::unique_ptr<Samples>(new Mortal); }));
+    const Folder folder;
+    folder.write("answers", framed(encode(SamplesFacts{{{"fz", "N"}}, 10, 100.0, {}, {"a remark"}})) +
+                                framed(encode(std::vector<std::vector<double>>{{7.0}})));
+    const auto program = script(folder, "cat '" + folder / "answers" + "' >&3; kill -BUS $$");
+    auto samples = test::sure(remote_samples_by(program, folder.write("x.h5", ""), {"", "it"}));
     EXPECT_EQ(samples->facts().columns.at(0).unit, "N");
     EXPECT_EQ(samples->facts().rate, 100);
+    EXPECT_EQ(samples->facts().remarks, std::vector<std::string>{"a remark"});
     const std::vector<std::size_t> wanted = {0};
     std::vector<std::vector<double>> out(1, std::vector<double>(1));
     EXPECT_TRUE(samples->fetch(0, 1, wanted, out));
-    EXPECT_EQ(samples->fetch(0, 1, wanted, out).error().text(), "x.h5: it could not read this file (signal 7): damaged?");
-    EXPECT_FALSE(samples->fetch(0, 1, wanted, out));
+    EXPECT_EQ(out[0][0], 7);
+    EXPECT_EQ(samples->fetch(1, 1, wanted, out).error().text(), folder / "x.h5" + ": it could not read this file (signal 7): damaged?");
+    EXPECT_FALSE(samples->fetch(1, 1, wanted, out));
 }
 
-#ifdef __has_feature
-constexpr bool sanitized = __has_feature(address_sanitizer);
-#elif defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
+TEST(HelperProcess, ABrokenAnswerIsAnError) {
+    const Folder folder;
+    SamplesFacts facts{{{"fz", "N"}}, 10, 100.0, 5, {}};
+    std::vector<std::string> answers = {framed(encode(facts)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
+    facts.time.reset();
+    const auto whole = encode(facts).bytes();
+    for (const std::size_t size : {9U, 20U, 33U, 50U}) answers.push_back(framed(Message(whole.substr(0, size))));
+    for (const auto& answer : answers) {
+        folder.write("answer", answer);
+        const auto program = script(folder, "cat '" + folder / "answer" + "' >&3; exec sleep 30");
+        const auto made = remote_samples_by(program, folder.write("x.h5", ""), {"", "it"});
+        ASSERT_FALSE(made);
+        EXPECT_EQ(made.error().text(), folder / "x.h5" + ": the answer of the process that reads it is broken");
+    }
+}
 
-TEST(HelperProcess, MemoryWithoutEndIsRefused) {
-    if (sanitized) GTEST_SKIP() << "AddressSanitizer ends a process that gets no memory";
-    const auto samples = in_helper_process("x.h5", "it", []() -> SamplesResult {
-        std::vector<std::unique_ptr<char[]>> hoard;
-        for (;;) hoard.emplace_back(new char[std::size_t{1} << 30]);
-    });
-    ASSERT_FALSE(samples);
-    EXPECT_EQ(samples.error().text(), "x.h5: this file takes more memory than there is");
+/// The first answer of a program whose library throws this.
+template <class Thrown>
+std::string answer_to_throw(const Thrown& thrown) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return "no socket";
+    std::thread program([&] { serve(ends[1], -1, [&](int, const std::string&, const TableOptions&) -> SamplesResult { throw thrown; }); });
+    Message answer;
+    const bool talked = encode(OpenRequest{"x.h5", {}}).send(ends[0]) && answer.receive(ends[0]);
+    program.join();
+    ::close(ends[0]), ::close(ends[1]);
+    const auto facts = decode_facts(answer, "x.h5");
+    return talked && !facts ? facts.error().text() : "no error";
+}
+
+TEST(HelperProcess, EveryExceptionInItIsAnError) {
+    EXPECT_EQ(answer_to_throw(std::bad_alloc()), "x.h5: this file takes more memory than there is");
+    EXPECT_EQ(answer_to_throw(std::runtime_error("no end")), "x.h5: cannot be read: no end");
+    EXPECT_EQ(answer_to_throw(3), "x.h5: cannot be read");
 }
 
 }  // namespace

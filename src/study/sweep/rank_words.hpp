@@ -1,7 +1,7 @@
 #pragma once
 // What ranks say to one another: rank 0, which owns the file, and the others.
 
-#include "io/helper_process.hpp"
+#include "io/message.hpp"
 #include "study/sweep/sweep.hpp"
 
 namespace corpuscle {

@@ -1,10 +1,11 @@
-#include "io/hdf5_samples.hpp"
+#include "hdf5_samples.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <limits>
 
-#include "io/hdf5_file.hpp"
+#include "hdf5_storage.hpp"
 #include "io/text_table.hpp"
 
 namespace corpuscle {
@@ -12,7 +13,8 @@ namespace {
 
 using hdf5::Id;
 
-constexpr std::size_t most_numbers = std::size_t{1} << 20;  // read at once, if it is more than one row
+constexpr std::size_t usual_band = std::size_t{1} << 20, largest_band = std::size_t{1} << 26;  // numbers
+constexpr std::size_t most_passes = 16;                                                        // over one chunk
 
 std::string parent_of(const std::string& name) { return name.substr(0, std::max<std::size_t>(1, name.rfind('/'))); }
 
@@ -24,48 +26,93 @@ class Hdf5Samples final : public Samples {
     std::vector<std::string> members_;  // of a compound type: the columns
     double factor_ = 1, offset_ = 0;    // of NWB
     SamplesFacts facts_;
-    std::vector<double> buffer_;
+    hdf5::Storage storage_;
 
-    Error unreadable() const {
-        return bad_input(fmt::format("{} cannot be read: damaged, or packed by a filter that is not here?", name_), {path_});
-    }
+    // The rows in memory: a band as high as a chunk or several, so that each chunk is unpacked once and none is kept.
+    std::vector<double> band_;
+    std::vector<std::size_t> wanted_;
+    std::uint64_t first_ = 0, band_rows_ = 0, low_ = 0;
+    std::size_t width_ = 0;  // columns from number low_ on; of a compound the members that are wanted
 
-    /// Rows and columns of the file into the buffer, as they lie there.
-    Result<void> load(std::uint64_t first, std::uint64_t rows, std::uint64_t column, std::uint64_t columns, hid_t type) {
-        std::array<hsize_t, 2> start{first, column}, count{rows, columns};
-        if (extent_.lying) std::swap(start[0], start[1]), std::swap(count[0], count[1]);
+    Error unreadable() const { return bad_input(fmt::format("{} cannot be read: damaged?", name_), {path_}); }
+
+    std::uint64_t chunk_rows() const { return storage_.chunk.empty() ? 0 : storage_.chunk[extent_.lying ? rank_ - 1 : 0]; }
+    std::uint64_t chunk_columns() const { return rank_ == 1 ? 1 : storage_.chunk[extent_.lying ? 0 : 1]; }
+
+    /// Rows and columns of the file into the band, as they lie there.
+    Result<void> load(hid_t type) {
+        std::array<hsize_t, 2> start{first_, low_}, count{band_rows_, members_.empty() ? width_ : 1};
+        if (extent_.lying && rank_ == 2) std::swap(start[0], start[1]), std::swap(count[0], count[1]);
         const Id space(H5Dget_space(dataset_), H5Sclose),
             memory(H5Screate_simple(static_cast<int>(rank_), count.data(), nullptr), H5Sclose);
         if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
-            H5Dread(dataset_, type, memory, space, H5P_DEFAULT, buffer_.data()) < 0)
+            H5Dread(dataset_, type, memory, space, H5P_DEFAULT, band_.data()) < 0)
             return unreadable();
         return {};
     }
 
-    /// The columns from the first to the last that are wanted.
-    Result<void> fetch_plain(std::uint64_t first, std::size_t at, std::size_t rows, std::span<const std::size_t> wanted,
-                             std::vector<std::vector<double>>& out) {
-        const auto [low, high] = std::minmax_element(wanted.begin(), wanted.end());
-        const auto width = *high - *low + 1;
-        buffer_.resize(rows * width);
-        if (auto ok = load(first, rows, *low, width, H5T_NATIVE_DOUBLE); !ok) return ok;
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-            const auto c = wanted[i] - *low, step = extent_.lying ? 1 : width, from = extent_.lying ? c * rows : c;
-            for (std::size_t k = 0; k < rows; ++k) out[i][at + k] = buffer_[from + k * step] * factor_ + offset_;
+    /// Where row `row` of column `column` of the band lies in it, both counted from its first.
+    std::size_t place(std::size_t row, std::size_t column) const {
+        return extent_.lying && rank_ == 2 ? column * band_rows_ + row : row * width_ + column;
+    }
+
+    /// Readings in chunks that were never written are not numbers.
+    void mark_gaps() {
+        const auto high = members_.empty() ? low_ + width_ : 1;
+        for (auto row = first_ / chunk_rows() * chunk_rows(); row < first_ + band_rows_; row += chunk_rows())
+            for (auto column = low_ / chunk_columns() * chunk_columns(); column < high; column += chunk_columns()) {
+                std::array<hsize_t, 2> offset{row, column};
+                if (extent_.lying && rank_ == 2) std::swap(offset[0], offset[1]);
+                if (hdf5::is_written(dataset_, std::span(offset).first(rank_))) continue;
+                const auto from = std::max(row, first_) - first_, to = std::min(row + chunk_rows(), first_ + band_rows_) - first_;
+                const auto left = members_.empty() ? std::max(column, low_) - low_ : 0,
+                           right = members_.empty() ? std::min(column + chunk_columns(), low_ + width_) - low_ : width_;
+                for (auto k = from; k < to; ++k)
+                    for (auto c = left; c < right; ++c) band_[place(k, c)] = std::numeric_limits<double>::quiet_NaN();
+            }
+    }
+
+    /// The rows of the band that holds row `row`: whole chunks, or, if these are too large, an even part of one.
+    Result<void> choose_rows(std::uint64_t row) {
+        const std::uint64_t height = chunk_rows(), usual = std::max<std::size_t>(1, usual_band / width_),
+                            most = std::max<std::size_t>(1, largest_band / width_);
+        first_ = row, band_rows_ = usual;
+        if (height > 0 && height <= most) {
+            first_ = row / height * height;
+            band_rows_ = std::max<std::uint64_t>(1, usual / height) * height;
+        } else if (height > 0) {
+            const auto passes = (height - 1) / most + 1, rows = (height - 1) / passes + 1, chunk = row / height * height;
+            if (passes > most_passes)
+                return bad_input(
+                    fmt::format("{}: {} columns in chunks of {} rows are more than memory holds; --channel takes some of them, "
+                                "or repack the file: h5repack -l {}:CHUNK=4096x64 {} repacked.h5",
+                                name_, width_, height, name_, path_),
+                    {path_});
+            first_ = chunk + (row - chunk) / rows * rows;
+            band_rows_ = std::min(rows, chunk + height - first_);
         }
+        band_rows_ = std::min(band_rows_, extent_.rows - first_);
         return {};
     }
 
-    Result<void> fetch_members(std::uint64_t first, std::size_t at, std::size_t rows, std::span<const std::size_t> wanted,
-                               std::vector<std::vector<double>>& out) {
-        const auto width = wanted.size();
-        const Id type(H5Tcreate(H5T_COMPOUND, width * sizeof(double)), H5Tclose);
-        for (std::size_t i = 0; i < width; ++i) H5Tinsert(type, members_[wanted[i]].c_str(), i * sizeof(double), H5T_NATIVE_DOUBLE);
-        buffer_.resize(rows * width);
-        if (auto ok = load(first, rows, 0, 1, type); !ok) return ok;
-        for (std::size_t i = 0; i < width; ++i)
-            for (std::size_t k = 0; k < rows; ++k) out[i][at + k] = buffer_[k * width + i];
+    Result<void> load_band(std::uint64_t row, std::span<const std::size_t> wanted) {
+        wanted_.assign(wanted.begin(), wanted.end());
+        const auto [least, greatest] = std::minmax_element(wanted.begin(), wanted.end());
+        low_ = members_.empty() ? *least : 0;
+        width_ = members_.empty() ? *greatest - *least + 1 : wanted.size();
+        if (auto ok = choose_rows(row); !ok) return band_rows_ = 0, ok;
+        band_.resize(band_rows_ * width_);
+        Id compound;
+        if (!members_.empty()) compound = Id(H5Tcreate(H5T_COMPOUND, width_ * sizeof(double)), H5Tclose);
+        for (std::size_t i = 0; compound && i < width_; ++i)
+            H5Tinsert(compound, members_[wanted[i]].c_str(), i * sizeof(double), H5T_NATIVE_DOUBLE);
+        if (auto ok = load(members_.empty() ? H5T_NATIVE_DOUBLE : compound); !ok) return band_rows_ = 0, ok;
+        if (storage_.has_gaps) mark_gaps();
         return {};
+    }
+
+    bool is_in_band(std::uint64_t row, std::span<const std::size_t> wanted) const {
+        return row >= first_ && row < first_ + band_rows_ && std::equal(wanted.begin(), wanted.end(), wanted_.begin(), wanted_.end());
     }
 
     /// MATLAB's matrices lie column after column: HDF5's first dimension is their second.
@@ -77,6 +124,10 @@ class Hdf5Samples final : public Samples {
         if (!extent_.lying && extent_.columns > 1 && hdf5::text_at(dataset_, "MATLAB_class"))
             extent_ = {extent_.columns, extent_.rows, true};
         facts_.rows = static_cast<std::int64_t>(extent_.rows);
+        auto storage = hdf5::storage_of(dataset_, facts, path_);
+        if (!storage) return storage.error();
+        storage_ = *std::move(storage);
+        facts_.remarks.insert(facts_.remarks.end(), storage_.remarks.begin(), storage_.remarks.end());
         return {};
     }
 
@@ -125,13 +176,16 @@ public:
 
     Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
-        const auto width = members_.empty() ? static_cast<std::size_t>(extent_.columns) : wanted.size();
-        const auto most = std::max<std::size_t>(1, most_numbers / width);
-        for (std::size_t done = 0; done < rows; done += most) {
-            const auto first = static_cast<std::uint64_t>(start) + done;
-            const auto count = std::min(most, rows - done);
-            auto ok = members_.empty() ? fetch_plain(first, done, count, wanted, out) : fetch_members(first, done, count, wanted, out);
-            if (!ok) return ok;
+        for (std::size_t done = 0, count = 0; done < rows && !wanted.empty(); done += count) {
+            const auto row = static_cast<std::uint64_t>(start) + done;
+            if (!is_in_band(row, wanted))
+                if (auto ok = load_band(row, wanted); !ok) return ok;
+            const auto from = static_cast<std::size_t>(row - first_);
+            count = std::min<std::size_t>(rows - done, band_rows_ - from);
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                const auto column = members_.empty() ? wanted[i] - low_ : i;
+                for (std::size_t k = 0; k < count; ++k) out[i][done + k] = band_[place(from + k, column)] * factor_ + offset_;
+            }
         }
         return {};
     }
@@ -192,11 +246,11 @@ std::optional<std::string> whole_name(std::optional<std::string> wanted, std::sp
 
 }  // namespace
 
-SamplesResult open_hdf5_samples(const std::string& path, const std::optional<std::string>& wanted) {
-    const auto file = hdf5::open_file(path);
+SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const TableOptions& options) {
+    const auto file = hdf5::open_file(descriptor, path);
     if (!file) return file.error();
     const auto arrays = hdf5::datasets_in(*file);
-    const auto chosen = choose_array(arrays, whole_name(wanted, arrays), path);
+    const auto chosen = choose_array(arrays, whole_name(options.dataset, arrays), path);
     if (!chosen) return chosen.error();
     const auto& facts = arrays[*chosen];
     auto samples = samples_of(*file, path, facts);

@@ -1,6 +1,6 @@
 #pragma once
-// What we need of the HDF5 library, with handles that close themselves. To be called in a helper process only: damaged files crash
-// version 1.10, or keep it busy for ever.
+// The part of the HDF5 library that is used here, with handles that close themselves. For the helper program only: damaged files crash
+// the library, or keep it busy for ever.
 
 #include <hdf5.h>
 
@@ -29,9 +29,10 @@ public:
     explicit operator bool() const { return id_ >= 0; }
 };
 
-Result<Id> open_file(const std::string& path);
+/// The file in a descriptor; `path` is for messages.
+Result<Id> open_file(int descriptor, const std::string& path);
 
-/// A dataset by its path, with room to keep its chunks unpacked while rows are read from them.
+/// A dataset by its path. HDF5 keeps none of its chunks: they are read whole (hdf5_samples.cpp).
 Id open_dataset(hid_t file, const std::string& name);
 
 ArrayFacts facts_of(hid_t dataset, std::string name);

@@ -1,14 +1,17 @@
-#include "io/hdf5_file.hpp"
+#include "hdf5_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <memory>
+
+#include "hdf5_driver.hpp"
 
 namespace corpuscle::hdf5 {
 namespace {
 
-constexpr std::size_t most_datasets = 10000;                 // looked at, in a file that has more
-constexpr std::size_t chunk_cache = std::size_t{256} << 20;  // bytes
+constexpr std::size_t most_datasets = 10000;  // looked at, in a file that has more
 constexpr std::size_t most_words = 1 << 20;
 
 Id space_of(hid_t dataset) { return {H5Dget_space(dataset), H5Sclose}; }
@@ -42,6 +45,15 @@ std::vector<std::string> words_of_one_length(hid_t attribute, hid_t type, std::s
     return out;
 }
 
+/// At the beginning, or at 512, 1024, 2048 ... bytes, behind a block of the user's.
+bool has_signature(int descriptor) {
+    constexpr std::array<char, 8> signature{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+    std::array<char, 8> found{};
+    for (off_t at = 0; ::pread(descriptor, found.data(), found.size(), at) == static_cast<ssize_t>(found.size()); at = at ? 2 * at : 512)
+        if (found == signature) return true;
+    return false;
+}
+
 herr_t remember_dataset(hid_t, const char* name, const H5O_info_t* info, void* to) {
     auto& names = *static_cast<std::vector<std::string>*>(to);
     if (info->type == H5O_TYPE_DATASET) names.push_back("/" + std::string(name));
@@ -50,19 +62,20 @@ herr_t remember_dataset(hid_t, const char* name, const H5O_info_t* info, void* t
 
 }  // namespace
 
-Result<Id> open_file(const std::string& path) {
+Result<Id> open_file(int descriptor, const std::string& path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access, false, true);  // reading needs no lock, and some file systems have none
-    if (H5Fis_hdf5(path.c_str()) <= 0) return bad_input("this is no HDF5 file (MATLAB writes one with save -v7.3)", {path});
-    Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+    H5PLset_loading_state(0);
+    const Id access(access_to(descriptor), H5Pclose);
+    if (!access) return bad_input("the HDF5 library cannot be set up", {path});
+    if (!has_signature(descriptor)) return bad_input("this is no HDF5 file (MATLAB writes one with save -v7.3)", {path});
+    Id file(H5Fopen(the_file, H5F_ACC_RDONLY, access), H5Fclose);
     if (!file) return bad_input("this HDF5 file cannot be opened: damaged, or cut short?", {path});
     return file;
 }
 
 Id open_dataset(hid_t file, const std::string& name) {
     const Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-    H5Pset_chunk_cache(access, 12421, chunk_cache, 1.0);
+    H5Pset_chunk_cache(access, 1, 0, 0.75);
     return {H5Dopen2(file, name.c_str(), access), H5Dclose};
 }
 

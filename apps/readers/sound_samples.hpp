@@ -1,0 +1,10 @@
+#pragma once
+// Sound files as samples, through libsndfile. For the helper program only: damaged files have crashed the library before.
+
+#include "io/samples.hpp"
+
+namespace corpuscle {
+
+SamplesResult open_sound_samples(int file, const std::string& path, const TableOptions&);
+
+}  // namespace corpuscle

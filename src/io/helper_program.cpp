@@ -1,0 +1,44 @@
+// Where the helper programs are. Alone in its file, for its compile options name the libexec directory.
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "io/helper_process.hpp"
+
+namespace corpuscle {
+namespace {
+
+const char* helper_directory = CORPUSCLE_LIBEXEC_DIRECTORY;
+
+std::vector<std::filesystem::path> directories() {
+    if (const char* set = ::secure_getenv("CORPUSCLE_LIBEXEC"); set && *set) return {set};
+    std::vector<std::filesystem::path> out;
+    std::error_code unknown;
+    if (const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path(); !self.empty()) {
+        out.push_back(self);
+        out.push_back(self.parent_path() / CORPUSCLE_LIBEXEC_NAME / "corpuscle");
+    }
+    out.emplace_back(helper_directory);
+    return out;
+}
+
+}  // namespace
+
+bool set_helper_directory(const char* directory) { return helper_directory = directory, true; }
+
+Result<std::string> helper_program(const std::string& name) {
+    const auto all = directories();
+    std::string tried;
+    for (const auto& directory : all) {
+        const auto path = directory / name;
+        if (::access(path.c_str(), X_OK) == 0) return path.string();
+        tried += (tried.empty() ? "" : ", ") + directory.string();
+    }
+    return bad_input(fmt::format(
+        "the program '{}', which reads such files, is not there (looked in {}); set CORPUSCLE_LIBEXEC to its directory", name, tried));
+}
+
+}  // namespace corpuscle

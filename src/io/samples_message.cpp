@@ -1,0 +1,130 @@
+#include "io/samples_message.hpp"
+
+#include <optional>
+
+namespace corpuscle {
+namespace {
+
+Error broken_answer(const std::string& path) { return bad_input("the answer of the process that reads it is broken", {path}); }
+
+/// The error at the beginning of an answer, if it is one.
+std::optional<Error> error_in(Message& m, const std::string& path) {
+    std::uint64_t code = 1;
+    if (!m.get(code)) return broken_answer(path);
+    if (code == 0) return {};
+    Error error;
+    error.code = static_cast<Code>(code);
+    const bool known = error.code == Code::bad_input || error.code == Code::bad_usage || error.code == Code::interrupted;
+    if (!known || !m.get(error.sentence) || !m.get(error.place.file)) return broken_answer(path);
+    return error;
+}
+
+void put_optional(Message& m, std::optional<std::size_t> n) { m.put(n ? *n + 1 : 0); }
+
+bool get_optional(Message& m, std::optional<std::size_t>& out) {
+    std::uint64_t n = 0;
+    if (!m.get(n)) return false;
+    out = n > 0 ? std::optional<std::size_t>(n - 1) : std::nullopt;
+    return true;
+}
+
+void put_texts(Message& m, const std::vector<std::string>& texts) {
+    m.put(texts.size());
+    for (const auto& t : texts) m.put(t);
+}
+
+bool get_texts(Message& m, std::vector<std::string>& texts) {
+    std::uint64_t count = 0;
+    bool whole = m.get(count);
+    for (std::string text; whole && texts.size() < count;) {
+        whole = m.get(text);
+        texts.push_back(text);
+    }
+    return whole;
+}
+
+}  // namespace
+
+Message encode(const OpenRequest& request) {
+    Message m;
+    m.put(request.path);
+    m.put(request.options.dataset ? 1 : 0);
+    m.put(request.options.dataset.value_or(""));
+    return m;
+}
+
+bool decode(Message& m, OpenRequest& request) {
+    std::uint64_t named = 0;
+    std::string dataset;
+    if (!m.get(request.path) || !m.get(named) || !m.get(dataset)) return false;
+    if (named) request.options.dataset = std::move(dataset);
+    return true;
+}
+
+Message encode(const FetchRequest& request) {
+    Message m;
+    m.put(request.first), m.put(request.rows), m.put(request.wanted.size());
+    m.put(request.wanted.data(), request.wanted.size() * sizeof(std::size_t));
+    return m;
+}
+
+bool decode(Message& m, FetchRequest& request) {
+    std::uint64_t count = 0;
+    if (!m.get(request.first) || !m.get(request.rows) || !m.get(count) || count > m.bytes().size()) return false;
+    request.wanted.resize(count);
+    return m.get(request.wanted.data(), count * sizeof(std::size_t));
+}
+
+Message encode(const Error& error) {
+    Message m;
+    m.put(static_cast<std::uint64_t>(error.code));
+    m.put(error.sentence);
+    m.put(error.place.file);
+    return m;
+}
+
+Message encode(const SamplesFacts& facts) {
+    Message m;
+    m.put(0);
+    m.put(static_cast<std::uint64_t>(facts.rows));
+    const double rate = facts.rate.value_or(0);
+    m.put(&rate, sizeof rate);
+    put_optional(m, facts.time);
+    m.put(facts.columns.size());
+    for (const auto& c : facts.columns) m.put(c.name), m.put(c.unit);
+    put_texts(m, facts.remarks);
+    return m;
+}
+
+Message encode(const std::vector<std::vector<double>>& columns) {
+    Message m;
+    m.put(0);
+    for (const auto& column : columns) m.put(column.data(), column.size() * sizeof(double));
+    return m;
+}
+
+Result<SamplesFacts> decode_facts(Message& m, const std::string& path) {
+    SamplesFacts facts;
+    if (auto error = error_in(m, path)) return *std::move(error);
+    std::uint64_t rows = 0, columns = 0;
+    double rate = 0;
+    bool whole = m.get(rows) && m.get(&rate, sizeof rate) && get_optional(m, facts.time) && m.get(columns);
+    facts.rows = static_cast<std::int64_t>(rows);
+    if (rate != 0) facts.rate = rate;
+    for (std::uint64_t k = 0; whole && k < columns; ++k) {
+        Column c;
+        whole = m.get(c.name) && m.get(c.unit);
+        facts.columns.push_back(std::move(c));
+    }
+    if (!whole || !get_texts(m, facts.remarks) || (facts.time && *facts.time >= facts.columns.size())) return broken_answer(path);
+    return facts;
+}
+
+Result<void> decode_rows(Message& m, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path) {
+    if (auto error = error_in(m, path)) return *std::move(error);
+    for (auto& column : out)
+        if (!m.get(column.data() + at, rows * sizeof(double))) return broken_answer(path);
+    return {};
+}
+
+}  // namespace corpuscle
