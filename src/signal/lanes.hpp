@@ -4,7 +4,21 @@
 
 #include <xsimd/xsimd.hpp>
 
+#include <concepts>
 #include <cstdint>
+
+#ifdef __AVX512F__
+// xsimd negates for AVX-512 by 0 - x, which gives 0 where -0 is right. On every other instruction set, and for a double, only the sign
+// changes.
+template <>
+inline xsimd::batch<double> xsimd::batch<double>::operator-() const noexcept {
+    return -data;
+}
+template <>
+inline xsimd::batch<float> xsimd::batch<float>::operator-() const noexcept {
+    return -data;
+}
+#endif
 
 namespace corpuscle::num {
 
@@ -133,6 +147,17 @@ inline xsimd::batch_bool<float> none<Lanes<float>>() {
     return xsimd::batch_bool<float>(false);
 }
 
+/// The same bits read as numbers of type To. (xsimd 12 and later names the element's type, xsimd 8 the batch's.)
+template <class To, class V>
+xsimd::batch<To> bits_as(xsimd::batch<V> x) {
+    if constexpr (requires {
+                      { xsimd::bitwise_cast<To>(x) } -> std::same_as<xsimd::batch<To>>;
+                  })
+        return xsimd::bitwise_cast<To>(x);
+    else
+        return xsimd::bitwise_cast<xsimd::batch<To>>(x);
+}
+
 // How each precision is laid out in its bits; the rest of the arithmetic below follows from it.
 template <class V>
 struct Layout;
@@ -157,21 +182,21 @@ Lanes<V> nearest(Lanes<V> x) {
 template <class V>
 Lanes<V> times_power_of_two(Lanes<V> x, Lanes<V> k) {
     using Bits = typename Layout<V>::Bits;  // an integer below 2^52 added to 2^52 stands in the lowest bits
-    const auto shifted = xsimd::bitwise_cast<xsimd::batch<Bits>>(k + Lanes<V>(Layout<V>::integers_from + V(Layout<V>::bias)));
-    return x * xsimd::bitwise_cast<Lanes<V>>(shifted << Layout<V>::digits);
+    const auto shifted = bits_as<Bits>(k + Lanes<V>(Layout<V>::integers_from + V(Layout<V>::bias)));
+    return x * bits_as<V>(shifted << Layout<V>::digits);
 }
 template <class V>
 Lanes<V> mantissa(Lanes<V> x) {
     using Bits = typename Layout<V>::Bits;
     const xsimd::batch<Bits> below((Bits{1} << Layout<V>::digits) - 1), one(Bits{Layout<V>::bias} << Layout<V>::digits);
-    return xsimd::bitwise_cast<Lanes<V>>((xsimd::bitwise_cast<xsimd::batch<Bits>>(x) & below) | one);
+    return bits_as<V>((bits_as<Bits>(x) & below) | one);
 }
 template <class V>
 Lanes<V> exponent(Lanes<V> x) {
     using Bits = typename Layout<V>::Bits;
-    const auto integers = xsimd::bitwise_cast<xsimd::batch<Bits>>(Lanes<V>(Layout<V>::integers_from));
-    const auto raised = (xsimd::bitwise_cast<xsimd::batch<Bits>>(x) >> Layout<V>::digits) | integers;
-    return xsimd::bitwise_cast<Lanes<V>>(raised) - Lanes<V>(Layout<V>::integers_from + V(Layout<V>::bias));
+    const auto integers = bits_as<Bits>(Lanes<V>(Layout<V>::integers_from));
+    const auto raised = (bits_as<Bits>(x) >> Layout<V>::digits) | integers;
+    return bits_as<V>(raised) - Lanes<V>(Layout<V>::integers_from + V(Layout<V>::bias));
 }
 
 template <>

@@ -19,6 +19,7 @@ using test::run;
 void link_recordings(const Folder& folder) {
     for (const char* name : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
         std::filesystem::create_symlink(std::filesystem::absolute(test::shared(name)), folder / name);
+    std::filesystem::create_symlink(recordings_root + "/examples", folder / "examples");
 }
 
 std::vector<std::string> documented_commands() {
@@ -26,7 +27,6 @@ std::vector<std::string> documented_commands() {
     std::vector<std::string> out;
     for (std::string line; std::getline(text, line);) {
         if (!line.starts_with("corpuscle ")) continue;
-        if (const auto at = line.find("LAYOUT"); at != std::string::npos) line.replace(at, 6, recordings_root + "/examples/layouts");
         out.push_back(line.substr(std::string("corpuscle ").size()));
     }
     return out;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <type_traits>
 
 #include "circuit/solve/matrix.hpp"
 
@@ -19,7 +20,7 @@ template <class T, auto free>
 struct Freed {
     void operator()(T* p) const { free(p); }
 };
-using Context = std::unique_ptr<_SUNContext, decltype([](SUNContext c) { SUNContext_Free(&c); })>;
+using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, decltype([](SUNContext c) { SUNContext_Free(&c); })>;
 using Vector = std::unique_ptr<_generic_N_Vector, Freed<_generic_N_Vector, N_VDestroy>>;
 using Matrix = std::unique_ptr<_generic_SUNMatrix, Freed<_generic_SUNMatrix, SUNMatDestroy>>;
 using Linear = std::unique_ptr<_generic_SUNLinearSolver, decltype([](SUNLinearSolver s) { SUNLinSolFree(s); })>;
@@ -96,7 +97,11 @@ int above_level(double, N_Vector y, N_Vector, double* out, void* data) {
 
 SUNContext made_context() {
     SUNContext c = nullptr;
+#ifdef SUN_COMM_NULL
+    SUNContext_Create(SUN_COMM_NULL, &c);
+#else  // before SUNDIALS 7
     SUNContext_Create(nullptr, &c);
+#endif
     return c;
 }
 

@@ -5,7 +5,7 @@
 
 namespace corpuscle::test {
 
-inline constexpr std::size_t functions = 14;
+inline constexpr std::size_t functions = 15;
 
 /// out[f][k] = function f of a[k] and b[k]; count is a multiple of 16, all on 64 bytes.
 template <class V>

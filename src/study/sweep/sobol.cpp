@@ -7,7 +7,7 @@ namespace {
 
 /// A primitive polynomial over GF(2), its bits from the highest power on, and the numbers that its direction numbers begin with: the table
 /// new-joe-kuo-6 of Joe and Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30 (2008),
-/// from its dimension 2 on.
+/// from its dimension 2 on. Their licence is in NOTICE.
 struct Beginning {
     std::uint32_t polynomial;
     std::uint32_t m[9];

@@ -1,0 +1,21 @@
+#!/bin/sh
+# The installed tree: examples, documents, licences; and the archive, which must go into a shared library.
+# Usage: installed_files_are_whole.sh PREFIX COMPILER
+set -eu
+prefix=$1
+compiler=$2
+status=0
+for file in bin/corpuscle libexec/corpuscle/corpuscle-hdf5 libexec/corpuscle/corpuscle-sound include/corpuscle/corpuscle.hpp include/corpuscle/corpuscle.h share/corpuscle/circuits/sa1.cir \
+  share/corpuscle/skins/hand.toml share/corpuscle/examples/respond.cpp share/corpuscle/examples/data/touch.csv \
+  share/corpuscle/examples/sweeps/bias.toml share/doc/corpuscle/README.md share/doc/corpuscle/LICENSE share/doc/corpuscle/NOTICE \
+  share/doc/corpuscle/doc/concepts.md share/doc/corpuscle/doc/press.png; do
+  [ -s "$prefix/$file" ] || { echo "$prefix/$file is missing"; status=1; }
+done
+for work in dygraphs CLI11 nlohmann-json xsimd toml++ fmt 'Frances Y. Kuo and Stephen Joe'; do
+  grep -qF "$work" "$prefix/share/doc/corpuscle/NOTICE" || { echo "NOTICE lacks $work"; status=1; }
+done
+library=$(find "$prefix" -name libcorpuscle.a)
+shared=$prefix/try.so
+"$compiler" -shared -o "$shared" -Wl,-z,text -Wl,--whole-archive "$library" -Wl,--no-whole-archive || status=1
+rm -f "$shared"
+exit $status

@@ -1,0 +1,68 @@
+// The forces of a frame are the same bits on every instruction set: as read, scaled, and held where there is no number.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "live/lanes/kernel.hpp"
+#include "signal/random.hpp"
+
+namespace corpuscle::lanes {
+namespace {
+
+/// Numbers of all sizes, both zeros, numbers beyond the limit, infinities and NaN.
+template <class V>
+std::vector<V> readings(std::size_t count) {
+    std::vector<V> out(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        if constexpr (std::numeric_limits<V>::is_integer) {
+            out[k] = static_cast<V>(k * 7919);
+        } else {
+            const V odd[] = {V(0), -V(0), std::numeric_limits<V>::infinity(), std::numeric_limits<V>::quiet_NaN(), V(1e9), V(-1e9)};
+            out[k] = k % 3 == 0 ? odd[k / 3 % 6] : static_cast<V>(10 * normal(1, 0, 0, k));
+        }
+    }
+    return out;
+}
+
+/// The kernel's statement (see FrameForce), a number at a time.
+template <class V>
+std::size_t take_scalar(const std::vector<V>& from, const FrameForce& f, std::vector<double>& force) {
+    std::size_t bad = 0;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        const double x = (static_cast<double>(from[k]) - f.offset) * f.scale;
+        if (x >= -f.limit && x <= f.limit)
+            force[k] = x;
+        else
+            ++bad;
+    }
+    return bad;
+}
+
+template <class V>
+void expect_same_on_every_set(FrameLanes::Take FrameLanes::* take) {
+    for (const FrameForce& f : {FrameForce{0, 1, 1e6}, FrameForce{0.25, -2e-3, 1e4}})
+        for (const std::size_t count : {1U, 3U, 4U, 7U, 8U, 16U, 17U, 333U}) {
+            const auto from = readings<V>(count);
+            std::vector<double> right(count, -0.0);
+            const auto bad = take_scalar(from, f, right);
+            for (const auto set : instruction_sets()) {
+                std::vector<double> force(count, -0.0);
+                EXPECT_EQ((frame_lanes(set).*take)(reinterpret_cast<const char*>(from.data()), f, force.data(), count), bad)
+                    << name_of(set);
+                EXPECT_EQ(std::memcmp(force.data(), right.data(), count * sizeof(double)), 0) << name_of(set) << ", " << count;
+            }
+        }
+}
+
+TEST(FrameLanes, GiveTheSameBitsOnEveryInstructionSet) {
+    expect_same_on_every_set<float>(&FrameLanes::f32);
+    expect_same_on_every_set<double>(&FrameLanes::f64);
+    expect_same_on_every_set<std::int16_t>(&FrameLanes::i16);
+}
+
+}  // namespace
+}  // namespace corpuscle::lanes
