@@ -21,7 +21,7 @@ struct Headings {
     bool unitless = false;
 };
 
-class Reader {
+class LayoutReader {
     Lines lines_;
     Dialect dialect_;
     const Table& table_;
@@ -107,7 +107,7 @@ class Reader {
     }
 
 public:
-    Reader(Lines lines, const Table& table, std::optional<std::size_t> time) : lines_(std::move(lines)), table_(table), time_(time) {}
+    LayoutReader(Lines lines, const Table& table, std::optional<std::size_t> time) : lines_(std::move(lines)), table_(table), time_(time) {}
 
     Result<Layout> read() {
         if (auto ok = read_headings(); !ok) return ok.error();
@@ -132,7 +132,7 @@ public:
 Result<Layout> read_layout(const std::string& path, const Table& table, std::optional<std::size_t> time) {
     auto lines = Lines::open(path);
     if (!lines) return lines.error();
-    return Reader(std::move(*lines), table, time).read();
+    return LayoutReader(std::move(*lines), table, time).read();
 }
 
 }  // namespace corpuscle
