@@ -141,6 +141,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     verb.add_option("--dataset", w.dataset, "which array of a file that holds several (HDF5, NPZ), by its path or name")
         ->type_name("NAME")
         ->group("Recordings");
+    add_orientation(verb, w.transpose, "Recordings");
     verb.add_option("--time", w.time, "a recording's time column by name or number, or 'none'")->type_name("COLUMN")->group("Recordings");
     verb.add_option("--time-unit", w.time_unit, "what the time column is in, if its header does not say: s, ms, us")
         ->type_name("UNIT")

@@ -55,7 +55,8 @@ Result<std::optional<double>> quantity(const std::optional<std::string>& text, s
 }
 
 Result<RecordingOptions> recording_options(const RespondWords& w) {
-    RecordingOptions options{.table = {w.dataset}, .channels = w.channels, .time = w.time, .time_unit = w.time_unit, .unit = w.unit};
+    RecordingOptions options{
+        .table = {w.dataset, w.transpose}, .channels = w.channels, .time = w.time, .time_unit = w.time_unit, .unit = w.unit};
     options.absolute = w.absolute;
     options.layout = w.layout;
     std::optional<double> offset;
@@ -75,21 +76,14 @@ Result<RecordingOptions> recording_options(const RespondWords& w) {
 
 Result<void> check_recording_words(const RespondWords& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},
-                                                  {"--dataset", w.dataset.has_value()},
-                                                  {"--time", w.time.has_value()},
-                                                  {"--time-unit", w.time_unit.has_value()},
-                                                  {"--unit", w.unit.has_value()},
-                                                  {"--scale", w.scale.has_value()},
-                                                  {"--abs", w.absolute},
-                                                  {"--resample", w.resample.has_value()},
-                                                  {"--offset", w.offset.has_value()},
-                                                  {"--range", w.range.has_value()},
-                                                  {"--bad-fields", w.bad_fields.has_value()},
-                                                  {"--despike", w.despike.has_value()},
-                                                  {"--notch", !w.notch.empty()},
-                                                  {"--lowpass", w.lowpass.has_value()},
-                                                  {"--layout", !w.layout.empty()}};
+    const std::pair<const char*, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()},
+                                                  {"--transpose", w.transpose.has_value()}, {"--time", w.time.has_value()},
+                                                  {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
+                                                  {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
+                                                  {"--resample", w.resample.has_value()},   {"--offset", w.offset.has_value()},
+                                                  {"--range", w.range.has_value()},         {"--bad-fields", w.bad_fields.has_value()},
+                                                  {"--despike", w.despike.has_value()},     {"--notch", !w.notch.empty()},
+                                                  {"--lowpass", w.lowpass.has_value()},     {"--layout", !w.layout.empty()}};
     for (const auto& [word, said] : words)
         if (said)
             return bad_usage(fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word,

@@ -61,7 +61,7 @@ Result<std::unique_ptr<Source>> source_of(const StreamWords& w, const StreamNumb
     if (is_stimulus(w.in)) return make_stimulus(w.in, wishes, n.rate.value_or(1e3), 0);
     RecordingOptions options;
     options.channels = w.channels, options.rate = n.rate, options.unit = w.unit, options.scale = n.scale;
-    options.offset = n.offset.value_or(0), options.layout = w.layout;
+    options.offset = n.offset.value_or(0), options.layout = w.layout, options.table.transpose = w.transpose;
     return open_recording(w.in, options);
 }
 

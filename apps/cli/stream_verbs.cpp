@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "sweep_verbs.hpp"
+#include "word_groups.hpp"
 
 namespace corpuscle {
 namespace {
@@ -79,6 +80,7 @@ void add_frames(CLI::App& verb, StreamWords& w) {
         ->allow_extra_args(false)
         ->type_name("CHANNEL")
         ->group(group);
+    add_orientation(verb, w.transpose, group);
     verb.add_option("--layout", w.layout, "of a recording: a table that says where the sensors sit")->type_name("FILE")->group(group);
 }
 

@@ -24,6 +24,7 @@ struct RespondWords {
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads, channels;
     std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass, noise,
         bin;
+    std::optional<bool> transpose;
     std::vector<std::string> notch;
     std::string layout;
     std::string method = "exact";
@@ -95,6 +96,7 @@ struct StreamWords {
     std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real", layout;
     std::vector<std::string> settings, channels;
     std::optional<std::string> rate, scale, offset, unit;
+    std::optional<bool> transpose;
     std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M";
     std::string out = "-", to, format = "lines", save, resume;
     std::size_t count = 1;     ///< channels

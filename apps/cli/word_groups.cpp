@@ -44,4 +44,13 @@ void add_skin_words(CLI::App& verb, RespondWords& w) {
         ->group(group);
 }
 
+void add_orientation(CLI::App& verb, std::optional<bool>& transpose, const std::string& group) {
+    auto* turned =
+        verb.add_flag_callback("--transpose", [&transpose] { transpose = true; }, "each row of a recording's array or table is a channel");
+    auto* upright = verb.add_flag_callback(
+        "--no-transpose", [&transpose] { transpose = false; }, "each row is a sample, even if there are fewer rows than channels");
+    turned->group(group)->excludes(upright);
+    upright->group(group);
+}
+
 }  // namespace corpuscle

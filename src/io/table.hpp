@@ -21,6 +21,7 @@ inline constexpr std::size_t rows_a_block = 4096;
 /// What a format may need to know besides the path.
 struct TableOptions {
     std::optional<std::string> dataset = {};  ///< which of a file's arrays is meant: "/force/data" in HDF5, "force" in NPZ
+    std::optional<bool> transpose = {};       ///< rows are channels; false: rows are samples, even if there are fewer
 };
 
 class Table {
@@ -32,6 +33,8 @@ public:
     virtual const std::vector<Column>& columns() const = 0;
     /// Rows a second, if the file says it; Hz.
     virtual std::optional<double> rate() const { return {}; }
+    /// Was it looked at which dimension of the array is time?
+    virtual bool orientation_is_known() const { return false; }
     /// What the user should know of how the file is read.
     virtual std::vector<std::string> remarks() const { return {}; }
     /// With gaps allowed a field that is no finite number reads as NaN; else it is an error that names its place.
