@@ -51,6 +51,8 @@ reproduction: build
 	else echo "doc/recorded.md is left as it is: no recordings in $(CORPUSCLE_DATA)"; fi
 
 install: build
+	@cmake --preset release -D CMAKE_INSTALL_PREFIX=$(PREFIX) > /dev/null  # programs of others look for the helper programs there
+	@cmake --build --preset release --target corpuscle-cli
 	cmake --install build/release --prefix $(PREFIX)
 
 # The pictures of README and doc/; those of real recordings need them: CORPUSCLE_DATA, else ../shared/data.

@@ -66,6 +66,7 @@ Result<RecordingOptions> recording_options(const RecordingWords& w) {
     RecordingOptions options;
     options.table.dataset = w.dataset;
     options.table.skip = w.skip.value_or(0);
+    options.table.transpose = w.transpose;
     options.channels = w.channels, options.time = w.time, options.time_unit = w.time_unit, options.unit = w.unit;
     options.absolute = w.absolute;
     options.layout = w.layout;
@@ -88,7 +89,8 @@ Result<RecordingOptions> recording_options(const RecordingWords& w) {
 
 std::string_view recording_word(const RecordingWords& w) {
     const std::pair<std::string_view, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()},
-                                                       {"--skip", w.skip.has_value()},           {"--time", w.time.has_value()},
+                                                       {"--skip", w.skip.has_value()},           {"--transpose", w.transpose.has_value()},
+                                                       {"--time", w.time.has_value()},
                                                        {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
                                                        {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
                                                        {"--resample", w.resample.has_value()},   {"--offset", w.offset.has_value()},

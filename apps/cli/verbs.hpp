@@ -33,6 +33,7 @@ struct RecordingWords {
     std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
     std::string layout;
     std::optional<std::uint32_t> skip;  ///< lines
+    std::optional<bool> transpose;
     bool absolute = false;
 };
 

@@ -30,6 +30,20 @@ void add_netlist_words(CLI::App& verb, NetlistWords& w) {
         ->group(group);
 }
 
+namespace {
+
+/// --transpose and --no-transpose, which share a value.
+void add_orientation(CLI::App& verb, std::optional<bool>& transpose, const std::string& group) {
+    auto* turned =
+        verb.add_flag_callback("--transpose", [&transpose] { transpose = true; }, "each row of a recording's array or table is a channel");
+    auto* upright = verb.add_flag_callback(
+        "--no-transpose", [&transpose] { transpose = false; }, "each row is a sample, even if there are fewer rows than channels");
+    turned->group(group)->excludes(upright);
+    upright->group(group);
+}
+
+}  // namespace
+
 void add_recording_words(CLI::App& verb, RecordingWords& w) {
     const auto group = "Recordings";
     verb.add_option("--channel,-c", w.channels,
@@ -40,6 +54,7 @@ void add_recording_words(CLI::App& verb, RecordingWords& w) {
     verb.add_option("--dataset", w.dataset, "which array of a file that holds several (HDF5, NPZ), by its path or name")
         ->type_name("NAME")
         ->group(group);
+    add_orientation(verb, w.transpose, group);
     verb.add_option("--skip", w.skip, "lines at the beginning of a file of text that are not part of its table")
         ->check(CLI::Range(0U, 1'000'000U))
         ->type_name("LINES")

@@ -16,6 +16,8 @@ using hdf5::Id;
 constexpr std::size_t usual_band = std::size_t{1} << 20, largest_band = std::size_t{1} << 26;  // numbers
 constexpr std::size_t most_passes = 16;                                                        // over one chunk
 
+constexpr const char* names_of_channels[] = {"columns", "channels", "names"};  // attributes
+
 std::string parent_of(const std::string& name) { return name.substr(0, std::max<std::size_t>(1, name.rfind('/'))); }
 
 class Hdf5Samples final : public Samples {
@@ -116,13 +118,15 @@ class Hdf5Samples final : public Samples {
     }
 
     /// MATLAB's matrices lie column after column: HDF5's first dimension is their second.
-    Result<void> take_shape(const ArrayFacts& facts) {
-        const auto extent = extent_of(facts, path_);
+    Result<void> take_shape(const ArrayFacts& facts, ExtentHints hints) {
+        hints.by_columns = hdf5::text_at(dataset_, "MATLAB_class").has_value();
+        for (const auto* attribute : names_of_channels)
+            if (const auto words = hdf5::words_at(dataset_, attribute); words.size() > 1) hints.channels = words.size();
+        const auto extent = extent_of(facts, path_, hints);
         if (!extent) return extent.error();
         extent_ = *extent;
         rank_ = facts.shape.size();
-        if (!extent_.lying && extent_.columns > 1 && hdf5::text_at(dataset_, "MATLAB_class"))
-            extent_ = {extent_.columns, extent_.rows, true};
+        if (!extent_.remark.empty()) facts_.remarks.push_back(extent_.remark);
         facts_.rows = static_cast<std::int64_t>(extent_.rows);
         auto storage = hdf5::storage_of(dataset_, facts, path_);
         if (!storage) return storage.error();
@@ -140,7 +144,7 @@ class Hdf5Samples final : public Samples {
         const auto name = last_name(name_);
         facts_.columns =
             columns_named_after(name == "data" ? last_name(parent_of(name_)) : name, static_cast<std::size_t>(extent_.columns));
-        for (const auto* attribute : {"columns", "channels", "names"})
+        for (const auto* attribute : names_of_channels)
             if (const auto words = hdf5::words_at(dataset_, attribute); words.size() == facts_.columns.size())
                 for (std::size_t c = 0; c < words.size(); ++c) {
                     auto heading = parse_heading(words[c]);
@@ -164,8 +168,8 @@ public:
     Hdf5Samples(std::string path, std::string name, Id dataset)
         : path_(std::move(path)), name_(std::move(name)), dataset_(std::move(dataset)) {}
 
-    Result<void> open(const ArrayFacts& facts) {
-        if (auto ok = take_shape(facts); !ok) return ok;
+    Result<void> open(const ArrayFacts& facts, const ExtentHints& hints) {
+        if (auto ok = take_shape(facts, hints); !ok) return ok;
         if (auto ok = name_columns(); !ok) return ok;
         take_unit();
         return {};
@@ -216,32 +220,34 @@ std::optional<double> rate_of(hid_t file, const std::string& name, std::span<con
     }
 }
 
-Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayFacts& facts) {
+Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayFacts& facts, const ExtentHints& hints) {
     auto dataset = hdf5::open_dataset(file, facts.name);
     if (!dataset) return bad_input(fmt::format("{} cannot be opened: damaged?", facts.name), {path});
     auto samples = std::make_unique<Hdf5Samples>(path, facts.name, std::move(dataset));
-    if (auto ok = samples->open(facts); !ok) return ok.error();
+    if (auto ok = samples->open(facts, hints); !ok) return ok.error();
     return samples;
 }
 
-/// The list of times beside a dataset, with as many rows.
-const ArrayFacts* times_of(const ArrayFacts& chosen, std::int64_t rows, std::span<const ArrayFacts> arrays) {
+/// The lists of times beside a dataset.
+std::vector<const ArrayFacts*> times_beside(const ArrayFacts& chosen, std::span<const ArrayFacts> arrays) {
+    std::vector<const ArrayFacts*> out;
     for (const auto& a : arrays)
-        if (a.name != chosen.name && parent_of(a.name) == parent_of(chosen.name) && a.numeric && a.shape.size() <= 2 &&
-            names_time(parse_heading(last_name(a.name)).name))
-            if (const auto extent = extent_of(a, ""); extent && extent->columns == 1 && static_cast<std::int64_t>(extent->rows) == rows)
-                return &a;
+        if (a.name != chosen.name && parent_of(a.name) == parent_of(chosen.name) && length_of_times(a)) out.push_back(&a);
+    return out;
+}
+
+/// The one with as many rows.
+const ArrayFacts* times_of(const ArrayFacts& chosen, std::int64_t rows, std::span<const ArrayFacts> arrays) {
+    for (const auto* a : times_beside(chosen, arrays))
+        if (length_of_times(*a) == static_cast<std::uint64_t>(rows)) return a;
     return nullptr;
 }
 
-/// The whole name of what the user asks for: without the first slash, or the group that holds `data`.
-std::optional<std::string> whole_name(std::optional<std::string> wanted, std::span<const ArrayFacts> arrays) {
-    if (!wanted) return wanted;
-    const auto is_there = [&](const std::string& name) {
-        return std::any_of(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
-    };
-    if (!wanted->starts_with('/')) wanted = "/" + *wanted;
-    return !is_there(*wanted) && is_there(*wanted + "/data") ? *wanted + "/data" : wanted;
+/// Is the name that was asked for a link into another file?
+bool is_external_link(hid_t file, const std::string& name) {
+    H5L_info_t link{};
+    return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0 && H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) >= 0 &&
+           link.type == H5L_TYPE_EXTERNAL;
 }
 
 }  // namespace
@@ -250,15 +256,20 @@ SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const T
     const auto file = hdf5::open_file(descriptor, path);
     if (!file) return file.error();
     const auto arrays = hdf5::datasets_in(*file);
-    const auto chosen = choose_array(arrays, whole_name(options.dataset, arrays), path);
+    const auto chosen = choose_array(arrays, options.dataset, path);
+    if (!chosen && options.dataset && is_external_link(*file, *options.dataset))
+        return bad_input(fmt::format("'{}' is a link into another file, which is not read; give that file itself", *options.dataset),
+                         {path});
     if (!chosen) return chosen.error();
     const auto& facts = arrays[*chosen];
-    auto samples = samples_of(*file, path, facts);
+    ExtentHints hints{options.transpose};
+    for (const auto* times : times_beside(facts, arrays)) hints.samples.push_back(*length_of_times(*times));
+    auto samples = samples_of(*file, path, facts, hints);
     if (!samples) return samples.error();
     (*samples)->set_rate(rate_of(*file, facts.name, arrays));
     const auto* times = times_of(facts, (*samples)->facts().rows, arrays);
     if (!times) return std::unique_ptr<Samples>(*std::move(samples));
-    auto clock = samples_of(*file, path, *times);
+    auto clock = samples_of(*file, path, *times, {});
     if (!clock) return clock.error();
     return with_times(*std::move(clock), *std::move(samples));
 }

@@ -53,8 +53,11 @@ public:
             at_ += static_cast<std::uint64_t>(got);
             out = out.subspan(static_cast<std::size_t>(got));
         }
-        std::byte beyond;  // the checksum is looked at by whoever reads on
-        if (at_ == size_ && zip_fread(file_.get(), &beyond, 1) < 0) return broken(zip_file_get_error(file_.get()));
+        if (at_ != size_) return {};
+        std::byte beyond;  // libzip compares the checksum when the end is read
+        const auto more = zip_fread(file_.get(), &beyond, 1);
+        if (more < 0) return broken(zip_file_get_error(file_.get()));
+        if (more > 0) return bad_input(fmt::format("is longer than the {} bytes in the archive's directory: damaged?", size_), {name_});
         return {};
     }
 

@@ -40,10 +40,7 @@ public:
 };
 
 /// The path of an installed helper program: in the directory CORPUSCLE_LIBEXEC, if the environment has it; else beside the running program,
-/// in ../libexec/corpuscle from there, or in the libexec directory that this library was configured or found with.
+/// in ../libexec/corpuscle from there, or in the libexec directory of the prefix that the library was configured with.
 Result<std::string> helper_program(const std::string& name);
-
-/// Where helper programs are installed, for a library that was moved after it was configured. `directory` must live on.
-bool set_helper_directory(const char* directory);
 
 }  // namespace corpuscle

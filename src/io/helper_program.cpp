@@ -11,8 +11,6 @@
 namespace corpuscle {
 namespace {
 
-const char* helper_directory = CORPUSCLE_LIBEXEC_DIRECTORY;
-
 std::vector<std::filesystem::path> directories() {
     if (const char* set = ::secure_getenv("CORPUSCLE_LIBEXEC"); set && *set) return {set};
     std::vector<std::filesystem::path> out;
@@ -21,13 +19,11 @@ std::vector<std::filesystem::path> directories() {
         out.push_back(self);
         out.push_back(self.parent_path() / CORPUSCLE_LIBEXEC_NAME / "corpuscle");
     }
-    out.emplace_back(helper_directory);
+    out.emplace_back(CORPUSCLE_LIBEXEC_DIRECTORY);
     return out;
 }
 
 }  // namespace
-
-bool set_helper_directory(const char* directory) { return helper_directory = directory, true; }
 
 Result<std::string> helper_program(const std::string& name) {
     const auto all = directories();

@@ -11,10 +11,13 @@
 namespace corpuscle {
 namespace {
 
+bool lies_by_columns(const NpyHeader& header, const Extent& extent) { return extent.columns > 1 && header.by_columns != extent.lying; }
+
 class NpySamples final : public Samples {
     std::unique_ptr<Bytes> bytes_;
     NpyHeader header_;
     Extent extent_;
+    bool by_columns_;               // the elements of a channel lie side by side
     std::vector<NpyField> fields_;  // of each column; in an array without structure all are the same one
     SamplesFacts facts_;
     std::vector<std::byte> buffer_;
@@ -47,7 +50,8 @@ class NpySamples final : public Samples {
 
 public:
     NpySamples(std::unique_ptr<Bytes> bytes, NpyHeader header, Extent extent)
-        : bytes_(std::move(bytes)), header_(std::move(header)), extent_(extent) {
+        : bytes_(std::move(bytes)), header_(std::move(header)), extent_(std::move(extent)), by_columns_(lies_by_columns(header_, extent_)) {
+        if (!extent_.remark.empty()) facts_.remarks.push_back(extent_.remark);
         facts_.rows = static_cast<std::int64_t>(extent_.rows);
     }
 
@@ -67,7 +71,7 @@ public:
                        std::vector<std::vector<double>>& out) override {
         const auto first = static_cast<std::uint64_t>(start);
         const auto width = static_cast<std::size_t>(extent_.columns);
-        if (header_.by_columns && width > 1) return fetch_columns(first, rows, wanted, out);
+        if (by_columns_) return fetch_columns(first, rows, wanted, out);
         const std::size_t most = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element));
         for (std::size_t done = 0; done < rows; done += most) {
             const auto count = std::min(most, rows - done);
@@ -94,12 +98,18 @@ Error no_numbers(const NpyHeader& header, const std::string& name) {
 }
 
 /// One array as samples; `bytes` stand behind its header.
-Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, NpyHeader header, const ArrayFacts& facts) {
+Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, NpyHeader header, const ArrayFacts& facts,
+                                               const ExtentHints& hints, bool packed = false) {
     const auto name = bytes->name();
     if (!has_numbers(header) || std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; }))
         return no_numbers(header, name);
-    const auto extent = extent_of(facts, name);
+    const auto extent = extent_of(facts, name, hints);
     if (!extent) return extent.error();
+    if (packed && lies_by_columns(header, *extent)) {  // an archive is quick to read in order only
+        auto copy = spooled(*bytes);
+        if (!copy) return copy.error();
+        bytes = *std::move(copy);
+    }
     if (!header.fields[0].name.empty() && extent->columns > 1)
         return bad_input(fmt::format("{}: a structure's fields are its columns; it can have one dimension only", described(facts)), {name});
     auto samples = std::make_unique<NpySamples>(std::move(bytes), std::move(header), *extent);
@@ -122,16 +132,20 @@ struct Npz {
         }
     }
 
-    Result<std::unique_ptr<NpySamples>> samples(std::size_t k) const {
+    Result<std::unique_ptr<NpySamples>> samples(std::size_t k, const ExtentHints& hints) const {
         auto bytes = file.bytes(arrays[k].name);
         if (!bytes) return bytes.error();
-        auto header = read_npy_header(**bytes);
+        auto header = read_member_header(**bytes);
         if (!header) return header.error();
-        if (header->by_columns && header->shape.size() > 1) {
-            bytes = spooled(**bytes);
-            if (!bytes) return bytes.error();
-        }
-        return samples_of(*std::move(bytes), *std::move(header), arrays[k]);
+        return samples_of(*std::move(bytes), *std::move(header), arrays[k], hints, true);
+    }
+
+    /// What the lists of times beside array number `chosen` say of it.
+    ExtentHints hints(std::size_t chosen, std::optional<bool> transpose) const {
+        ExtentHints out{transpose};
+        for (std::size_t k = 0; k < arrays.size(); ++k)
+            if (const auto length = k == chosen ? std::nullopt : length_of_times(arrays[k])) out.samples.push_back(*length);
+        return out;
     }
 
     std::optional<double> rate() const {
@@ -151,13 +165,13 @@ struct Npz {
     }
 };
 
-SamplesResult open_npy(const std::string& path) {
+SamplesResult open_npy(const std::string& path, const TableOptions& options) {
     auto bytes = open_bytes(path);
     if (!bytes) return bytes.error();
     auto header = read_npy_header(**bytes);
     if (!header) return header.error();
     const ArrayFacts facts{"", header->shape, has_numbers(*header)};
-    auto samples = samples_of(*std::move(bytes), *std::move(header), facts);
+    auto samples = samples_of(*std::move(bytes), *std::move(header), facts, {options.transpose});
     if (!samples) return samples.error();
     return std::unique_ptr<Samples>(*std::move(samples));
 }
@@ -169,12 +183,12 @@ SamplesResult open_npz(const std::string& path, const TableOptions& options) {
     npz.look();
     const auto chosen = choose_array(npz.arrays, options.dataset, path);
     if (!chosen) return chosen.error();
-    auto samples = npz.samples(*chosen);
+    auto samples = npz.samples(*chosen, npz.hints(*chosen, options.transpose));
     if (!samples) return samples.error();
     (*samples)->set_rate(npz.rate());
     const auto times = npz.times(*chosen, (*samples)->facts().rows);
     if (!times) return std::unique_ptr<Samples>(*std::move(samples));
-    auto clock = npz.samples(*times);
+    auto clock = npz.samples(*times, {});
     if (!clock) return clock.error();
     return with_times(*std::move(clock), *std::move(samples));
 }
@@ -183,7 +197,7 @@ SamplesResult open_npz(const std::string& path, const TableOptions& options) {
 
 Result<std::unique_ptr<Table>> open_npy_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a NPY file has only one array", *options.dataset));
-    return table_of(open_npy(path), path);
+    return table_of(open_npy(path, options), path);
 }
 
 Result<std::unique_ptr<Table>> open_npz_table(const std::string& path, const TableOptions& options) {

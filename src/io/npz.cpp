@@ -57,7 +57,7 @@ struct Whole {
 Result<Whole> whole(const NpzReader& npz, const std::string& name, std::string_view kinds, std::string_view what) {
     const auto bytes = npz.bytes(name);
     if (!bytes) return bytes.error();
-    auto header = read_npy_header(**bytes);
+    auto header = read_member_header(**bytes);
     if (!header) return header.error();
     const auto& field = header->fields[0];
     const bool fits = field.kind == 'U' || field.kind == 'S' || field.numeric();
@@ -115,6 +115,16 @@ void NpzWriter::add(const std::string& name, std::span<const std::string> list) 
         bytes += raw(std::span<const char32_t>(w));
     }
     arrays_.push_back({name + std::string(ending), std::move(bytes)});
+}
+
+Result<NpyHeader> read_member_header(Bytes& bytes) {
+    auto header = read_npy_header(bytes);
+    if (!header) return header;
+    const bool pickled = std::any_of(header->fields.begin(), header->fields.end(), [](const auto& f) { return f.kind == 'O'; });
+    const auto whole = header->data_at + header->count() * header->element;
+    if (pickled || whole == bytes.size()) return header;
+    return bad_input(fmt::format("the archive's directory says {} bytes, the array takes {}: damaged?", bytes.size(), whole),
+                     {bytes.name()});
 }
 
 Result<NpzReader> NpzReader::open(const std::string& path) {

@@ -23,6 +23,9 @@ public:
     Result<std::string> bytes() const { return make_archive(arrays_); }
 };
 
+/// The header of an array of an archive, which holds that array and nothing else: else the checksum would not be reached.
+Result<NpyHeader> read_member_header(Bytes&);
+
 class NpzReader {
     Archive archive_;
 

@@ -13,6 +13,7 @@
 #include "io/formats.hpp"
 #include "io/layout.hpp"
 #include "io/row_clock.hpp"
+#include "io/transposed_table.hpp"
 #include "io/verdict.hpp"
 #include "signal/afferent.hpp"
 #include "signal/input_files.hpp"
@@ -98,6 +99,23 @@ class Recording final : public Source {
             gains.push_back(*gain);
         }
         return gains;
+    }
+
+    /// Of a table without names for its columns, which knows no better: more channels than samples are likely to be samples.
+    void doubt_orientation(Quality& quality) const {
+        const auto& columns = table_->columns();
+        const auto samples = samples_;
+        if (options_.table.transpose || options_.resample || static_cast<std::int64_t>(columns.size()) <= samples || samples == 0) return;
+        const auto is_numbered = [this](const Column& c) {
+            if (table_->time_is_guessed() && c.name == "time") return true;
+            const std::string_view digits = std::string_view(c.name).substr(c.name.starts_with("ch") ? 2 : 0);
+            return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+        };
+        if (table_->orientation_is_known() || !std::all_of(columns.begin(), columns.end(), is_numbered)) return;
+        quality.warnings.push_back(
+            fmt::format("{} columns, and only {} rows: --transpose takes each row as a channel, --no-transpose says "
+                        "that each is a sample",
+                        columns.size(), samples));
     }
 
     /// A time with the unit or the afferent that fired then.
@@ -230,7 +248,9 @@ public:
     }
     std::vector<std::string> remarks() const override { return remarks_; }
     Quality quality() const override {
-        return verdict(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+        auto found = verdict(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+        doubt_orientation(found);
+        return found;
     }
 
     Result<void> read(Frames& block) override {
@@ -271,6 +291,8 @@ Result<std::unique_ptr<Source>> open_recording(const std::string& path, const Re
         if (auto refusal = foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
     }
     auto table = format.open(path, options.table);
+    if (!table) return table.error();
+    if (options.table.transpose == true && !(*table)->orientation_is_known()) table = transposed(std::move(*table), path);
     if (!table) return table.error();
     remember_input(path);
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);

@@ -39,6 +39,7 @@ public:
 
     const std::vector<Column>& columns() const override { return facts().columns; }
     std::optional<double> rate() const override { return facts().rate > 0.0 ? facts().rate : std::nullopt; }
+    bool orientation_is_known() const override { return true; }
     std::vector<std::string> remarks() const override { return facts().remarks; }
     std::optional<std::size_t> time_column() const override {
         if (facts().time) return facts().time;
@@ -118,12 +119,63 @@ bool accessory(const ArrayFacts& a) {
     return names_time(parse_heading(name).name) || (single(a) && (names_rate(name) || a.shape.empty()));
 }
 
+/// Which of an array's dimensions is time.
+Result<void> turn(Extent& e, const ArrayFacts& a, const std::string& path, const ExtentHints& hints) {
+    const auto flip = [&e] { std::swap(e.rows, e.columns), e.lying = !e.lying; };
+    if (e.rows == 1 && e.columns > 1 && hints.transpose != false) return flip(), Result<void>{};
+    if (hints.by_columns && e.columns > 1) flip();
+    if (hints.transpose) return *hints.transpose ? flip() : void(), Result<void>{};
+    if (e.columns <= e.rows || e.rows == 1) return {};
+    const auto is_length = [&](std::uint64_t n) { return std::find(hints.samples.begin(), hints.samples.end(), n) != hints.samples.end(); };
+    if (is_length(e.rows) || (hints.channels == e.columns && !is_length(e.columns))) return {};
+    if (is_length(e.columns) || hints.channels == e.rows) {
+        flip();
+        e.remark = fmt::format("{}: taken as {} channels of {} samples, as {} beside it say; --no-transpose takes each row as a sample",
+                               described(a), e.columns, e.rows, is_length(e.rows) ? "the times" : "the names");
+        return {};
+    }
+    return bad_input(
+        fmt::format("{}: {} channels of only {} samples? --transpose takes each row as a channel, --no-transpose each row as a "
+                    "sample",
+                    described(a), e.columns, e.rows),
+        {path});
+}
+
+/// Does the path end in these names?
+bool ends_in(std::string_view path, std::string_view names) {
+    return path == names || (path.ends_with(names) && path.size() > names.size() && path[path.size() - names.size() - 1] == '/');
+}
+
+/// The arrays that `wanted` can mean: its whole path (with or without the first slash), else the end of one; of a group its `data`.
+std::vector<std::size_t> arrays_meant(std::string_view wanted, std::span<const ArrayFacts> arrays) {
+    if (wanted.starts_with('/')) wanted.remove_prefix(1);
+    const auto such = [&](const auto& fits) {
+        std::vector<std::size_t> found;
+        for (std::size_t k = 0; k < arrays.size(); ++k) {
+            std::string_view name = arrays[k].name;
+            if (name.starts_with('/')) name.remove_prefix(1);
+            if (fits(name)) found.push_back(k);
+        }
+        return found;
+    };
+    const auto data = std::string(wanted) + "/data";
+    if (auto exact = such([&](auto name) { return name == wanted; }); !exact.empty()) return exact;
+    if (auto group = such([&](auto name) { return name == data; }); !group.empty()) return group;
+    return such([&](auto name) { return ends_in(name, wanted) || ends_in(name, data); });
+}
+
 Result<std::size_t> array_called(const std::string& wanted, std::span<const ArrayFacts> arrays, const std::string& path) {
     std::vector<std::string_view> names;
     for (const auto& a : arrays) names.push_back(a.name);
-    const auto k = static_cast<std::size_t>(std::find(names.begin(), names.end(), wanted) - names.begin());
-    if (k == names.size())
+    const auto meant = arrays_meant(wanted, arrays);
+    if (meant.size() > 1) {
+        std::vector<ArrayFacts> several;
+        for (const auto k : meant) several.push_back(arrays[k]);
+        return bad_input(fmt::format("several arrays end in '{}'; say which with --dataset PATH: {}", wanted, listed(several)), {path});
+    }
+    if (meant.empty())
         return bad_input(fmt::format("no array '{}'{}; there are: {}", wanted, did_you_mean(wanted, names), listed(arrays)), {path});
+    const auto k = meant[0];
     if (usable(arrays[k])) return k;
     return bad_input(fmt::format("{}: a recording is numbers in one dimension, or in two: rows and channels", described(arrays[k])),
                      {path});
@@ -175,14 +227,20 @@ bool names_rate(std::string_view name) {
 
 std::string_view last_name(std::string_view path) { return path.substr(path.rfind('/') + 1); }
 
-Result<Extent> extent_of(const ArrayFacts& a, const std::string& path) {
+Result<Extent> extent_of(const ArrayFacts& a, const std::string& path, const ExtentHints& hints) {
     if (a.shape.empty() || a.shape.size() > 2)
         return bad_input(fmt::format("{}: a recording has one dimension, or two: rows and channels", described(a)), {path});
     Extent e{a.shape[0], a.shape.size() == 2 ? a.shape[1] : 1};
-    if (e.rows == 1 && e.columns > 1) e = {e.columns, 1, true};
     if (e.rows == 0 || e.columns == 0) return bad_input(fmt::format("{}: there are no samples in it", described(a)), {path});
+    if (auto ok = a.shape.size() == 2 ? turn(e, a, path, hints) : Result<void>(); !ok) return ok.error();
     if (e.columns > most_columns) return bad_input(fmt::format("{}: more than {} channels", described(a), most_columns), {path});
     return e;
+}
+
+std::optional<std::uint64_t> length_of_times(const ArrayFacts& a) {
+    if (!a.numeric || a.shape.empty() || a.shape.size() > 2 || !names_time(parse_heading(last_name(a.name)).name)) return {};
+    if (a.shape.size() == 2 && a.shape[0] != 1 && a.shape[1] != 1) return {};
+    return a.shape.size() == 2 ? a.shape[0] * a.shape[1] : a.shape[0];
 }
 
 std::vector<Column> columns_named_after(std::string_view array, std::size_t count) {

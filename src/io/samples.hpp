@@ -58,9 +58,23 @@ std::string_view last_name(std::string_view path);
 /// How an array lies: one dimension is one channel, two are rows and channels; a single row is a channel lying down.
 struct Extent {
     std::uint64_t rows = 0, columns = 1;
-    bool lying = false;  ///< rows run along the second dimension
+    bool lying = false;       ///< rows run along the second dimension
+    std::string remark = {};  ///< if it was turned, why
 };
-Result<Extent> extent_of(const ArrayFacts&, const std::string& path);
+
+/// What tells samples from channels in an array of more columns than rows.
+struct ExtentHints {
+    std::optional<bool> transpose = {};          ///< as asked
+    bool by_columns = false;                     ///< the writer's rows are the second dimension (MATLAB's)
+    std::vector<std::uint64_t> samples = {};     ///< lengths of the lists of times that may belong to it
+    std::optional<std::uint64_t> channels = {};  ///< how many channels are named
+};
+
+/// More channels than samples are refused, unless a hint says which is which.
+Result<Extent> extent_of(const ArrayFacts&, const std::string& path, const ExtentHints& = {});
+
+/// Can an array be a list of times: of this name, numbers in one dimension? Its length, then.
+std::optional<std::uint64_t> length_of_times(const ArrayFacts&);
 
 /// Names for the columns of an array: its own if it has only one, else ch1, ch2 ...; the unit behind its name ("force_mN") is theirs.
 std::vector<Column> columns_named_after(std::string_view array, std::size_t count);

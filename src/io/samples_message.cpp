@@ -48,15 +48,17 @@ bool get_texts(Message& m, std::vector<std::string>& texts) {
 Message encode(const OpenRequest& request) {
     Message m;
     m.put(request.path);
+    m.put(request.options.transpose ? 1 + static_cast<std::uint64_t>(*request.options.transpose) : 0);
     m.put(request.options.dataset ? 1 : 0);
     m.put(request.options.dataset.value_or(""));
     return m;
 }
 
 bool decode(Message& m, OpenRequest& request) {
-    std::uint64_t named = 0;
+    std::uint64_t transpose = 0, named = 0;
     std::string dataset;
-    if (!m.get(request.path) || !m.get(named) || !m.get(dataset)) return false;
+    if (!m.get(request.path) || !m.get(transpose) || !m.get(named) || !m.get(dataset)) return false;
+    if (transpose) request.options.transpose = transpose == 2;
     if (named) request.options.dataset = std::move(dataset);
     return true;
 }

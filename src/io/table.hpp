@@ -25,6 +25,7 @@ inline constexpr std::size_t rows_a_block = 4096;
 struct TableOptions {
     std::optional<std::string> dataset = {};  ///< which of a file's arrays is meant: "/force/data" in HDF5, "force" in NPZ
     std::size_t skip = 0;                     ///< lines of a file of text before its table
+    std::optional<bool> transpose = {};       ///< rows are channels; false: rows are samples, even if there are fewer
 };
 
 class Table {
@@ -36,6 +37,8 @@ public:
     virtual const std::vector<Column>& columns() const = 0;
     /// Rows a second, if the file says it; Hz.
     virtual std::optional<double> rate() const { return {}; }
+    /// Was it looked at which dimension of the array is time?
+    virtual bool orientation_is_known() const { return false; }
     /// With gaps allowed a field that is no finite number reads as NaN; else it is an error that names its place.
     void allow_gaps(bool allowed) { gaps_allowed_ = allowed; }
     /// Which column is the time, if the file shows it ...

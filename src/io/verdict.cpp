@@ -124,10 +124,15 @@ class Writer {
                 fmt::format("{}: mostly negative, down to {:.4g} N, and a press is positive here; --abs, or --scale with a minus, turns it",
                             turned.names, paths_[turned.worst].levels.least));
         const auto still = concerned([](const auto& p) { return p.levels.greatest == p.levels.least ? 1 : 0; });
-        if (!still.channels.empty() && paths_.size() > 1)
-            say(false, fmt::format("{} {} the same value throughout",
-                                   still.channels.size() == 1 ? still.names : fmt::format("{} channels", still.channels.size()),
-                                   still.channels.size() == 1 ? "has" : "have"));
+        const auto& first = paths_[0].levels;
+        const bool all = still.channels.size() == paths_.size();
+        if (paths_.size() == 1 && all && first.count > 1)
+            say(true, fmt::format("the force is {:.4g} N throughout: is this what was recorded?", first.greatest));
+        else if (paths_.size() > 1 && still.channels.size() == 1)
+            say(false, fmt::format("{} has the same value throughout", still.names));
+        else if (paths_.size() > 1 && !still.channels.empty())
+            say(all, fmt::format("{} channels have the same value throughout{}", still.channels.size(),
+                                 all ? ": is this the force that was recorded?" : ""));
     }
 
     void mended(const RowCounts& rows) {

@@ -31,7 +31,7 @@ TEST(Hdf5, EveryShapeAndTypeIsReadAsItWasWritten) {
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-{}.h5", ::getpid())).string();
         Hdf5File(path).numbers("/force", {rows, columns}, values, type,
                                packed ? std::vector<hsize_t>{rows / 2, columns} : std::vector<hsize_t>{});
-        const auto made = test::try_recording(path, {.rate = 100});
+        const auto made = test::try_recording(path, {.table = {{}, false}, .rate = 100});
         std::filesystem::remove(path);
         RC_ASSERT(static_cast<bool>(made));
         RC_ASSERT(made->force.size() == columns);
@@ -154,6 +154,174 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
     EXPECT_EQ(said([&](auto& f) { f.raw("/z", complex, complex, {2}, z); }),
               "x.h5: no array that could be the recording: numbers in one or two dimensions; there are: /z (2, no numbers)");
     H5Tclose(complex);
+}
+
+/// A file with one dataset made by `fill` with a list of properties of its own.
+template <class Fill>
+std::string made_with(const Folder& folder, const std::string& name, const Fill& fill) {
+    const auto path = folder / name;
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), how = H5Pcreate(H5P_DATASET_CREATE);
+    fill(file, how);
+    H5Pclose(how), H5Fclose(file);
+    return path;
+}
+
+void make_dataset(hid_t file, hid_t how, const std::vector<hsize_t>& shape, const std::vector<double>* values = nullptr,
+                  const char* name = "force") {
+    const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
+    const hid_t d = H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    if (values) {
+        const hsize_t count = values->size();
+        const hid_t memory = H5Screate_simple(1, &count, nullptr);
+        const hsize_t first = 0;
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &count, nullptr);
+        H5Dwrite(d, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values->data());
+        H5Sclose(memory);
+    }
+    H5Dclose(d), H5Sclose(space);
+}
+
+TEST(Hdf5, NoOtherFileIsReadForItsData) {
+    const Folder folder;
+    const auto secret = folder.write("secret", std::string(800, 'x'));
+    const auto external = made_with(folder, "x.h5", [&](hid_t file, hid_t how) {
+        H5Pset_external(how, secret.c_str(), 0, 800);
+        make_dataset(file, how, {100});
+    });
+    EXPECT_NE(
+        refusal(external, {.rate = 10}).find("x.h5: /force (100): its data lie in '" + secret + "', and no other file is read; copy it"),
+        std::string::npos);
+    Hdf5File(folder / "source.h5").numbers("/data", {100}, ramp(100));
+    for (const auto* source : {"source.h5", "not-copied-along.h5"}) {
+        const auto assembled = made_with(folder, "v.h5", [&](hid_t file, hid_t how) {
+            const hsize_t count = 100;
+            const hid_t all = H5Screate_simple(1, &count, nullptr);
+            H5Pset_virtual(how, all, source, "/data", all);
+            make_dataset(file, how, {100});
+            H5Sclose(all);
+        });
+        EXPECT_NE(refusal(assembled, {.rate = 10}).find(fmt::format("v.h5: /force (100): its data lie in '{}', and no other file", source)),
+                  std::string::npos);
+    }
+    const auto linked = made_with(folder, "l.h5", [&](hid_t file, hid_t how) {
+        make_dataset(file, how, {100}, nullptr, "own");
+        H5Lcreate_external("source.h5", "/data", file, "elsewhere", H5P_DEFAULT, H5P_DEFAULT);
+    });
+    EXPECT_EQ(refusal(linked, {.table = {"elsewhere"}, .rate = 10}),
+              "l.h5: 'elsewhere' is a link into another file, which is not read; give that file itself");
+}
+
+TEST(Hdf5, DataThatWereNeverWrittenAreNoForce) {
+    const Folder folder;
+    const auto chunked = [](hid_t how, hsize_t rows) { H5Pset_chunk(how, 1, &rows); };
+    EXPECT_EQ(refusal(made_with(folder, "x.h5", [&](hid_t f, hid_t how) { make_dataset(f, how, {1000}); }), {.rate = 10}),
+              "x.h5: /force (1000): no data were ever written into it");
+    for (const hsize_t rows : {hsize_t{1000}, hsize_t{1'000'000'000'000'000}})
+        EXPECT_EQ(
+            refusal(made_with(folder, "x.h5", [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {rows}); }), {.rate = 10}),
+            fmt::format("x.h5: /force ({}): no data were ever written into it", rows));
+    const auto begun = ramp(150);
+    EXPECT_EQ(refusal(made_with(folder, "x.h5",
+                                [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {1'000'000'000'000'000}, &begun); }),
+                      {.rate = 10})
+                  .substr(0, 87),
+              "x.h5: /force (1000000000000000): only 2 of its 10000000000000 chunks were ever written;");
+    const auto most = ramp(600);
+    const auto path = made_with(folder, "x.h5", [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {1000}, &most); });
+    EXPECT_EQ(refusal(path, {.rate = 10}).substr(0, 18), "x.h5: row 601: col");
+    const auto kept = recording(path, {.rate = 10, .bad_fields = BadFields::drop});
+    EXPECT_EQ(kept.force[0], ramp(600));
+    EXPECT_EQ(kept.remarks.at(0), "/force: 4 of its 10 chunks were never written; their readings are bad fields");
+    const auto filled = made_with(folder, "y.h5", [&](hid_t f, hid_t how) {
+        const double nothing = 0.5;
+        H5Pset_fill_value(how, H5T_NATIVE_DOUBLE, &nothing);
+        chunked(how, 100), make_dataset(f, how, {1000}, &most);
+    });
+    const auto read = recording(filled, {.rate = 10});
+    EXPECT_EQ(read.force[0][999], 0.5) << "as the file says";
+    EXPECT_EQ(read.remarks.at(0), "/force: 4 of its 10 chunks were never written; they read as the file's fill value");
+}
+
+TEST(Hdf5, ChunksOfAnyShapeGiveTheSameRows) {
+    const Folder folder;
+    const std::vector<double> values = ramp(4000 * 6);
+    for (const std::vector<hsize_t>& chunk : {std::vector<hsize_t>{}, {4000, 6}, {4000, 1}, {1, 6}, {7, 6}, {1000, 4}, {3999, 5}}) {
+        Hdf5File(folder / "x.h5").numbers("/force", {4000, 6}, values, H5T_NATIVE_DOUBLE, chunk);
+        const auto made = recording(folder / "x.h5", {.channels = {"2", "5"}, .rate = 100}, 100);
+        ASSERT_EQ(made.force[1].size(), 4000U);
+        for (std::size_t r = 0; r < 4000; ++r) {
+            ASSERT_EQ(made.force[0][r], values[r * 6 + 1]);
+            ASSERT_EQ(made.force[1][r], values[r * 6 + 4]);
+        }
+        Hdf5File(folder / "y.h5")
+            .numbers("/force", {6, 4000}, values, H5T_NATIVE_DOUBLE, chunk.empty() ? chunk : std::vector{chunk[1], chunk[0]});
+        const auto turned = recording(folder / "y.h5", {.table = {{}, true}, .channels = {"2", "5"}, .rate = 100}, 100);
+        for (std::size_t r = 0; r < 4000; ++r) ASSERT_EQ(turned.force[1][r], values[4 * 4000 + r]);
+    }
+}
+
+TEST(Hdf5, AnArrayThatLiesOnItsSideIsRefusedOrTurned) {
+    const Folder folder;
+    const auto lying = [&](const auto& more) {
+        Hdf5File file(folder / "x.h5");
+        file.numbers("/force", {2, 3000}, ramp(6000));
+        more(file);
+    };
+    lying([](auto&) {});
+    EXPECT_EQ(
+        refusal(folder / "x.h5", {.rate = 500}),
+        "x.h5: /force (2 x 3000): 3000 channels of only 2 samples? --transpose takes each row as a channel, --no-transpose each row as "
+        "a sample");
+    const auto turned = recording(folder / "x.h5", {.table = {{}, true}, .rate = 500});
+    EXPECT_EQ(turned.names, (std::vector<std::string>{"ch1", "ch2"}));
+    EXPECT_EQ(turned.force[1][2999], 5999);
+    EXPECT_EQ(recording(folder / "x.h5", {.table = {{}, false}, .rate = 500}).names.size(), 3000U);
+    lying([](auto& f) { f.numbers("/timestamps", {3000}, ramp(3000, 0.002)); });
+    const auto timed = recording(folder / "x.h5");
+    EXPECT_EQ(timed.force.size(), 2U) << "the times say which dimension is theirs";
+    EXPECT_EQ(
+        timed.remarks.at(0),
+        "/force (2 x 3000): taken as 2 channels of 3000 samples, as the times beside it say; --no-transpose takes each row as a sample");
+    lying([](auto& f) { f.words("/force", "channels", {"fx", "fz"}); });
+    EXPECT_EQ(recording(folder / "x.h5", {.rate = 500}).names, (std::vector<std::string>{"fx", "fz"}));
+    lying([](auto& f) { f.numbers("/timestamps", {2}, ramp(2, 0.002)); });
+    EXPECT_EQ(recording(folder / "x.h5").force.size(), 3000U) << "few samples of many electrodes";
+    lying([](auto& f) { f.attribute("/force", "MATLAB_class", "double"); });
+    EXPECT_EQ(recording(folder / "x.h5", {.rate = 500}).force.size(), 2U);
+    EXPECT_NE(refusal(folder / "x.h5", {.table = {{}, true}, .rate = 500}), "");
+}
+
+TEST(Hdf5, TheEndOfAPathNamesADatasetIfThereIsOnlyOneSuch) {
+    const Folder folder;
+    {
+        Hdf5File file(folder / "x.nwb");
+        file.numbers("/acquisition/FingerForce/data", {4}, ramp(4));
+        file.numbers("/acquisition/skin/data", {4}, ramp(4, 2));
+        file.numbers("/processing/skin/data", {4}, ramp(4, 3));
+    }
+    EXPECT_EQ(recording(folder / "x.nwb", {.table = {"FingerForce"}, .rate = 10}).force[0], ramp(4));
+    EXPECT_EQ(recording(folder / "x.nwb", {.table = {"FingerForce/data"}, .rate = 10}).force[0], ramp(4));
+    EXPECT_EQ(recording(folder / "x.nwb", {.table = {"/processing/skin"}, .rate = 10}).force[0], ramp(4, 3));
+    EXPECT_EQ(refusal(folder / "x.nwb", {.table = {"skin"}, .rate = 10}),
+              "x.nwb: several arrays end in 'skin'; say which with --dataset PATH: /acquisition/skin/data (4), /processing/skin/data (4)");
+    EXPECT_NE(refusal(folder / "x.nwb", {.table = {"Force"}, .rate = 10}).find("no array 'Force'"), std::string::npos);
+}
+
+TEST(Hdf5, AFilterThatIsNotHereIsNamed) {
+    const Folder folder;
+    const auto path = made_with(folder, "x.h5", [&](hid_t file, hid_t how) {
+        const hsize_t rows = 100;
+        H5Pset_chunk(how, 1, &rows), H5Pset_deflate(how, 1);
+        const auto values = ramp(1000);
+        make_dataset(file, how, {1000}, &values);
+    });
+    auto bytes = test::read_file(path);
+    const auto message = bytes.find("deflate");  // the name behind the filter's number, flags and count of values
+    ASSERT_NE(message, std::string::npos);
+    bytes[message - 8] = '\x0f', bytes[message - 7] = '\x7d', bytes[message - 4] = '\0';  // 32015: zstd; not optional
+    EXPECT_NE(
+        refusal(folder.write("z.h5", bytes), {.rate = 10}).find("packed by the filter 32015 (deflate), which is not here; where it is"),
+        std::string::npos);
 }
 
 std::string seed(const char* name) { return test::read_file(test::root() + "/test/fuzz/seeds/hdf5/" + name).substr(1); }

@@ -4,6 +4,9 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +18,7 @@
 
 #include "io/remote_samples.hpp"
 #include "io/samples_message.hpp"
+#include "readers/confinement.hpp"
 #include "readers/serve.hpp"
 #include "support/child_process.hpp"
 #include "support/support.hpp"
@@ -23,6 +27,14 @@ namespace corpuscle {
 namespace {
 
 using test::Folder;
+
+#ifdef __has_feature
+constexpr bool sanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
 
 /// A program of these lines of shell.
 std::string script(const Folder& folder, const std::string& lines) {
@@ -157,6 +169,52 @@ TEST(HelperProcess, EveryExceptionInItIsAnError) {
     EXPECT_EQ(answer_to_throw(std::bad_alloc()), "x.h5: this file takes more memory than there is");
     EXPECT_EQ(answer_to_throw(std::runtime_error("no end")), "x.h5: cannot be read: no end");
     EXPECT_EQ(answer_to_throw(3), "x.h5: cannot be read");
+}
+
+/// What a confined process could still do: a bit each.
+unsigned freedoms() {
+    unsigned bits = 0;
+    if (::open("/etc/passwd", O_RDONLY) >= 0) bits |= 1;
+    if (::open(".", O_RDONLY | O_DIRECTORY) >= 0) bits |= 2;
+    if (::socket(AF_INET, SOCK_STREAM, 0) >= 0) bits |= 4;
+    if (::dup(0) >= 0) bits |= 8;
+    if (::rename("/nowhere/a", "/nowhere/b") != 0 && errno == ENOENT) bits |= 16;  // the call itself is refused where the kernel can
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    if (child > 0) bits |= 32;
+    return bits;
+}
+
+bool kernel_filters_calls() { return ::prctl(PR_GET_SECCOMP) >= 0; }
+
+TEST(HelperProcess, GivesUpWhatItDoesNotNeedAndRaisesNoLimit) {
+    if (sanitized) GTEST_SKIP() << "sanitizers need more addresses than the limit set here";
+    int told[2], wait[2];
+    ASSERT_EQ(::pipe(told), 0);
+    ASSERT_EQ(::pipe(wait), 0);
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ::close(wait[1]);  // so that the read below ends with the parent
+        const rlimit lower{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
+        ::setrlimit(RLIMIT_AS, &lower);
+        confine(HelperProcess::file_number, HelperProcess::memory);
+        const unsigned bits = freedoms();
+        char end;
+        if (::write(told[1], &bits, sizeof bits) == sizeof bits) (void)!::read(wait[0], &end, 1);
+        ::_exit(0);
+    }
+    unsigned bits = ~0U;
+    EXPECT_EQ(::read(told[0], &bits, sizeof bits), static_cast<ssize_t>(sizeof bits));
+    EXPECT_EQ(bits & 15U, 0U);
+    if (kernel_filters_calls()) {
+        EXPECT_EQ(bits, 0U);
+    }
+    const auto limits = test::read_file(fmt::format("/proc/{}/limits", child));
+    EXPECT_NE(limits.find("Max address space         3221225472           3221225472"), std::string::npos) << limits;
+    EXPECT_NE(limits.find("Max core file size        0                    0"), std::string::npos);
+    for (const int end : {told[0], told[1], wait[0], wait[1]}) ::close(end);
+    EXPECT_EQ(::waitpid(child, nullptr, 0), child);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(Npy, EveryKindOfNumberInBothOrdersAndBothEndsIsReadAsItWasWritten) {
         const auto type = fmt::format("'{}{}'", big ? '>' : '<', kind.letters);
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-npy-{}.npy", ::getpid())).string();
         std::ofstream(path, std::ios::binary) << npy(type, fmt::format("({}, {})", rows, columns), data, by_columns, version);
-        const auto made = test::try_recording(path, {.rate = 100});
+        const auto made = test::try_recording(path, {.table = {{}, false}, .rate = 100});
         std::filesystem::remove(path);
         RC_ASSERT(static_cast<bool>(made));
         RC_ASSERT(made->force == force);

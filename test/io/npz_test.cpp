@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include "support/property.hpp"
@@ -87,6 +88,32 @@ TEST(Npz, WhatIsNotThereOrOfAnotherKindIsSaid) {
     damaged[damaged.find("NUMPY", 200) + 127] ^= 1;  // one bit of the numbers: the archive's checksum tells
     EXPECT_EQ(test::sure(NpzReader::open(folder.write("d.npz", damaged))).numbers("numbers").error().sentence,
               "cannot be unpacked: CRC error");
+}
+
+/// A stored member's size in the archive's directory, changed; and one bit of its last bytes, if `damaged`.
+std::string with_size(std::string bytes, int more, bool damaged) {
+    const auto entry = bytes.find("PK\x01\x02", bytes.find("PK\x01\x02") + 4);  // of the second: "numbers"
+    for (const std::size_t at : {entry + 20, entry + 24}) {
+        std::uint32_t size = 0;
+        std::memcpy(&size, &bytes[at], sizeof size);
+        size += static_cast<std::uint32_t>(more);
+        std::memcpy(&bytes[at], &size, sizeof size);
+    }
+    if (damaged) bytes[bytes.find("NUMPY", 200) + 127] ^= 1;
+    return bytes;
+}
+
+TEST(Npz, AWrongSizeInTheDirectoryHidesNoDamage) {
+    const Folder folder;
+    const auto numbers_of = [&](int more, bool damaged) {
+        const auto npz = test::sure(NpzReader::open(folder.write("x.npz", with_size(written(), more, damaged))));
+        return npz.numbers("numbers");
+    };
+    EXPECT_TRUE(numbers_of(0, false));
+    EXPECT_FALSE(numbers_of(0, true));
+    for (const int more : {-32, -8, -1, 1, 8, 4096})
+        for (const bool damaged : {false, true}) EXPECT_FALSE(numbers_of(more, damaged)) << more;
+    EXPECT_EQ(numbers_of(8, true).error().sentence, "the archive's directory says 168 bytes, the array takes 160: damaged?");
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+// Any bytes as the answers of a helper program: facts and rows, or an error. The program may have been taken over by a file.
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "io/samples_message.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace corpuscle;
+    const std::string bytes(reinterpret_cast<const char*>(data), size);
+    Message first(bytes), second(bytes);
+    const auto facts = decode_facts(first, "x.h5");
+    if (facts && facts->time && *facts->time >= facts->columns.size()) std::abort();
+    std::vector<std::vector<double>> out(2, std::vector<double>(3));
+    const auto rows = decode_rows(second, 1, 2, out, "x.h5");
+    if (!rows && rows.error().sentence.size() > size + 64) std::abort();
+    OpenRequest open;
+    FetchRequest fetch;
+    Message third(bytes), fourth(bytes);
+    (void)decode(third, open), (void)decode(fourth, fetch);
+    return 0;
+}
