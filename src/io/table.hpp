@@ -24,8 +24,8 @@ inline constexpr std::size_t rows_a_block = 4096;
 /// What a format may need to know besides the path.
 struct TableOptions {
     std::optional<std::string> dataset = {};  ///< which of a file's arrays is meant: "/force/data" in HDF5, "force" in NPZ
-    std::size_t skip = 0;                     ///< lines of a file of text before its table
     std::optional<bool> transpose = {};       ///< rows are channels; false: rows are samples, even if there are fewer
+    std::size_t skip = 0;                     ///< lines of a file of text before its table
 };
 
 class Table {

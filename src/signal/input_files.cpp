@@ -67,7 +67,10 @@ std::optional<std::string> input_at(const std::string& path) {
     if (!identity) return {};
     const std::scoped_lock lock(input_files().mutex);
     const auto at = input_files().paths.find(*identity);
-    return at == input_files().paths.end() ? std::nullopt : std::optional(at->second);
+    if (at == input_files().paths.end()) return {};
+    if (identity_of(at->second) == identity) return at->second;
+    input_files().paths.erase(at);  // that input has gone since, and its inode was given to another file
+    return {};
 }
 
 void set_interruption(bool (*asked)()) { interruption = asked; }

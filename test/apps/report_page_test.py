@@ -503,8 +503,8 @@ class NetlistsAlone(Page):
         return doctored(respond("chip.html", "--afferent", "sa1,circuits/sa1.cir"), "netlists-alone.html", change)
 
     def test_what_is_of_one_size_shares_an_axis(self):
-        self.assertEqual(self.panels(), ["force", "sa1 i(vi)", "sa1 i(via)", "sa1 i(vib)", "sa1 i(vic)", "sa1 v(u)", "circuits/sa1.cir nodes", "sa1-macro nodes",
-                                         "raster", "frequency"])
+        self.assertEqual(self.panels(), ["force", "raster", "frequency", "sa1 i(vi)", "sa1 i(via)", "sa1 i(vib)", "sa1 i(vic)", "sa1 v(u)", "circuits/sa1.cir nodes",
+                                         "sa1-macro nodes"])
         self.assertEqual(self.browser.find_elements(By.CLASS_NAME, "right-axis"), [])
         self.hover("sa1 i(via)", 0.5)
         chip, macro = (si(self.readout("sa1 i(via)", name)) for name in ("circuits/sa1.cir", "sa1-macro"))
@@ -517,7 +517,7 @@ class NetlistByItself(Page):
         return respond("spiker.html", "--afferent", "circuits/spiker.cir")
 
     def test_its_membrane_stands_apart_from_its_other_nodes(self):
-        self.assertEqual(self.panels(), ["force", "circuits/spiker.cir membrane", "circuits/spiker.cir nodes", "raster", "frequency"])
+        self.assertEqual(self.panels(), ["force", "raster", "frequency", "circuits/spiker.cir membrane", "circuits/spiker.cir nodes"])
         self.assertGreater(min(self.inked().values()), 80)
         self.assertFalse(self.browser.find_element(By.ID, "comparisons").is_displayed())
 
@@ -592,7 +592,7 @@ class FewCopies(Page):
         return respond("few-copies.html", "--afferent", "sa1,fa1", "--copies", "20", "--spread", "sa1.V_th=10%", "--spread", "fa1.k_A=10%")
 
     def test_every_copy_has_a_row_and_the_first_its_traces(self):
-        self.assertEqual(self.panels(), ["force", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane", "raster", "population", "frequency"])
+        self.assertEqual(self.panels(), ["force", "raster", "population", "frequency", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane"])
         self.assertGreater(min(self.inked().values()), 80)
         labels = [label.text for label in self.browser.find_elements(By.CSS_SELECTOR, '[data-panel="raster"] .dygraph-axis-label-y')]
         self.assertEqual(labels, [f"{name}#{k}" for name in ("sa1", "fa1") for k in range(1, 21)])

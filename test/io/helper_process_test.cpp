@@ -90,7 +90,7 @@ TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
     const Folder folder;
     const auto leaked = ::open("/dev/null", O_RDONLY);  // without O_CLOEXEC, as some libraries open files
     ::setenv("CORPUSCLE_SECRET", "x", 1);
-    const auto program = script(folder, "ls /proc/$$/fd | tr '\\n' ' ' >listed; env >environment; mv listed listed.whole; exec sleep 30");
+    const auto program = script(folder, "ls /proc/$$/fd >listed; env >environment; mv listed listed.whole; exec sleep 30");
     const auto here = std::filesystem::current_path();
     std::filesystem::current_path(folder.path());
     const auto before = descriptors_open();

@@ -1,5 +1,6 @@
 #include "io/spikes.hpp"
 
+#include <fmt/format.h>
 #include <map>
 
 #include "io/npz.hpp"
@@ -158,8 +159,9 @@ TEST(SpikeFiles, AnotherProgramsNpzIsReadAsSpikeInterfaceReadsIt) {
 TEST(SpikeFiles, AnyNameWithoutALineBreakComesBackFromItsField) {
     const Folder folder;
     EXPECT_TRUE(rc::check("written and read", [&] {
-        const auto letters = rc::gen::container<std::string>(rc::gen::element('a', ',', '"', ' ', ';', '#', '\t', '=', '\xf6'));
-        const auto afferent = *letters, channel = *letters;
+        const auto letters = rc::gen::container<std::vector<std::string>>(
+            rc::gen::elementOf(std::vector<std::string>{"a", ",", "\"", " ", ";", "#", "\t", "=", "\u00f6"}));
+        const auto afferent = fmt::format("{}", fmt::join(*letters, "")), channel = fmt::format("{}", fmt::join(*letters, ""));
         const auto back = read_trains(folder, "afferent,channel,time_s\n" + csv_field(afferent) + "," + csv_field(channel) + ",0.5\n");
         RC_ASSERT(back.size() == 1U);
         RC_ASSERT(back[0].afferent == afferent);
