@@ -103,10 +103,10 @@ std::string CurveFiles::path_of(std::size_t count, std::size_t k) const {
     return path;
 }
 
-Result<void> CurveFiles::check(std::size_t analyses) const {
+Result<void> CurveFiles::check(std::size_t analysis_count) const {
     auto check = check_;
     if (words_.out.empty()) return {};
-    const auto count = csv_ ? analyses : 1;
+    const auto count = csv_ ? analysis_count : 1;
     for (std::size_t k = 0; k < count; ++k)
         if (auto ok = check.growing_file(path_of(count, k), csv_ ? is_own_table : is_own_raw); !ok) return ok;
     return {};

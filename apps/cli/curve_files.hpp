@@ -41,7 +41,7 @@ public:
         : words_(words), check_(overwrite), several_(several), csv_(words.out.ends_with(".csv")) {}
 
     /// Whether the files of a netlist with so many analyses may be written; before it runs.
-    Result<void> check(std::size_t analyses) const;
+    Result<void> check(std::size_t analysis_count) const;
     void next(const circuit::Variant&);
     Result<void> whole(std::span<const circuit::Plot>) override;
     Result<void> begin(const circuit::Plot& head) override;
