@@ -15,13 +15,13 @@ namespace {
 
 using test::Folder;
 
-const std::vector<std::int64_t> whole = {0, -1, std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()};
+const std::vector<std::int64_t> extreme_integers = {0, -1, std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()};
 const std::vector<double> numbers = {0.1, -0.0, 1e308, INFINITY};
 const std::vector<std::string> words = {"", "fz", "Kraft in \xc2\xb5N", "\xf0\x9f\xa4\x9a"};
 
 std::string written() {
     NpzWriter npz;
-    npz.add("whole", whole);
+    npz.add("whole", extreme_integers);
     npz.add("numbers", numbers);
     npz.add("words", words);
     return test::sure(npz.bytes());
@@ -31,7 +31,7 @@ TEST(Npz, ListsComeBackAsTheyWere) {
     const Folder folder;
     const auto npz = test::sure(NpzReader::open(folder.write("x.npz", written())));
     EXPECT_EQ(npz.names(), (std::vector<std::string>{"whole", "numbers", "words"}));
-    EXPECT_EQ(test::sure(npz.integers("whole")), whole);
+    EXPECT_EQ(test::sure(npz.integers("whole")), extreme_integers);
     EXPECT_EQ(test::sure(npz.numbers("numbers")), numbers);
     EXPECT_TRUE(std::signbit(test::sure(npz.numbers("numbers"))[1]));
     EXPECT_EQ(test::sure(npz.words("words")), words);
