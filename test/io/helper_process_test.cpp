@@ -21,20 +21,13 @@
 #include "readers/confinement.hpp"
 #include "readers/serve.hpp"
 #include "support/child_process.hpp"
+#include "support/sanitized.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
 namespace {
 
 using test::Folder;
-
-#ifdef __has_feature
-constexpr bool sanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
 
 /// A program of these lines of shell.
 std::string script(const Folder& folder, const std::string& lines) {
@@ -188,7 +181,7 @@ unsigned freedoms() {
 bool kernel_filters_calls() { return ::prctl(PR_GET_SECCOMP) >= 0; }
 
 TEST(HelperProcess, GivesUpWhatItDoesNotNeedAndRaisesNoLimit) {
-    if (sanitized) GTEST_SKIP() << "sanitizers need more addresses than the limit set here";
+    if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more addresses than the limit set here";
     int told[2], wait[2];
     ASSERT_EQ(::pipe(told), 0);
     ASSERT_EQ(::pipe(wait), 0);

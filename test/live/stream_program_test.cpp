@@ -345,7 +345,8 @@ TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
     EXPECT_EQ(bulk.wait(), 0);
     EXPECT_TRUE(in_bulk["came_at_Hz"].is_null() && in_bulk["jitter_s"].is_null()) << in_bulk;
     Child clocked(folder, with({"--json", "-o", folder / "b.csv"}));
-    for (int k = 0; k < 50; ++k) clocked.send("1\n"), std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (!std::filesystem::exists(folder / "b.csv.part")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int k = 0; k < 50; ++k) clocked.send("1\n"), std::this_thread::sleep_for(std::chrono::milliseconds(5));
     clocked.close_in();
     const auto by_clock = nlohmann::json::parse(clocked.read_out());
     EXPECT_EQ(clocked.wait(), 0);

@@ -149,7 +149,7 @@ double Transient::noise(int unknown) const { return system_.is_voltage(unknown) 
 /// How far the curve in the step just solved is off half way, of what it may be; it goes through as many points as make that least.
 /// The first step after a corner has no third point to tell.
 double Transient::bend() {
-    constexpr double written = 2;  // times as exact as what is only looked at: straight lines between points err, too
+    constexpr double written = 3;  // times as exact as what is only looked at: straight lines between points err, too
     curve_ = 0;
     if (curves_.empty()) return 0;
     const auto& next = past_.next();
@@ -241,7 +241,8 @@ void Transient::take() {
 
 /// Right after a corner: a point so soon that no charge has moved, where what has none stands after its jump.
 bool Transient::open(double t0, double corner, double& t) {
-    constexpr double at_once = 1e-8;  // of the next step
+    // Of the next step. The shorter, the more of a node that only capacitors hold is lost to rounding: no more than the tolerance allows.
+    const double at_once = 1e-8 * std::clamp(1e-5 / plan_.reltol, 1.0, 10.0);
     if (opening_ != Opening::at_once) return false;
     opening_ = Opening::first;
     // Newton's last step left a little charge over, which in so short a time would be a large current: it is let go
