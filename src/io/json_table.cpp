@@ -113,7 +113,8 @@ public:
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
     Place place(std::size_t row) const override {
         const auto at = block_ + row;
-        return {path_, at < lines_.size() ? lines_[at] : static_cast<long>(at) + 1};
+        if (at < lines_.size()) return {path_, lines_[at]};
+        return {fmt::format("{}: record {}", path_, at + 1)};  // of a document, whose lines say nothing
     }
 
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {

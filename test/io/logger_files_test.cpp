@@ -401,6 +401,13 @@ TEST(LoggerFiles, JsonIsReadALineARecordAsAListAndAsColumns) {
     EXPECT_EQ(rows.force, (std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}}));
 }
 
+TEST(LoggerFiles, AnErrorInAJsonDocumentNamesItsRecordAndNoLine) {
+    const Folder folder;
+    const auto path = folder.write(
+        "x.json", R"([{"t":"2026-03-01T12:00:00Z","f":1},{"t":"2026-03-01T12:00:01Z","f":2},{"t":"2025-03-01T12:00:02Z","f":1}])");
+    EXPECT_EQ(refusal(path, {.unit = "N"}).find("x.json: record 3: time goes back, from 1 s to "), 0U) << refusal(path, {.unit = "N"});
+}
+
 TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {
     const Folder folder;
     const std::pair<std::string, std::string> cases[] = {
