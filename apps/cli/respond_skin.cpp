@@ -181,7 +181,7 @@ void tell_of_force(SkinJob& job) {
                         told.work.capped));
 }
 
-/// What to set so that the same touch is so many times as strong.
+/// The options that make the same stimulus stronger by this factor.
 std::string stronger_touch(const SkinJob& job, const RespondWords& w, double factor) {
     const auto& plan = job.skin->plan;
     if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
@@ -267,7 +267,7 @@ std::string sites_checksum(const Sites& sites) {
     return fmt::format("{} sites, checksum {:016x}", sites.size(), sum.value());
 }
 
-/// What decides the answer: every option but those of outputs, and what the files hold that they name.
+/// Everything that decides the response: all options but those of outputs, and the contents of the files they name.
 Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondWords& w, const Common& common) {
     RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", w.forces[0]}};
     for (const auto& [name, values] : common.typed)

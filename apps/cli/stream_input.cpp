@@ -33,7 +33,7 @@ Result<void> check_wire_words(const StreamWords& w) {
                          ? "the time of a frame is its number over --rate; --stamp time says that each begins with its time"
                      : word == "--dataset" || word == "--skip" ? "frames have no file"
                      : word == "--range" || word == "--bad-fields"
-                         ? "a force that is no number or beyond --limit is no reading, and the site's last one is held"
+                         ? "a force that is no number or beyond --limit is not a reading; the last reading of the site is held"
                          : "it needs the readings before and behind, and a frame is answered as it comes";
     return bad_usage(fmt::format("{} is for recordings (--in FILE), and frames come from {}: {}", word, name_of_input(w.in), why));
 }

@@ -218,7 +218,7 @@ std::string grid_measures(const SweepTable& from, const SweepSummary& s) {
     return "\n" + table(rows);
 }
 
-/// Of each measure every axis.
+/// The effect of every axis on each measure.
 std::string effects_text(const SweepTable& from, const SweepSummary& s) {
     Rows rows = {{"measure", "axis", "share (%)", "from", "mean there", "to", "mean there"}};
     for (std::size_t d = 0; d < s.dependences.size(); ++d) {
