@@ -558,7 +558,12 @@ TEST(StreamProgram, OneSignalEndsItWhileItWaitsForARecordingThatDoesNotCome) {
     Child reading(folder, {"--in", fifo, "--rate", "1kHz"});
     const int writer = ::open(fifo.c_str(), O_WRONLY | O_CLOEXEC);
     EXPECT_EQ(::write(writer, "f_N\n1\n", 6), 6);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    int unread = 1;
+    for (int k = 0; k < 2000 && unread > 0; ++k) {
+        ::ioctl(writer, FIONREAD, &unread);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(unread, 0) << "it reads what there is";
     reading.interrupt();
     EXPECT_EQ(reading.wait(), 130) << reading.told();
     ::close(writer);

@@ -15,10 +15,12 @@ namespace {
 
 struct Follower {
     RankHello hello;
-    bool is_seen = false, lives = true;
-    std::unordered_set<std::int64_t> has;  // units
+    bool is_seen = false, lives = true, is_counted = false;  // the last: among those that were lost
+    std::unordered_set<std::int64_t> has;                    // units
     std::int64_t wants = 0;
     RankTime heard, told;
+
+    bool is_gone() const { return is_seen && hello.is_dead(); }
 };
 
 class Leading {
@@ -63,7 +65,8 @@ class Leading {
 
     void hear(std::size_t rank, Message m) {
         auto& other = others_[rank];
-        other.heard = now_, other.lives = true;
+        other.heard = now_;
+        if (!other.lives) other.lives = !other.is_gone();  // its message may have been under way when it died
         const auto word = word_of(m);
         std::uint64_t number = 0;
         std::vector<UnitOutcome> outcomes;
@@ -81,7 +84,8 @@ class Leading {
     void bury(std::size_t rank) {
         auto& other = others_[rank];
         queue_.put_back({other.has.begin(), other.has.end()});
-        ++lost_.dead, lost_.units += static_cast<std::int64_t>(other.has.size());
+        if (!std::exchange(other.is_counted, true)) ++lost_.dead;
+        lost_.units += static_cast<std::int64_t>(other.has.size());
         other.lives = false, other.wants = 0;
         other.has.clear();
         ranks_.forget(static_cast<int>(rank));
@@ -90,7 +94,7 @@ class Leading {
     void look_after(std::size_t rank) {
         auto& other = others_[rank];
         if (!other.lives) return;
-        if ((other.is_seen && other.hello.is_dead()) || seconds_between(other.heard, now_) > longest_silence) return bury(rank);
+        if (other.is_gone() || seconds_between(other.heard, now_) > longest_silence) return bury(rank);
         if (seconds_between(other.told, now_) > between_beats) say(rank, message(RankWord::beat));
     }
 
