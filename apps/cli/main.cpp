@@ -159,6 +159,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
                        ->group("Output");
     add_netlist_words(verb, w.netlists);
     add_common(verb, common);
+    add_overwrite(verb, common);
     verb.callback([&w, report] {
         w.report = report->count() > 0;
         if (w.report_file.empty() || w.report_file.ends_with(".html")) return;
@@ -203,6 +204,7 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
     });
     verb.add_option("--markdown", w.markdown_file, "write all numbers as text")->type_name("FILE.md");
     add_common(verb, common);
+    add_overwrite(verb, common);
 }
 
 void add_run(CLI::App& app, RunWords& w, Common& common) {
@@ -224,6 +226,7 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
     verb.add_option("--out,-o", w.out, "write what was found: x.raw, as ngspice's (binary), or x.csv")->type_name("FILE")->group("Output");
     verb.add_flag("--ascii", w.ascii, "the .raw file in letters")->group("Output");
     add_common(verb, common);
+    add_overwrite(verb, common);
 }
 
 void add_export(CLI::App& app, ExportWords& w, Common& common) {
@@ -236,6 +239,7 @@ void add_export(CLI::App& app, ExportWords& w, Common& common) {
         ->type_name("SIMULATOR");
     verb.add_option("--out,-o", w.out, "write it here, not to standard output")->type_name("FILE")->group("Output");
     add_common(verb, common);
+    add_overwrite(verb, common);
 }
 
 void add_list(CLI::App& app, ListWords& w, Common& common) {

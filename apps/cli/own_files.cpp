@@ -32,10 +32,30 @@ bool is_curve_name(std::string_view name) {
     for (const std::string_view known : {"step", "time", "frequency", "onoise_spectrum", "inoise_spectrum", "onoise_total", "inoise_total"})
         if (name == known) return true;
     if (name.ends_with("-sweep")) return true;
-    const auto bracket = name.find('(');
-    return bracket != name.npos && bracket > 0 && name.ends_with(')') &&
-           std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(bracket),
-                       [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '@'; });
+    const bool has_quantity = name.starts_with("v(") || name.starts_with("i(");
+    return has_quantity && name.ends_with(')') && std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c); });
+}
+
+/// A time as events have it: "0.319562339".
+bool is_event_time(std::string_view text) {
+    constexpr std::size_t decimals = 9;
+    const auto point = text.find('.');
+    return point > 0 && point != text.npos && text.size() - point - 1 == decimals && text.find_first_not_of("0123456789.") == text.npos;
+}
+
+/// A table of events whose first row, if there is one, has its time in the first or the last field.
+bool is_event_table(std::string_view beginning, std::string_view header, bool time_first) {
+    if (take_line(beginning) != header) return false;
+    const auto row = take_line(beginning);
+    return row.empty() || is_event_time(time_first ? row.substr(0, row.find(',')) : row.substr(row.rfind(',') + 1));
+}
+
+bool is_event_record(std::string_view line) {
+    constexpr std::string_view before = "{\"time_s\":", after = ",\"afferent\":\"";
+    if (!line.starts_with(before)) return false;
+    line.remove_prefix(before.size());
+    const auto end = line.find(',');
+    return end != line.npos && is_event_time(line.substr(0, end)) && line.substr(end).starts_with(after);
 }
 
 }  // namespace
@@ -61,9 +81,8 @@ bool is_own_table(std::string_view beginning) {
 }
 
 bool is_own_events(std::string_view beginning) {
-    return beginning.starts_with("time_s,afferent\n") || beginning.starts_with("afferent,channel,time_s\n") ||
-           beginning.starts_with("{\"time_s\":") || beginning.starts_with("#!AER-DAT2.0\r\n# spikes of afferents") ||
-           beginning.starts_with("corpaer");
+    return is_event_table(beginning, "time_s,afferent", true) || is_event_table(beginning, "afferent,channel,time_s", false) ||
+           is_event_record(beginning) || beginning.starts_with("#!AER-DAT2.0\r\n# spikes of afferents") || beginning.starts_with("corpaer");
 }
 
 bool is_own_state(std::string_view beginning) { return beginning.starts_with("corplive"); }

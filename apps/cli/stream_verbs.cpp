@@ -130,6 +130,7 @@ void StreamVerb::add_to(CLI::App& app, Common& common) {
     add_recording_words(verb, w);
     add_events(verb, w);
     add_common(verb, common);
+    add_overwrite(verb, common);
 }
 
 }  // namespace corpuscle

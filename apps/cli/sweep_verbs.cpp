@@ -102,6 +102,7 @@ void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
         if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
     });
     add_common(verb, common);
+    add_overwrite(verb, common);
 }
 
 void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common) {
@@ -139,6 +140,9 @@ void add_common(CLI::App& verb, Common& common) {
     verb.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
     verb.add_flag("--quiet,-q", common.quiet, "print no table, no progress and no remarks; warnings stay");
+}
+
+void add_overwrite(CLI::App& verb, Common& common) {
     verb.add_flag("--overwrite", common.overwrite,
                   "replace output files that no earlier run wrote; files that are read are never replaced");
 }

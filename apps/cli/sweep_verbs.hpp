@@ -11,6 +11,8 @@ namespace corpuscle {
 
 /// What every verb has: --json, --quiet.
 void add_common(CLI::App& verb, Common&);
+/// What a verb has that writes files whole: --overwrite.
+void add_overwrite(CLI::App& verb, Common&);
 
 class SweepVerbs {
     SweepWords sweep_;

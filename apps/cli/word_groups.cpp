@@ -91,22 +91,26 @@ void add_recording_words(CLI::App& verb, RecordingWords& w) {
 
 void add_skin_words(CLI::App& verb, RespondWords& w) {
     const auto group = "Skins";
-    verb.add_option("--population,-p", w.population,
-                    "a whole skin in the place of --afferent: hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)")
-        ->type_name("NAME|FILE")
-        ->group(group);
+    auto* const population =
+        verb.add_option("--population,-p", w.population,
+                        "a whole skin in the place of --afferent: hand, fingertip, 'grid 8x8', or a population file (doc/skin.md)")
+            ->type_name("NAME|FILE")
+            ->group(group);
     verb.add_option(
             "--contact", w.contact,
             "what presses a force of one channel into the skin: flat (default), sphere, edge, grating; --set contact.radius=5mm and "
             "'corpuscle list contact' say more")
         ->type_name("INDENTER")
+        ->needs(population)
         ->group(group);
     verb.add_option("--events", w.events, "write the skin's spikes as lines, jsonl, aer or aedat2 (doc/events.md) in place of spikes.csv")
         ->type_name("FORMAT")
+        ->needs(population)
         ->group(group);
     verb.add_option("--checkpoint", w.checkpoint,
                     "keep how far it is in this file: killed or interrupted, the same command goes on from there")
         ->type_name("FILE")
+        ->needs(population)
         ->group(group);
 }
 

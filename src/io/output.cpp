@@ -121,6 +121,11 @@ Result<OutputFile> OutputFile::create(const std::string& path) {
 }
 
 Result<OutputFile> OutputFile::growing(const std::string& path) {
+    if (is_device(path)) {
+        auto in_place = create(path);
+        if (in_place) std::setvbuf(in_place->file_, nullptr, _IONBF, 0);
+        return in_place;
+    }
     auto out = prepare(path);
     if (!out) return out;
     const auto part = path + ".part";
@@ -149,6 +154,8 @@ Result<void> OutputFile::write(std::string_view text) {
 
 Result<void> OutputFile::rewrite(std::size_t at, std::string_view text) {
     const auto written = ::pwrite(::fileno(file_), text.data(), text.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == ESPIPE)
+        return bad_input("is a pipe, and what is written first can be completed only in a file; name a file", {path_});
     return written == static_cast<ssize_t>(text.size()) ? Result<void>() : broken();
 }
 

@@ -36,7 +36,7 @@ public:
     /// Makes the directories above it, too. A device or a named pipe is written in place.
     static Result<OutputFile> create(const std::string& path);
     /// One that can be read while it grows: every write() is on disk at once, and a killed program leaves it, as path.part. The next that
-    /// writes this path takes that over; while one does, another is refused.
+    /// writes this path takes that over; while one does, another is refused. A device or a named pipe is written in place.
     static Result<OutputFile> growing(const std::string& path);
     /// All of it, or an error; one that grows is then as it was before.
     Result<void> write(std::string_view text);

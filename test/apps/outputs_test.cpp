@@ -1,8 +1,12 @@
 // What the program may replace: nothing that it reads, nothing that it did not write.
 
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "io/output.hpp"
 #include "io/output_check.hpp"
@@ -97,6 +101,49 @@ TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
         EXPECT_EQ(test::run(folder, std::string(c.words) + " --overwrite -q").status, 0) << c.words;
         EXPECT_NE(fs::exists(folder / c.file) ? read_file(folder / c.file) : "", "time,force\n0,1\n") << c.words;
     }
+}
+
+TEST(Outputs, ThatOnlyLookLikeOursAreNotReplaced) {
+    const Folder folder;
+    folder.write("a.cir", small_deck);
+    const std::pair<const char*, const char*> others[] = {
+        {"run a.cir -o x.csv", "time,Force(N)\n0,1\n"},
+        {"run a.cir -o x.csv", "TIME,V(OUT)\n0,1\n"},
+        {"run a.cir -o x.csv", "time,load(kg)\n0,1\n"},
+        {"stream --in press --pace fast -o x.csv --format jsonl", "{\"time_s\":0.0,\"fz_N\":0}\n"},
+        {"stream --in press --pace fast -o x.csv --format jsonl", "{\"time_s\":0.123456789,\"fz_N\":0}\n"},
+        {"stream --in press --pace fast -o x.csv", "afferent,channel,time_s\nsa1,thumb,0.25\n"},
+    };
+    for (const auto& [words, text] : others) {
+        folder.write("x-1.csv", text), folder.write("x.csv", text);
+        const auto ran = test::run(folder, words);
+        EXPECT_EQ(ran.status, 1) << words << '\n' << text;
+        EXPECT_NE(ran.err.find("no earlier run of corpuscle wrote this file"), std::string::npos) << ran.err;
+        EXPECT_EQ(read_file(folder / "x.csv"), text) << words;
+        EXPECT_EQ(read_file(folder / "x-1.csv"), text) << words;
+    }
+}
+
+TEST(Outputs, NeverReplaceADeviceOrAPipe) {
+    const Folder folder;
+    folder.write("b.cir", "small\nv1 in 0 1\nr1 in 0 1k\n.tran 10u 1m\n");
+    for (const std::string name : {"a.csv", "a.raw"}) {
+        const auto pipe = folder / name;
+        ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+        std::thread reader([&] { std::system(("timeout 20 cat '" + pipe + "' >'" + (folder / "got") + "'").c_str()); });
+        const auto ran = test::run(folder, "run b.cir -q -o " + name);
+        reader.join();
+        EXPECT_TRUE(fs::is_fifo(pipe)) << name;
+        EXPECT_FALSE(read_file(folder / "got").empty()) << name;
+        EXPECT_EQ(ran.status, name == "a.csv" ? 0 : 1) << ran.err;
+        EXPECT_EQ(ran.err.find("is a pipe") != std::string::npos, name == "a.raw") << "its header is completed last: " << ran.err;
+    }
+    if (::geteuid() != 0) return;
+    ASSERT_EQ(::mknod((folder / "null.raw").c_str(), S_IFCHR | 0600, makedev(1, 3)), 0);
+    ASSERT_EQ(::mknod((folder / "full.raw").c_str(), S_IFCHR | 0600, makedev(1, 7)), 0);
+    EXPECT_EQ(test::run(folder, "run b.cir -q -o null.raw").status, 0);
+    EXPECT_EQ(test::run(folder, "run b.cir -q -o full.raw").status, 1) << "the disk is full";
+    for (const auto* name : {"null.raw", "full.raw"}) EXPECT_TRUE(fs::is_character_file(folder / name)) << name;
 }
 
 TEST(Outputs, OfTheSameCommandAgainNeedNoWord) {

@@ -405,7 +405,8 @@ TEST(LoggerFiles, AnErrorInAJsonDocumentNamesItsRecordAndNoLine) {
     const Folder folder;
     const auto path = folder.write(
         "x.json", R"([{"t":"2026-03-01T12:00:00Z","f":1},{"t":"2026-03-01T12:00:01Z","f":2},{"t":"2025-03-01T12:00:02Z","f":1}])");
-    EXPECT_EQ(refusal(path, {.unit = "N"}).find("x.json: record 3: time goes back, from 1 s to "), 0U) << refusal(path, {.unit = "N"});
+    EXPECT_EQ(test::refusal(path, {.unit = "N"}).find("x.json: record 3: time goes back, from 1 s to "), 0U)
+        << test::refusal(path, {.unit = "N"});
 }
 
 TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {

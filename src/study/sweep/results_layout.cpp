@@ -159,11 +159,11 @@ Result<void> check_kind(sqlite3* file, const std::string& path) {
     const auto written = sql::integer(file, path, "PRAGMA user_version");
     if (!written) return written.error();
     if (*application != ResultsLayout::application)
-        return bad_input("is an SQLite file, but holds no results of a sweep; give another with --out", {path});
+        return bad_input("is an SQLite file, but holds no results of a sweep; name another file", {path});
     if (*written < 1) return changed(path, "it does not say of which format it is");
     if (*written > ResultsLayout::format)
-        return bad_input(fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use that one, or give "
-                                     "another file with --out",
+        return bad_input(fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use that one, or name "
+                                     "another file",
                                      *written, ResultsLayout::format),
                          {path});
     return {};
@@ -217,7 +217,7 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
             *into = std::move(*columns);
         }
     } catch (const std::exception&) {  // a table that somebody changed by hand
-        return bad_input("says nothing readable of its sweep: its tables about and columns were changed; give another with --out", {path});
+        return bad_input("says nothing readable of its sweep: its tables about and columns were changed; name another file", {path});
     }
     if (out.units < 1 || out.units > most_units) return changed(path, fmt::format("it is of {} units", out.units));
     if (auto ok = check_tables(file, path, out.stored); !ok) return ok.error();

@@ -49,7 +49,7 @@ Error failed(sqlite3* file, const std::string& path) {
     if (is_full(file)) return say("the disk is full; all that was written before is kept: make room there and give the same command again");
     switch (sqlite3_errcode(file) & 0xff) {
         case SQLITE_NOTADB:
-            return say("is no SQLite file, so no results of a sweep; give another with --out");
+            return say("is no SQLite file, so no results of a sweep; name another file");
         case SQLITE_CORRUPT:
             return say(fmt::format("is damaged ({}); if it is a copy, copy it together with its -wal file; else give another with --out",
                                    sqlite3_errmsg(file)));
