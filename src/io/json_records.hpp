@@ -16,8 +16,11 @@ struct JsonField {
     const nlohmann::ordered_json* value;  ///< a number, a word, true, false or null
 };
 
-/// Gives the records one after another; `line`: of a record of JSON lines, else 0. An error of `take` ends it.
-Result<void> read_json_records(Lines&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take);
+/// Gives the records one after another; `line`: of a record of JSON lines, else 0. An error of `take` ends it, and so does a `keep_on`
+/// that returns false, which is asked every few thousand values.
+Result<void> read_json_records(
+    Lines&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
+    const std::function<bool()>& keep_on = [] { return true; });
 
 /// Does the text begin as JSON does? Rewinds it.
 Result<bool> begins_like_json(Lines&);

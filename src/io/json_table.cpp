@@ -52,8 +52,8 @@ class JsonTable final : public Table {
     double number_of(const nlohmann::ordered_json& value, Values& v) {
         FirstFields* const first = rows_ < rows_looked_at ? &v.first : nullptr;
         if (value.is_string()) return number_of(value.get_ref<const std::string&>(), v, first);
-        const double x = value.is_number() ? value.get<double>() : value.is_boolean() ? (value.get<bool>() ? 1 : 0) : none;
-        if (first) std::isnan(x) ? first->add_other(first->nothing) : first->add_number(x);
+        const double x = value.is_number() ? value.get<double>() : none;
+        if (first) std::isnan(x) ? first->add_other(value.is_boolean() ? first->words : first->nothing) : first->add_number(x);
         return x;
     }
 
@@ -81,8 +81,12 @@ class JsonTable final : public Table {
 public:
     explicit JsonTable(std::string path) : path_(std::move(path)) {}
 
-    Result<void> open(Lines& lines) {
-        if (auto ok = read_json_records(lines, [this](auto fields, long line) { return add(fields, line); }); !ok) return ok;
+    Result<void> open(Lines& lines, const std::function<bool()>& keep_on) {
+        const auto take = [this, &keep_on](auto fields, long line) {
+            if (rows_ % rows_a_block == 0 && !keep_on()) return Result<void>(Error{Code::interrupted, "interrupted"});
+            return add(fields, line);
+        };
+        if (auto ok = read_json_records(lines, take, keep_on); !ok) return ok;
         if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
         if (rows_ > most_json_numbers / columns_.size())
             return bad_input("more numbers than fit into memory; CSV is read in blocks", {path_});
@@ -142,9 +146,9 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Table>> open_json_table(Lines lines) {
+Result<std::unique_ptr<Table>> open_json_table(Lines lines, const std::function<bool()>& keep_on) {
     auto table = std::make_unique<JsonTable>(lines.path());
-    if (auto ok = table->open(lines); !ok) return ok.error();
+    if (auto ok = table->open(lines, keep_on); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/foreign_format.hpp"
 #include "io/labview.hpp"
 #include "signal/text.hpp"
 
@@ -34,13 +33,12 @@ Result<std::vector<HeadLine>> read_head(Lines& lines, std::size_t skip) {
         if (lines.number() <= static_cast<long>(skip)) continue;
         if (line.find('\0') != line.npos)
             return bad_input("this is no text: it has NUL bytes, as binary files have", {lines.path(), lines.number()});
-        if (line.find('\r') != line.npos && line.find('"') == line.npos)
-            return bad_input(
-                fmt::format(
-                    "its lines end in a way that only old Macs know (CR alone); make a file of it that is read: tr '\\r' '\\n' < {} "
-                    "> lines.csv",
-                    shell_word(lines.path())),
-                {lines.path(), lines.number()});
+        if (line.find('\r') != line.npos && line.find('"') == line.npos) {
+            const auto command = lines.copy_command("tr '\\r' '\\n'", "-lines");
+            return bad_input(fmt::format("its lines end in a way that only old Macs know (CR alone); make a file of it with line feeds{}{}",
+                                         command.empty() ? "" : ": ", command),
+                             {lines.path(), lines.number()});
+        }
         if (is_comment(line)) {
             if (const auto s = trimmed(line); !s.empty()) comment = trimmed(s.substr(1));
             gap = true;
@@ -269,14 +267,13 @@ class FormFinder {
         return first;
     }
 
-    void find_trial_column() {
-        for (std::size_t c = form_.columns.size(); c-- > 0;)
-            if (c != form_.roles.time && names_trial(form_.columns[c].name)) form_.trial = c;
-        for (std::size_t c = 0; c < form_.columns.size() && form_.named && !form_.trial; ++c)  // else the first word may
-            if (c != form_.roles.time && form_.columns[c].left_out.starts_with("holds words")) form_.trial = c;
-        if (!form_.trial || row_ >= head_.size()) return;
-        split_row(form_.dialect, head_[row_].text, form_.columns.size(), fields_);
-        if (*form_.trial < fields_.size()) form_.first_trial = fields_[*form_.trial];
+    void find_trial_columns() {
+        const auto add = [&](const auto& suits) {
+            for (std::size_t c = 0; c < form_.columns.size(); ++c)
+                if (c != form_.roles.time && suits(form_.columns[c])) form_.trials.push_back(c);
+        };
+        add([](const Column& c) { return names_trial(c.name); });
+        if (form_.named) add([](const Column& c) { return !names_trial(c.name) && c.left_out.starts_with("holds words"); });
     }
 
     void find_first_stamp() {
@@ -322,7 +319,7 @@ public:
         form_.roles = assign_roles(form_.columns, first, form_.named);
         if (rate) form_.rate = rate;
         find_first_stamp();
-        find_trial_column();
+        find_trial_columns();
         tell_passed_over();
         return std::move(form_);
     }
