@@ -71,6 +71,13 @@ struct Chooser {
         return {};
     }
 
+    /// What --channel takes for it: its number, but where that is the name of another, its name.
+    std::string option_of(std::size_t k) const {
+        auto number = std::to_string(k + 1);
+        const auto other = named(number);
+        return other && *other != k ? table.columns()[data[k]].name : number;
+    }
+
     std::string name_of(std::size_t k) const { return fmt::format("'{}'", table.columns()[data[k]].name); }
 
     /// From one to another of the data; what the table leaves out is left out of a range.
@@ -113,9 +120,13 @@ struct Chooser {
         std::vector<std::size_t> chosen, other;  // other: of a unit that is no force
         for (const auto c : data)
             if (table.columns()[c].left_out.empty()) (is_other(table.columns()[c]) ? other : chosen).push_back(c);
-        if (chosen.empty() && other.empty())
-            return bad_input(
-                fmt::format("no column holds readings: '{}' {}", table.columns()[data[0]].name, table.columns()[data[0]].left_out), {path});
+        if (chosen.empty() && other.empty()) {
+            const auto known = std::find_if(data.begin(), data.end(), [&](std::size_t c) { return !table.columns()[c].evidence.empty(); });
+            const auto& column = table.columns()[known == data.end() ? data[0] : *known];
+            return bad_input(fmt::format("no column holds readings: '{}' {}{}{}", column.name, column.left_out,
+                                         column.evidence.empty() ? "" : "; ", column.evidence),
+                             {path});
+        }
         if (chosen.empty()) return other;
         constexpr std::size_t most_told = 16;
         std::size_t left_out = 0;
@@ -126,9 +137,9 @@ struct Chooser {
             if (c.left_out.empty())
                 remarks->push_back(
                     fmt::format("{} is in {}, which is no force: left out (if the header is wrong, --channel {} --unit N takes it)",
-                                name_of(k), c.unit, k + 1));
+                                name_of(k), c.unit, option_of(k)));
             else if (c.left_out.starts_with("counts") || c.left_out.starts_with("tells"))
-                remarks->push_back(fmt::format("{} {}: left out (--channel {} takes it)", name_of(k), c.left_out, k + 1));
+                remarks->push_back(fmt::format("{} {}: left out (--channel {} takes it)", name_of(k), c.left_out, option_of(k)));
             else
                 remarks->push_back(fmt::format("{} {}: left out", name_of(k), c.left_out));
         }

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <vector>
 
+#include "io/heading.hpp"
+#include "io/samples.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -15,13 +17,15 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr std::size_t most_document = std::size_t{64} << 20;  // bytes that are parsed at once
 constexpr int most_depth = 16;
 
-/// Python writes NaN and Infinity, which JSON has not: null in their place. Empty if brackets go too deep.
-std::optional<std::string> plain_json(std::string_view text) {
+/// Python writes NaN and Infinity, which JSON has not: null in their place. Empty if brackets go too deep. `read`: how much of the text is
+/// read when `most` bytes have been made of it.
+std::optional<std::string> plain_json(std::string_view text, std::size_t most = std::string_view::npos, std::size_t* read = nullptr) {
     std::string out;
-    out.reserve(text.size());
+    out.reserve(std::min(text.size(), most));
     bool quoted = false;
     int depth = 0;
-    for (std::size_t k = 0; k < text.size(); ++k) {
+    std::size_t k = 0;
+    for (; k < text.size() && out.size() < most; ++k) {
         const char c = text[k];
         if (quoted) {
             out += c;
@@ -40,6 +44,7 @@ std::optional<std::string> plain_json(std::string_view text) {
         else
             out += c;
     }
+    if (read) *read = k;
     return out;
 }
 
@@ -102,6 +107,7 @@ class JsonReader {
     Lines& lines_;
     const Take& take_;
     const std::function<bool()>& keep_on_;
+    JsonFacts* facts_;
     std::vector<JsonField> fields_;
 
     Error wrong(std::string sentence, long line = 0) const { return bad_input(std::move(sentence), {lines_.path(), line}); }
@@ -113,9 +119,11 @@ class JsonReader {
         if (OrderedJson::sax_parse(*plain, &builder)) return std::move(builder.document);
         if (builder.interrupted) return Error{Code::interrupted, "interrupted"};
         if (!builder.wrong_at) return wrong("this JSON holds a number that is too large", line);
-        const auto at = std::min(*builder.wrong_at, plain->size());
-        const auto above = std::count(plain->begin(), plain->begin() + static_cast<std::ptrdiff_t>(at), '\n');
-        const auto column = at - (above > 0 ? plain->rfind('\n', at - 1) + 1 : 0);
+        std::size_t at = 0;  // in the text as it is written
+        static_cast<void>(plain_json(text, std::min(*builder.wrong_at, plain->size()), &at));
+        const auto before = text.substr(0, at);
+        const auto above = std::count(before.begin(), before.end(), '\n');
+        const auto column = at - (above > 0 ? before.rfind('\n', at - 1) + 1 : 0);
         return bad_input("this is no whole JSON: something else was expected here",
                          {lines_.path(), std::max(line, 1L) + static_cast<long>(above), static_cast<long>(column)});
     }
@@ -178,11 +186,39 @@ class JsonReader {
         }
     }
 
+    /// A rate and a unit beside the table.
+    void read_facts(const OrderedJson& object) {
+        for (const auto& [key, value] : object.items()) {
+            if (value.is_number() && names_rate(key) && value.get<double>() > 0 && std::isfinite(value.get<double>()))
+                facts_->rate = value.get<double>();
+            if (value.is_string() && (key == "unit" || key == "units") && is_unit(value.get<std::string>()))
+                facts_->unit = value.get<std::string>();
+        }
+    }
+
+    /// Lists of words alone that are not as long as those with numbers do not belong to the table.
+    void leave_out_other_lists(std::vector<JsonColumn>& columns) const {
+        const auto has_numbers = [](const JsonColumn& c) {
+            return std::any_of(c.values.begin(), c.values.end(), [](const OrderedJson* v) { return v->is_number(); });
+        };
+        const auto numbers = std::find_if(columns.begin(), columns.end(), has_numbers);
+        if (numbers == columns.end()) return;
+        const auto rows = numbers->values.size();
+        std::erase_if(columns, [&](const JsonColumn& c) {
+            const bool other = c.values.size() != rows && !has_numbers(c);
+            if (other && facts_)
+                facts_->remarks.push_back(
+                    fmt::format("'{}' holds {} words, and the table has {} rows: left out", c.name, c.values.size(), rows));
+            return other;
+        });
+    }
+
     Result<void> give_columns(const OrderedJson& object) {
         std::vector<JsonColumn> columns;
         find_columns("", object, columns);
         if (columns.empty())
             return wrong("no table in this JSON: a record a line, a list of records, or an object of lists as long as one another is one");
+        leave_out_other_lists(columns);
         const auto rows = columns[0].values.size();
         for (const auto& c : columns)
             if (c.values.size() != rows)
@@ -201,6 +237,7 @@ class JsonReader {
         if (!all.is_object()) return wrong("no table in this JSON: it holds a single value");
         if (all.contains("columns") && all["columns"].is_array() && all.contains("data") && all["data"].is_array())
             return give_split(all["columns"], all["data"]);
+        if (facts_) read_facts(all);
         const OrderedJson* records = nullptr;
         std::size_t lists = 0;
         for (const auto& member : all)
@@ -266,7 +303,8 @@ class JsonReader {
     }
 
 public:
-    JsonReader(Lines& lines, const Take& take, const std::function<bool()>& keep_on) : lines_(lines), take_(take), keep_on_(keep_on) {}
+    JsonReader(Lines& lines, const Take& take, const std::function<bool()>& keep_on, JsonFacts* facts)
+        : lines_(lines), take_(take), keep_on_(keep_on), facts_(facts) {}
 
     Result<void> read() {
         const auto by_line = are_json_lines();
@@ -278,8 +316,8 @@ public:
 }  // namespace
 
 Result<void> read_json_records(Lines& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
-                               const std::function<bool()>& keep_on) {
-    return JsonReader(lines, take, keep_on).read();
+                               const std::function<bool()>& keep_on, JsonFacts* facts) {
+    return JsonReader(lines, take, keep_on, facts).read();
 }
 
 Result<bool> begins_like_json(Lines& lines) {

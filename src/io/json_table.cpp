@@ -28,6 +28,7 @@ class JsonTable final : public Table {
     std::unordered_map<std::string, std::size_t> called_;
     std::vector<long> lines_;  // of the records, if each has one
     ColumnRoles roles_;
+    JsonFacts facts_;
     std::size_t rows_ = 0, next_ = 0, block_ = 0, numbers_ = 0;
 
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -86,7 +87,7 @@ public:
             if (rows_ % rows_a_block == 0 && !keep_on()) return Result<void>(Error{Code::interrupted, "interrupted"});
             return add(fields, line);
         };
-        if (auto ok = read_json_records(lines, take, keep_on); !ok) return ok;
+        if (auto ok = read_json_records(lines, take, keep_on, &facts_); !ok) return ok;
         if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
         if (rows_ > most_json_numbers / columns_.size())
             return bad_input("more numbers than fit into memory; CSV is read in blocks", {path_});
@@ -100,6 +101,8 @@ public:
             return !c.name.starts_with("ch") || c.name.find_first_not_of("0123456789", 2) != c.name.npos;
         });
         roles_ = assign_roles(columns_, first, named);
+        for (std::size_t c = 0; c < columns_.size(); ++c)
+            if (columns_[c].unit.empty() && columns_[c].left_out.empty() && c != roles_.time) columns_[c].unit = facts_.unit;
         if (roles_.time && columns_[*roles_.time].stamps) {
             const auto& s = *values_[*roles_.time].stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
@@ -112,6 +115,8 @@ public:
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return roles_.time; }
     bool time_is_guessed() const override { return roles_.time_is_guessed; }
+    std::optional<double> rate() const override { return facts_.rate; }
+    std::vector<std::string> remarks() const override { return facts_.remarks; }
     std::vector<std::string> time_remarks() const override { return roles_.remarks; }
     double done() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }

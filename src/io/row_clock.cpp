@@ -38,7 +38,7 @@ Result<Times> check_times(Table& table, Rows rows, const RowClock& clock, const 
                 continue;
             }
             if (check.count() > 0 && t < last && !options.rate) {
-                const auto trials = table.one_trial(rows.row(k));
+                const auto trials = table.one_trial(rows.table_row(k));
                 return bad_input(fmt::format("time goes back, from {:g} s to {:g} s{}", last, t,
                                              trials.empty() ? "; --rate takes the rows as evenly spaced" : ": " + trials),
                                  rows.place(k));

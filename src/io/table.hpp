@@ -17,7 +17,8 @@ struct Column {
     std::string unit;  ///< as the file says it; "" if it says none
     /// Why it is no channel unless it is asked for by name, as a sentence says it ("holds words"); "": it may be one.
     std::string left_out = {};
-    bool stamps = false;  ///< dates or times of day, read as seconds from the first
+    bool stamps = false;        ///< dates or times of day, read as seconds from the first
+    std::string evidence = {};  ///< of a column left out for its words: the first of them, its place, and what it should look like
 };
 
 inline constexpr std::size_t rows_a_block = 4096;
@@ -58,6 +59,8 @@ public:
     /// If a new trial begins at row `row` of the last block, where time goes back: the command that makes a file of one trial. Else "".
     /// The table must be rewound after that.
     virtual std::string one_trial(std::size_t row) { return static_cast<void>(row), std::string(); }
+    /// Where each row begins with a word, its name: these words. The table must be rewound after that.
+    virtual Result<std::vector<std::string>> row_names() { return std::vector<std::string>(); }
     /// How much of the file has been read, 0 to 1.
     virtual double done() const = 0;
     /// Where row number `row` of the last block stands, for messages.

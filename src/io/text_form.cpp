@@ -145,6 +145,29 @@ class FormFinder {
         return k + 1 == head_.size() || values_in(k + 1, form_.dialect, columns) == first;
     }
 
+    /// A header of numbers, as pandas writes it for columns without names: nothing above the index, then 0, 1, 2 ...
+    static bool are_numbered(const Fields& fields) {
+        bool numbered = fields.size() > 1 && fields[0].empty();
+        for (std::size_t c = 1; c < fields.size(); ++c) numbered = numbered && fields[c] == std::to_string(c - 1);
+        return numbered;
+    }
+
+    /// A word and then values in every row: the rows are named, and there is no header.
+    bool take_named_rows() {
+        const auto d = dialect_of(head_[0].text);
+        const auto columns = values_in(0, d).size();
+        if (columns < 2) return false;
+        for (std::size_t k = 0; k < head_.size(); ++k) {
+            const auto values = values_in(k, d, columns);
+            if (values.size() != columns || values[0] || fields_[0].empty()) return false;
+            for (std::size_t c = 1; c < columns; ++c)
+                if (!values[c] && !fields_[c].empty()) return false;
+        }
+        form_.dialect = d;
+        form_.columns.assign(columns, Column{});
+        return form_.rows_have_names = true;
+    }
+
     /// The table as most files have it: from the first line on, with a header or none.
     struct Plain {
         std::size_t columns = 0;
@@ -155,7 +178,8 @@ class FormFinder {
         form_.dialect = dialect_of(head_[0].text);
         split_row(form_.dialect, head_[0].text, 0, fields_);
         p.columns = fields_.size();
-        p.header = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !is_value(f, form_.dialect); });
+        p.header = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !is_value(f, form_.dialect); }) ||
+                   (head_.size() > 1 && are_numbered(fields_));
         if (p.header && is_row_under_comment(0, p.columns)) p.header = false;
         p.units = p.header && head_.size() > 2 && is_unit_row(1, p.columns, form_.dialect);
         p.whole = !p.header || head_.size() == 1 || are_rows(p.units ? 2 : 1, p.columns, form_.dialect);
@@ -205,7 +229,8 @@ class FormFinder {
             split_row(d, head_[k].text, 0, fields_);
             const auto columns = fields_.size();
             const bool alike = columns == plain.columns && d.separator == plain_dialect.separator;
-            if ((alike && (k < 2 || !is_sure_header(k - 1, columns, d))) || !are_rows(k, columns, d)) continue;
+            const auto is_under_header = [&] { return is_sure_header(k - 1, columns, d) || (k > 2 && is_unit_row(k - 1, columns, d)); };
+            if ((alike && (k < 2 || !is_under_header())) || !are_rows(k, columns, d)) continue;
             if (head_.size() - k < 2 || !may_stand_before(k, plain_dialect)) continue;
             form_.dialect = d;
             std::size_t header = k - 1;
@@ -296,7 +321,7 @@ class FormFinder {
 public:
     explicit FormFinder(std::vector<HeadLine> head) : head_(std::move(head)) {}
 
-    Result<TextForm> find(const std::string& path) {
+    Result<TextForm> find(const std::string& path, bool rows_are_channels) {
         if (!head_.empty())
             if ((separator_ = named_separator(head_[0].text))) head_.erase(head_.begin());
         if (head_.empty()) return bad_input("no data in this file", {path});
@@ -309,6 +334,8 @@ public:
             form_.dialect = labview->dialect, form_.columns = std::move(labview->columns), form_.rate = labview->rate;
             form_.named = form_.last_may_be_missing = true;
             row_ = labview->first_row;
+        } else if (rows_are_channels && take_named_rows()) {
+            row_ = 0;
         } else if (const auto plain = plain_form(); plain.whole || !take_after_preamble(plain)) {
             take_plain(plain);
         }
@@ -318,6 +345,10 @@ public:
         const auto rate = form_.rate;
         form_.roles = assign_roles(form_.columns, first, form_.named);
         if (rate) form_.rate = rate;
+        if (row_ < head_.size()) {
+            split_row(form_.dialect, head_[row_].text, form_.columns.size(), fields_);
+            form_.first_fields.assign(fields_.begin(), fields_.end());
+        }
         find_first_stamp();
         find_trial_columns();
         tell_passed_over();
@@ -332,10 +363,10 @@ void split_row(const Dialect& dialect, std::string_view line, std::size_t column
     if (out.size() > 1 && out.back().empty() && (columns == 0 || out.size() == columns + 1)) out.pop_back();
 }
 
-Result<TextForm> find_text_form(Lines& lines, std::size_t skip) {
+Result<TextForm> find_text_form(Lines& lines, std::size_t skip, bool rows_are_channels) {
     auto head = read_head(lines, skip);
     if (!head) return head.error();
-    return FormFinder(std::move(*head)).find(lines.path());
+    return FormFinder(std::move(*head)).find(lines.path(), rows_are_channels);
 }
 
 }  // namespace corpuscle

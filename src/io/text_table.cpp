@@ -9,6 +9,7 @@
 #include "io/json_records.hpp"
 #include "io/json_table.hpp"
 #include "io/text_form.hpp"
+#include "io/unread_field.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -21,6 +22,7 @@ class TextTable final : public Table {
     std::vector<Column> columns_;
     std::optional<std::size_t> time_;
     std::size_t skip_;
+    bool rows_are_channels_;
     Fields fields_;
     std::vector<long> numbers_;         // line numbers of the last block's rows
     std::vector<double*> to_;           // of each column: where its block of numbers goes, or nowhere
@@ -74,8 +76,32 @@ class TextTable final : public Table {
         if (gaps_allowed_) return std::numeric_limits<double>::quiet_NaN();
         const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;
         const auto what = fields_[c].empty() ? std::string("nothing") : fmt::format("'{}'", fields_[c].substr(0, 40));
-        return at(fmt::format("column {}: {} where a {} should be{}", called(c), what, columns_[c].stamps ? "time" : "number", remedy(c)),
+        const auto advice = columns_[c].stamps ? "" : advice_for(fields_[c]);
+        return at(fmt::format("column {}: {} where a {} should be{}", called(c), what, columns_[c].stamps ? "time" : "number",
+                              advice.empty() ? remedy(c) : "; it has " + advice),
                   column);
+    }
+
+    /// What is unusual in a field that should be a number, and what makes a file of it that is read; "" if that is not known.
+    std::string advice_for(std::string_view field) const {
+        const auto advice = advice_on(field);
+        if (advice.what.empty()) return "";
+        const auto command = advice.filter.empty() ? "" : lines_.copy_command(advice.filter, "-plain");
+        if (!command.empty()) return fmt::format("{}; make a file without it: {}", advice.what, command);
+        return fmt::format("{}; {}", advice.what, advice.remedy.empty() ? "save the table without it" : advice.remedy);
+    }
+
+    void tell_first_words() {
+        constexpr std::size_t enough = 8;  // one of them is told, if no column holds numbers
+        std::size_t told = 0;
+        for (std::size_t c = 0; c < std::min(columns_.size(), form_.first_fields.size()) && told < enough; ++c) {
+            const auto& word = form_.first_fields[c];
+            if (!columns_[c].left_out.starts_with("holds words") || word.empty()) continue;
+            ++told;
+            const auto advice = advice_for(word);
+            columns_[c].evidence = fmt::format("line {} says '{}'{}{}", form_.first_row, word.substr(0, 40),
+                                               advice.empty() ? " there" : ", which has ", advice);
+        }
     }
 
     void split(std::string_view line) {
@@ -238,16 +264,18 @@ class TextTable final : public Table {
     }
 
 public:
-    TextTable(Lines lines, std::size_t skip) : lines_(std::move(lines)), skip_(skip) {}
+    TextTable(Lines lines, std::size_t skip, bool rows_are_channels)
+        : lines_(std::move(lines)), skip_(skip), rows_are_channels_(rows_are_channels) {}
 
     Result<void> open() {
-        auto form = find_text_form(lines_, skip_);
+        auto form = find_text_form(lines_, skip_, rows_are_channels_);
         if (!form) return form.error();
         form_ = std::move(*form);
         dialect_ = form_.dialect, columns_ = form_.columns, time_ = form_.roles.time;
-        if (!form_.named && !time_)
+        if (!form_.named && !time_ && !form_.rows_have_names)
             if (auto ok = look_for_time(); !ok) return ok;
         name_columns();
+        tell_first_words();
         return {};
     }
 
@@ -276,6 +304,18 @@ public:
             "the rows of several trials stand one under another, told apart by '{}', and one is read at a time; make a "
             "file of {}{}",
             columns_[telling->column].name, command.empty() ? "each" : "one: ", command);
+    }
+
+    Result<std::vector<std::string>> row_names() override {
+        std::vector<std::string> names;
+        if (!form_.rows_have_names) return names;
+        for (std::string_view line;;) {
+            const auto more = next_row(line);
+            if (!more) return more.error();
+            if (!*more) return names;
+            split(line);
+            names.emplace_back(fields_.empty() ? std::string_view() : fields_[0]);
+        }
     }
 
     double done() const override { return lines_.done(); }
@@ -311,7 +351,7 @@ Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const Ta
     const auto json = begins_like_json(*lines);
     if (!json) return json.error();
     if (*json) return open_json_table(std::move(*lines), options.keep_on);
-    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip);
+    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip, options.transpose == true);
     if (auto ok = table->open(); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }

@@ -248,6 +248,89 @@ TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
     EXPECT_TRUE(some_remark(read_logged(folder, heading + "\n" + first + "\n" + second + "\n"), "15 more columns hold no force: left out"));
 }
 
+TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem) {
+    const Folder folder;
+    const std::tuple<std::string, std::string, std::string> cases[] = {
+        {"time_s,fz\n0,\u22121.5\n1,\u22122.5\n", "line 2 says '\u22121.5', which has a minus sign of print (U+2212)", "sed "},
+        {"time_s,fz\n0,-1.5D+00\n1,-0.25D+01\n", "'-1.5D+00', which has a Fortran exponent", "sed "},
+        {"time_s,fz\n0,-1.5 N\n1,-2.5 N\n", "'-1.5 N', which has the unit N behind the number", "sed "},
+        {"time_s|fz_N\n0|-1.5\n1|-2.5\n", "'0|-1.5', which has '|' as separator", "sed "},
+        {"t:-1 F:-2\nt:0 F:-1.5\nt:1 F:-2.5\n", "'t:0', which has a name in front of the number", "sed "},
+        {"time_s,fz\n0,0x0A\n1,0x0B\n", "'0x0A', which has hexadecimal digits; save the table with decimal numbers", ""},
+        {"time_s,fz\n0,n/a\n1,n/a\n", "'fz' holds words, not numbers; line 2 says 'n/a' there", ""},
+    };
+    for (const auto& [text, said, word] : cases) {
+        const auto refused = refused_logged(folder, text);
+        EXPECT_NE(refused.find(said), std::string::npos) << refused;
+        if (word.empty()) continue;
+        const auto mended = recording(run_remedy(folder, "x.csv", word)).force[0];
+        EXPECT_EQ(std::vector<double>(mended.end() - 2, mended.end()), (std::vector<double>{-1.5, -2.5})) << refused;
+    }
+    EXPECT_NE(refused_logged(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN behind the number (say --unit mN of the new file)"),
+              std::string::npos);
+}
+
+TEST(LoggerFiles, ThousandsInGroupsAreNamedAndManyFilledReadingsWarnedOf) {
+    const Folder folder;
+    for (const std::string text : {"Zeit (s);Kraft (mN)\n0,0;999,21\n0,1;1.016,21\n0,2;998,50\n",
+                                   "t_s,F_mN\n0,999.21\n0.1,\"1,016.21\"\n0.2,998.5\n", "t_s,F_mN\n0,999\n0.1,\"1,016\"\n0.2,998\n"}) {
+        const auto said = refused_logged(folder, text);
+        EXPECT_NE(said.find("it has a separator of thousands; save the table without it"), std::string::npos) << said;
+        EXPECT_EQ(said.find("--bad-fields"), std::string::npos) << said;
+        const auto filled = recording(folder / "x.csv", {.bad_fields = BadFields::interpolate});
+        EXPECT_TRUE(std::any_of(filled.quality.warnings.begin(), filled.quality.warnings.end(),
+                                [](const auto& s) { return s.starts_with("1 of 3 readings were filled in"); }));
+    }
+}
+
+TEST(LoggerFiles, AHeaderOfColumnNumbersIsAHeader) {
+    const Folder folder;
+    const auto r = read_logged(folder, ",0,1\n" + rows_of(20, [](int k, double t, double F) { return fmt::format("{},{},{}\n", k, t, F); }),
+                               {.time = "0"});
+    EXPECT_EQ(r.names, std::vector<std::string>{"1"});
+    EXPECT_NEAR(r.clock.rate(), 100, 1e-6);
+    EXPECT_TRUE(some_remark(r, "'ch1' counts the rows: left out (--channel ch1 takes it)"));
+    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"ch1"}, .time = "0"}).force[0][7], 7) << "the remedy";
+}
+
+TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsPassedOverAboveARowOfUnits) {
+    const Folder folder;
+    const auto r = read_logged(folder, "Test report;;\nOperator;Max;\nDate;24.12.2024;\n\nTime;Force\n(s);(mN)\n" +
+                                           rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f};{:.2f}\n", t, F); }));
+    EXPECT_EQ(r.names, std::vector<std::string>{"Force"});
+    EXPECT_NEAR(r.clock.rate(), 100, 1e-6);
+    EXPECT_NEAR(r.force[0][10], 0.5e-3, 1e-12);
+}
+
+TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveAPlace) {
+    const Folder folder;
+    RecordingOptions rows;
+    rows.table.transpose = true;
+    const auto named = read_logged(folder, "time_s,0,0.01,0.02\nfx_mN,1,2,3\nfz_N,4,5,6\n", rows);
+    EXPECT_EQ(named.names, (std::vector<std::string>{"fx", "fz"}));
+    EXPECT_EQ(named.force[1], (std::vector<double>{4, 5, 6}));
+    EXPECT_NEAR(named.clock.rate(), 100, 1e-6);
+    EXPECT_EQ(
+        refused_logged(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
+        "x.csv:2: field 3 is no number; --bad-fields interpolate fills it in, --bad-fields drop leaves this sample out of every channel");
+    rows.bad_fields = BadFields::interpolate;
+    EXPECT_EQ(recording(folder / "x.csv", rows).force[0], (std::vector<double>{4, 5, 6})) << "the remedy";
+    rows.bad_fields.reset();
+    rows.rate = 100;
+    EXPECT_EQ(refused_logged(folder, "0,1,2,,4\n1,2,3,4,5\n", rows).substr(0, 29), "x.csv:1: field 4 is no number");
+}
+
+TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut) {
+    const Folder folder;
+    const auto r = read_logged(folder, R"({"fs":200,"unit":"mN","force":[500,1000,1500]})", {}, "x.json");
+    EXPECT_EQ(r.clock.rate(), 200);
+    EXPECT_NEAR(r.force[0][1], 1, 1e-12);
+    const auto tagged = read_logged(folder, R"({"tags":["a","b"],"time_s":[0,1,2],"fz_N":[1,2,3]})", {}, "x.json");
+    EXPECT_EQ(tagged.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
+    EXPECT_TRUE(some_remark(tagged, "'tags' holds 2 words, and the table has 3 rows: left out"));
+    EXPECT_EQ(refused_logged(folder, "[{\"t\":NaN,\"F\":-Infinity},\n{\"t\":NaN,\"F\":}]", {}, "x.json").substr(0, 11), "x.json:2:14");
+}
+
 TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
     const Folder folder;
     for (const std::string heading :
@@ -462,7 +545,7 @@ TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
               "its row out");
     EXPECT_EQ(recording(folder / "x.csv", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(refused_logged(folder, "time_s,phase\n0,rest\n1,press\n"),
-              "x.csv: no column holds readings: 'phase' holds words, not numbers");
+              "x.csv: no column holds readings: 'phase' holds words, not numbers; line 2 says 'rest' there");
 }
 
 TEST(LoggerFiles, ChannelsAreChosenByRangesOfNamesAndCountedOnesAreCalledByName) {
