@@ -72,7 +72,7 @@ Result<void> Lines::rewind() {
 std::string Lines::copy_command(const std::string& filter, const std::string& mark) const {
     namespace fs = std::filesystem;
     std::error_code status;
-    if (!fs::is_regular_file(path_, status)) return "";
+    if (!fs::is_regular_file(path_, status) || path_.starts_with("/dev/")) return "";
     auto name = fs::path(path_).filename();
     if (lower(name.extension().string()) == ".gz") name = name.stem();
     const auto stem = name.stem().string() + mark, extension = name.extension().string();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "io/labview.hpp"
@@ -152,20 +153,34 @@ class FormFinder {
         return numbered;
     }
 
-    /// A word and then values in every row: the rows are named, and there is no header.
-    bool take_named_rows() {
+    /// A word and then values in every row: how many fields each has; 0: it is not so.
+    std::size_t fields_of_named_rows() {
         const auto d = dialect_of(head_[0].text);
         const auto columns = values_in(0, d).size();
-        if (columns < 2) return false;
+        if (columns < 2) return 0;
         for (std::size_t k = 0; k < head_.size(); ++k) {
             const auto values = values_in(k, d, columns);
-            if (values.size() != columns || values[0] || fields_[0].empty()) return false;
-            for (std::size_t c = 1; c < columns; ++c)
-                if (!values[c] && !fields_[c].empty()) return false;
+            if (values.size() != columns || fields_[0].empty() || !std::isalpha(static_cast<unsigned char>(fields_[0][0]))) return 0;
+            for (std::size_t c = 0; c < columns; ++c)
+                if (values[c] == (c == 0) && !(c > 0 && fields_[c].empty())) return 0;
         }
-        form_.dialect = d;
+        return columns;
+    }
+
+    /// Rows that begin with their names, and no header.
+    bool take_named_rows() {
+        const auto columns = fields_of_named_rows();
+        if (columns == 0) return false;
+        form_.dialect = dialect_of(head_[0].text);
         form_.columns.assign(columns, Column{});
         return form_.rows_have_names = true;
+    }
+
+    /// A row of times that says so, and channels as rows under it.
+    bool are_rows_channels() {
+        const auto d = dialect_of(head_[0].text);
+        d.split(head_[0].text, fields_);
+        return head_.size() > 1 && names_time(parse_heading(fields_[0]).name) && fields_of_named_rows() > 0;
     }
 
     /// The table as most files have it: from the first line on, with a header or none.
@@ -336,6 +351,9 @@ public:
             row_ = labview->first_row;
         } else if (rows_are_channels && take_named_rows()) {
             row_ = 0;
+        } else if (!rows_are_channels && are_rows_channels()) {
+            return bad_input("every row begins with a name, the first with that of the time; --transpose takes each row as a channel",
+                             {path});
         } else if (const auto plain = plain_form(); plain.whole || !take_after_preamble(plain)) {
             take_plain(plain);
         }

@@ -9,14 +9,14 @@
 namespace corpuscle {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_ascii_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Does the text begin with a number, and how long is it? 0: it does not.
 std::size_t length_of_number(std::string_view text) {
     double value;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return status == std::errc{} && end > text.data() && is_digit(end[-1]) ? static_cast<std::size_t>(end - text.data()) : 0;
+    return status == std::errc{} && end > text.data() && is_decimal_digit(end[-1]) ? static_cast<std::size_t>(end - text.data()) : 0;
 }
 
 /// One to three digits, then groups of three behind `separator`, then decimals behind `point`: 1.016,21 or 12,345.
@@ -24,10 +24,11 @@ bool has_groups(std::string_view text, char separator, char point) {
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
     const auto decimals = text.find(point);
     const auto whole = text.substr(0, decimals);
-    if (decimals != text.npos && !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(decimals) + 1, text.end(), is_digit)) return false;
+    if (decimals != text.npos && !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(decimals) + 1, text.end(), is_decimal_digit))
+        return false;
     std::size_t groups = 0, digits = 0;
     for (const char c : whole) {
-        if (is_digit(c)) {
+        if (is_decimal_digit(c)) {
             ++digits;
         } else {
             if (c != separator || digits == 0 || digits > 3 || (groups > 0 && digits != 3)) return false;
@@ -60,7 +61,7 @@ FieldAdvice advice_on(std::string_view field) {
     if ((rest[0] == 'D' || rest[0] == 'd') && length_of_number(rest.substr(rest.substr(1).starts_with('+') ? 2 : 1)) > 0)
         return {"a Fortran exponent", "sed -E 's/([0-9.])[dD]([-+0-9])/\\1e\\2/g'"};
     const auto unit = std::string(trimmed(rest));
-    if (!is_unit(unit) || !std::all_of(unit.begin(), unit.end(), is_letter)) return {};
+    if (!is_unit(unit) || !std::all_of(unit.begin(), unit.end(), is_ascii_letter)) return {};
     return {"the unit " + unit + " behind the number" + (unit == "N" ? "" : " (say --unit " + unit + " of the new file)"),
             "sed -E 's/([0-9.]) *" + unit + "([^A-Za-z]|$)/\\1\\2/g'"};
 }

@@ -310,6 +310,8 @@ TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveAPlace) {
     EXPECT_EQ(named.names, (std::vector<std::string>{"fx", "fz"}));
     EXPECT_EQ(named.force[1], (std::vector<double>{4, 5, 6}));
     EXPECT_NEAR(named.clock.rate(), 100, 1e-6);
+    EXPECT_EQ(test::refusal(folder / "x.csv"),
+              "x.csv: every row begins with a name, the first with that of the time; --transpose takes each row as a channel");
     EXPECT_EQ(
         refused_logged(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
         "x.csv:2: field 3 is no number; --bad-fields interpolate fills it in, --bad-fields drop leaves this sample out of every channel");
