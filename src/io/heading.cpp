@@ -23,9 +23,9 @@ constexpr std::string_view unit_words[] = {"counts",  "count",  "raw",  "adc",  
                                            "kg",      "g",      "Pa",   "kPa",     "mmHg",  "bar",     "psi",    "sec",     "seconds",
                                            "msec",    "millis", "usec", "micros",  "nsec",  "nanos",   "newton", "newtons", "Newton",
                                            "Newtons", "sek",    "Sek",  "minutes", "hours", "samples", "dB",     "kgf",     "gf"};
-constexpr std::string_view never_force[] = {"deg", "\u00b0", "rad",      "degC",   "degF",  "\u00b0C", "\u00b0F", "celsius",  "Celsius",
-                                            "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",      "kNm",
-                                            "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
+constexpr std::string_view never_force[] = {"hex",     "deg", "\u00b0", "rad",      "degC",   "degF",  "\u00b0C", "\u00b0F", "celsius",
+                                            "Celsius", "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",
+                                            "kNm",     "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
 
 /// Letters, and min, that more often mean something else behind a name (left_F, sensor_A) than a unit.
 constexpr std::string_view ambiguous_units[] = {"", "1", "F", "A", "S", "T", "C", "K", "h", "min"};

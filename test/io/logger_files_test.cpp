@@ -173,6 +173,7 @@ TEST(LoggerFiles, CountersAnywhereInATableAreNoForce) {
     EXPECT_EQ(r.names, std::vector<std::string>{"Fz"});
     for (const std::string name : {"RDTSequence", "FTSequence", "k"})
         EXPECT_TRUE(some_remark(r, "'" + name + "' counts the rows: left out")) << name;
+    EXPECT_EQ(read_logged(folder, "Status (hex),Fz,Time\n00000000,1,0\n00000000,2,1\n").names, std::vector<std::string>{"Fz"});
 }
 
 TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
