@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hdf5_storage.hpp"
+#include "io/foreign_format.hpp"
 #include "io/text_table.hpp"
 
 namespace corpuscle {
@@ -87,8 +88,8 @@ class Hdf5Samples final : public Samples {
             if (passes > most_passes)
                 return bad_input(
                     fmt::format("{}: {} columns in chunks of {} rows are more than memory holds; --channel takes some of them, "
-                                "or repack the file: h5repack -l {}:CHUNK=4096x64 {} repacked.h5",
-                                name_, width_, height, name_, path_),
+                                "or repack the file: h5repack -l {} {} repacked.h5",
+                                name_, width_, height, shell_word(name_ + ":CHUNK=4096x64"), shell_word(path_)),
                     {path_});
             first_ = chunk + (row - chunk) / rows * rows;
             band_rows_ = std::min(rows, chunk + height - first_);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "io/foreign_format.hpp"
+
 namespace corpuscle::hdf5 {
 namespace {
 
@@ -63,7 +65,7 @@ Result<void> check_filters(hid_t how, const ArrayFacts& facts, const std::string
         if (id < 0 || (flags & H5Z_FLAG_OPTIONAL) || H5Zfilter_avail(id) > 0) continue;
         return bad_input(fmt::format("{}: packed by the filter {}{}, which is not here; where it is, repack the file: "
                                      "h5repack -f GZIP=4 {} repacked.h5",
-                                     described(facts), id, *name ? fmt::format(" ({})", name) : "", path),
+                                     described(facts), id, *name ? fmt::format(" ({})", name) : "", shell_word(path)),
                          {path});
     }
     return {};
@@ -88,11 +90,12 @@ Result<void> check_chunks(hid_t dataset, hid_t how, const ArrayFacts& facts, con
         std::any_of(storage.chunk.begin(), storage.chunk.end(), [](auto n) { return n == 0; }))
         return bad_input(fmt::format("{} cannot be read: damaged?", facts.name), {path});
     if (bytes_of(storage.chunk, H5Tget_size(type)) > largest_chunk)
-        return bad_input(
-            fmt::format("{}: chunks of {} take more than 1 GB of memory each; repack the file: h5repack -l {}:CHUNK={} {} "
-                        "repacked.h5",
-                        described(facts), fmt::join(storage.chunk, " x "), facts.name, facts.shape.size() == 1 ? "65536" : "4096x64", path),
-            {path});
+        return bad_input(fmt::format("{}: chunks of {} take more than 1 GB of memory each; repack the file: h5repack -l {} {} "
+                                     "repacked.h5",
+                                     described(facts), fmt::join(storage.chunk, " x "),
+                                     shell_word(fmt::format("{}:CHUNK={}", facts.name, facts.shape.size() == 1 ? "65536" : "4096x64")),
+                                     shell_word(path)),
+                         {path});
     std::vector<hsize_t> across;
     for (std::size_t d = 0; d < storage.chunk.size(); ++d) across.push_back((facts.shape[d] - 1) / storage.chunk[d] + 1);
     const auto expected = bytes_of(across, 1);

@@ -40,6 +40,7 @@ struct Roles {
     static bool by_one(double step) { return step == 1; }
     static bool upwards(double step) { return step > 0; }
     static bool by_one_or_anew(double step) { return step == 1 || step < 0; }  // an index of each trial
+    static bool upwards_or_anew(double step) { return step != 0; }             // packets may be lost, and their number begin anew
 
     bool evenly_rises(std::size_t c) const {
         const auto& x = first[c].numbers;
@@ -95,8 +96,9 @@ struct Roles {
         const auto& column = columns[c];
         if (!column.unit.empty() || !holds_numbers(c)) return false;
         if (c == 0 && column.name.empty()) return counts(c, upwards);
+        if (names_sequence(column.name) && counts(c, upwards_or_anew)) return true;
         if (names_index(column.name)) return counts(c, by_one_or_anew);
-        return c == 0 && first[c].numbers.size() >= rows_of_an_index && counts(c, by_one);
+        return first[c].numbers.size() >= rows_of_an_index && counts(c, by_one);
     }
 
     bool is_whole(std::size_t c) const {

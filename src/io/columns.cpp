@@ -27,6 +27,17 @@ bool called(const Column& column, std::string_view name) {
     return !heading.unit.empty() && column.name == heading.name && column.unit == heading.unit;
 }
 
+bool is_newtons(std::string_view unit) {
+    constexpr std::string_view words[] = {"Newton", "newton", "Newtons", "newtons"};
+    return std::find(std::begin(words), std::end(words), unit) != std::end(words);
+}
+
+bool is_force(std::string_view unit) {
+    if (is_newtons(unit)) return true;
+    const auto known = unit.empty() || unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
+    return known && known->same_kind(*parse_unit("N"));
+}
+
 std::string_view without_quotes(std::string_view s) {
     s = trimmed(s);
     return s.size() > 2 && (s.front() == '\'' || s.front() == '"') && s.back() == s.front() ? s.substr(1, s.size() - 2) : s;
@@ -58,6 +69,13 @@ struct Chooser {
         for (std::size_t k = 0; k < data.size(); ++k)
             if (called(table.columns()[data[k]], wanted)) return k;
         return {};
+    }
+
+    /// What --channel takes for it: its number, but where that is the name of another, its name.
+    std::string option_of(std::size_t k) const {
+        auto number = std::to_string(k + 1);
+        const auto other = named(number);
+        return other && *other != k ? table.columns()[data[k]].name : number;
     }
 
     std::string name_of(std::size_t k) const { return fmt::format("'{}'", table.columns()[data[k]].name); }
@@ -92,27 +110,41 @@ struct Chooser {
         return {};
     }
 
-    /// All that may hold force.
+    /// All that may hold force: beside a column in newtons or another unit of force, none in a known unit that is none.
     Result<std::vector<std::size_t>> usual(std::vector<std::string>* remarks) const {
+        const auto in_force = [&](std::size_t c) { return table.columns()[c].left_out.empty() && is_force(table.columns()[c].unit); };
+        const bool some_in_force = std::any_of(data.begin(), data.end(), in_force);
+        const auto is_other = [&](const Column& c) {
+            return is_never_force(c.unit) || (some_in_force && !c.unit.empty() && is_unit(c.unit) && !is_force(c.unit));
+        };
         std::vector<std::size_t> chosen, other;  // other: of a unit that is no force
         for (const auto c : data)
-            if (table.columns()[c].left_out.empty()) (is_never_force(table.columns()[c].unit) ? other : chosen).push_back(c);
-        if (chosen.empty() && other.empty())
-            return bad_input(
-                fmt::format("no column holds readings: '{}' {}", table.columns()[data[0]].name, table.columns()[data[0]].left_out), {path});
+            if (table.columns()[c].left_out.empty()) (is_other(table.columns()[c]) ? other : chosen).push_back(c);
+        if (chosen.empty() && other.empty()) {
+            const auto known = std::find_if(data.begin(), data.end(), [&](std::size_t c) { return !table.columns()[c].evidence.empty(); });
+            const auto& column = table.columns()[known == data.end() ? data[0] : *known];
+            return bad_input(fmt::format("no column holds readings: '{}' {}{}{}", column.name, column.left_out,
+                                         column.evidence.empty() ? "" : "; ", column.evidence),
+                             {path});
+        }
         if (chosen.empty()) return other;
+        constexpr std::size_t most_told = 16;
+        std::size_t left_out = 0;
         for (std::size_t k = 0; remarks && k < data.size(); ++k) {
             const auto& c = table.columns()[data[k]];
-            if (remarks->size() > 16) continue;
-            if (c.left_out.empty() && is_never_force(c.unit))
+            if (c.left_out.empty() && !is_other(c)) continue;
+            if (++left_out > most_told) continue;
+            if (c.left_out.empty())
                 remarks->push_back(
                     fmt::format("{} is in {}, which is no force: left out (if the header is wrong, --channel {} --unit N takes it)",
-                                name_of(k), c.unit, k + 1));
+                                name_of(k), c.unit, option_of(k)));
             else if (c.left_out.starts_with("counts") || c.left_out.starts_with("tells"))
-                remarks->push_back(fmt::format("{} {}: left out (--channel {} takes it)", name_of(k), c.left_out, k + 1));
-            else if (!c.left_out.empty())
+                remarks->push_back(fmt::format("{} {}: left out (--channel {} takes it)", name_of(k), c.left_out, option_of(k)));
+            else
                 remarks->push_back(fmt::format("{} {}: left out", name_of(k), c.left_out));
         }
+        if (left_out > most_told)
+            remarks->push_back(fmt::format("{} more columns hold no force: left out (--channel NAME takes one)", left_out - most_told));
         return chosen;
     }
 
@@ -165,8 +197,7 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
     if (options.scale) return *options.scale;
     const std::string& unit = options.unit ? *options.unit : column.unit;
     if (unit.empty()) return 1.0;
-    constexpr std::string_view newtons[] = {"Newton", "newton", "Newtons", "newtons"};
-    if (std::find(std::begin(newtons), std::end(newtons), unit) != std::end(newtons)) return 1.0;
+    if (is_newtons(unit)) return 1.0;
     const auto known = unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
     if (known && known->same_kind(*parse_unit("N"))) return known->factor;
     const auto what = options.unit ? fmt::format("'{}' is read as {}", column.name, unit) : fmt::format("'{}' is in {}", column.name, unit);
@@ -174,6 +205,11 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
                      : unit == "raw" ? "which needs a scale"
                                      : "which is no unit of force known here (N, mN, gf, kgf, lbf ...)";
     const auto else_ = options.unit ? "" : ", --unit N if the header is wrong, or --channel if it is another column that holds the force";
+    if (unit == "g" || unit == "kg")  // of a load cell the weight, far more often than a mass
+        return bad_input(fmt::format("{}, which is a mass; --unit {}f takes it as the weight of that mass, --scale S takes what is read "
+                                     "times S as newtons{}",
+                                     what, unit, options.unit ? "" : ", --channel another column"),
+                         {path});
     return bad_input(fmt::format("{}, {}; say --scale S, so that what is read times S is newtons{}", what, why, else_), {path});
 }
 

@@ -30,7 +30,7 @@ Result<void> ForceRows::pull() {
     const auto rows = rows_.next(block_);
     if (!rows) return rows.error();
     ended_ = *rows == 0;
-    sums_.add(block_);
+    sums_.add(block_, paths_.size());
     for (std::size_t c = 0; c < paths_.size(); ++c)
         if (auto ok = ended_ ? paths_[c].finish(ready_[c]) : paths_[c].push(block_[c], ready_[c]); !ok) return of_channel(c, ok.error());
     if (!times_) return {};

@@ -26,7 +26,7 @@ class ForceRows {
     Result<void> pull();
 
 public:
-    /// `rows` give the channels of `paths` in their order and, if `timed`, the time behind them.
+    /// `rows` give the channels of `paths` in their order and, if `timed`, the time behind them; else a column behind them is not used.
     ForceRows(Rows rows, std::vector<ChannelPath> paths, std::string path, std::vector<std::string> names, bool timed);
 
     /// Makes sure of a row; false at the end.

@@ -23,12 +23,12 @@ constexpr std::string_view unit_words[] = {"counts",  "count",  "raw",  "adc",  
                                            "kg",      "g",      "Pa",   "kPa",     "mmHg",  "bar",     "psi",    "sec",     "seconds",
                                            "msec",    "millis", "usec", "micros",  "nsec",  "nanos",   "newton", "newtons", "Newton",
                                            "Newtons", "sek",    "Sek",  "minutes", "hours", "samples", "dB",     "kgf",     "gf"};
-constexpr std::string_view never_force[] = {"deg", "\u00b0", "rad",      "degC",   "degF",  "\u00b0C", "\u00b0F", "celsius",  "Celsius",
-                                            "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",      "kNm",
-                                            "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
+constexpr std::string_view never_force[] = {"hex",     "deg", "\u00b0", "rad",      "degC",   "degF",  "\u00b0C", "\u00b0F", "celsius",
+                                            "Celsius", "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",
+                                            "kNm",     "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
 
 /// Letters, and min, that more often mean something else behind a name (left_F, sensor_A) than a unit.
-constexpr std::string_view ambiguous_units[] = {"", "1", "%", "F", "A", "S", "T", "C", "K", "h", "min"};
+constexpr std::string_view ambiguous_units[] = {"", "1", "F", "A", "S", "T", "C", "K", "h", "min"};
 
 /// Does the name before it show that such a letter is a unit: temp_C, motor_current_A?
 bool shows_unit(std::string_view name, std::string_view letter) {
@@ -44,6 +44,31 @@ bool is_suffix_unit(std::string_view name, std::string_view s) {
     return is_unit(s);
 }
 
+/// A quote within quotes stands twice.
+std::string with_single_quotes(std::string text) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (text[k] == '"' && k + 1 < text.size() && text[k + 1] == '"') ++k;
+        text[kept++] = text[k];
+    }
+    text.resize(kept);
+    return text;
+}
+
+/// The unit of a column that is named after a unit of time alone: millis, header.stamp.nsecs; "" for other names.
+std::string_view time_unit_named(std::string_view name) {
+    constexpr std::pair<std::string_view, std::string_view> words[] = {
+        {"sec", "s"}, {"secs", "s"},    {"seconds", "s"},   {"sekunden", "s"},      {"msec", "ms"},    {"msecs", "ms"},
+        {"ms", "ms"}, {"millis", "ms"}, {"millisec", "ms"}, {"milliseconds", "ms"}, {"usec", "us"},    {"usecs", "us"},
+        {"us", "us"}, {"micros", "us"}, {"microsec", "us"}, {"microseconds", "us"}, {"nsec", "ns"},    {"nsecs", "ns"},
+        {"ns", "ns"}, {"nanos", "ns"},  {"nanosec", "ns"},  {"nanoseconds", "ns"},  {"minutes", "min"}};
+    if (const auto dot = name.rfind('.'); dot != name.npos) name.remove_prefix(dot + 1);
+    if (name.size() == 2 && name != lower(name)) return "";  // MS may be a sensor
+    for (const auto& [word, unit] : words)
+        if (same_letters(name, word)) return unit;
+    return "";
+}
+
 std::string_view without_slash(std::string_view name) {
     name = trimmed(name);
     return name.size() > 1 && name.ends_with('/') ? trimmed(name.substr(0, name.size() - 1)) : name;
@@ -56,9 +81,9 @@ bool is_unit(std::string_view word) {
 }
 
 Column parse_heading(std::string_view written) {
-    auto text = utf8_text(written);
-    for (std::size_t at = 0; (at = text.find("\"\"", at)) != text.npos; ++at) text.erase(at, 1);  // a quote within quotes
+    const auto text = with_single_quotes(utf8_text(written));
     const std::string_view field = text;
+    if (const auto unit = time_unit_named(field); !unit.empty()) return {text, std::string(unit)};
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})
         if (const auto at = field.rfind(open); at != std::string_view::npos && field.ends_with(close) && at > 0)
             return {std::string(without_slash(field.substr(0, at))), std::string(trimmed(field.substr(at + 1, field.size() - at - 2)))};
@@ -117,6 +142,11 @@ bool names_index(std::string_view name) {
     auto word = lower(name);
     if (const auto dot = word.rfind('.'); dot != word.npos && dot + 1 < word.size()) word = word.substr(dot + 1);  // field.header.seq
     return in_list(words, word);
+}
+
+bool names_sequence(std::string_view name) {
+    const auto word = lower(name);
+    return word.ends_with("sequence") || word == "seq" || word.ends_with("_seq") || word.ends_with(".seq");
 }
 
 bool names_trial(std::string_view name) {

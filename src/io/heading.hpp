@@ -20,6 +20,9 @@ bool may_name_time(std::string_view name);
 /// Is it the number of the row? index, sample, frame, seq ...
 bool names_index(std::string_view name);
 
+/// Is it the number of a packet, which rises by any steps? RDTSequence, header.seq ...
+bool names_sequence(std::string_view name);
+
 /// Does it tell trials apart? trial, run, subject ...
 bool names_trial(std::string_view name);
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <vector>
 
+#include "io/heading.hpp"
+#include "io/samples.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -15,13 +17,15 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr std::size_t most_document = std::size_t{64} << 20;  // bytes that are parsed at once
 constexpr int most_depth = 16;
 
-/// Python writes NaN and Infinity, which JSON has not: null in their place. Empty if brackets go too deep.
-std::optional<std::string> plain_json(std::string_view text) {
+/// Python writes NaN and Infinity, which JSON has not: null in their place. Empty if brackets go too deep. `read`: how much of the text is
+/// read when `most` bytes have been made of it.
+std::optional<std::string> plain_json(std::string_view text, std::size_t most = std::string_view::npos, std::size_t* read = nullptr) {
     std::string out;
-    out.reserve(text.size());
+    out.reserve(std::min(text.size(), most));
     bool quoted = false;
     int depth = 0;
-    for (std::size_t k = 0; k < text.size(); ++k) {
+    std::size_t k = 0;
+    for (; k < text.size() && out.size() < most; ++k) {
         const char c = text[k];
         if (quoted) {
             out += c;
@@ -40,32 +44,88 @@ std::optional<std::string> plain_json(std::string_view text) {
         else
             out += c;
     }
+    if (read) *read = k;
     return out;
 }
+
+/// Builds the document as nlohmann's own reader does, but appends members without looking for one of the same name: an object of many
+/// members would take time quadratic in their number.
+class DocumentBuilder {
+    using Members = std::vector<std::pair<const std::string, OrderedJson>>;
+    static constexpr std::size_t values_between_looks = 4096;
+    const std::function<bool()>& keep_on_;
+    std::vector<OrderedJson*> open_;  // the containers about the next value
+    std::string key_;
+    std::size_t values_ = 0;
+
+    bool add(OrderedJson value) {
+        if (++values_ % values_between_looks == 0 && !keep_on_()) return interrupted = true, false;
+        const bool is_container = value.is_structured();
+        OrderedJson* at = &document;
+        if (open_.empty()) {
+            document = std::move(value);
+        } else if (open_.back()->is_array()) {
+            auto& list = open_.back()->get_ref<OrderedJson::array_t&>();
+            list.push_back(std::move(value));
+            at = &list.back();
+        } else {
+            auto& members = static_cast<Members&>(open_.back()->get_ref<OrderedJson::object_t&>());
+            members.emplace_back(std::move(key_), std::move(value));
+            at = &members.back().second;
+        }
+        if (is_container) open_.push_back(at);
+        return true;
+    }
+
+public:
+    explicit DocumentBuilder(const std::function<bool()>& keep_on) : keep_on_(keep_on) {}
+    OrderedJson document;
+    std::optional<std::size_t> wrong_at;  ///< the byte of a syntax error
+    bool interrupted = false;
+
+    bool null() { return add(nullptr); }
+    bool boolean(bool x) { return add(x); }
+    bool number_integer(OrderedJson::number_integer_t x) { return add(x); }
+    bool number_unsigned(OrderedJson::number_unsigned_t x) { return add(x); }
+    bool number_float(OrderedJson::number_float_t x, const std::string&) { return add(x); }
+    bool string(std::string& x) { return add(std::move(x)); }
+    bool binary(OrderedJson::binary_t&) { return false; }
+    bool start_object(std::size_t) { return add(OrderedJson::object()); }
+    bool start_array(std::size_t) { return add(OrderedJson::array()); }
+    bool key(std::string& x) { return key_ = std::move(x), true; }
+    bool end_object() { return open_.pop_back(), true; }
+    bool end_array() { return open_.pop_back(), true; }
+    bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& e) {
+        constexpr int first_of_syntax = 100, behind_syntax = 200;
+        if (e.id >= first_of_syntax && e.id < behind_syntax) wrong_at = byte;
+        return false;
+    }
+};
 
 class JsonReader {
     using Take = std::function<Result<void>(std::span<const JsonField>, long)>;
     Lines& lines_;
     const Take& take_;
+    const std::function<bool()>& keep_on_;
+    JsonFacts* facts_;
     std::vector<JsonField> fields_;
-    OrderedJson nothing_;
 
     Error wrong(std::string sentence, long line = 0) const { return bad_input(std::move(sentence), {lines_.path(), line}); }
 
     Result<OrderedJson> parse(std::string_view text, long line) const {
         const auto plain = plain_json(text);
         if (!plain) return wrong(fmt::format("JSON that is nested more than {} deep is no table", most_depth), line);
-        try {
-            return OrderedJson::parse(*plain);
-        } catch (const nlohmann::json::parse_error& e) {
-            const auto at = std::min<std::size_t>(e.byte, plain->size());
-            const auto above = std::count(plain->begin(), plain->begin() + static_cast<std::ptrdiff_t>(at), '\n');
-            const auto column = at - (above > 0 ? plain->rfind('\n', at - 1) + 1 : 0);
-            return bad_input("this is no whole JSON: something else was expected here",
-                             {lines_.path(), std::max(line, 1L) + static_cast<long>(above), static_cast<long>(column)});
-        } catch (const nlohmann::json::exception&) {
-            return wrong("this JSON holds a number that is too large", line);
-        }
+        DocumentBuilder builder(keep_on_);
+        if (OrderedJson::sax_parse(*plain, &builder)) return std::move(builder.document);
+        if (builder.interrupted) return Error{Code::interrupted, "interrupted"};
+        if (!builder.wrong_at) return wrong("this JSON holds a number that is too large", line);
+        std::size_t at = 0;  // in the text as it is written
+        static_cast<void>(plain_json(text, std::min(*builder.wrong_at, plain->size()), &at));
+        const auto before = text.substr(0, at);
+        const auto above = std::count(before.begin(), before.end(), '\n');
+        const auto column = at - (above > 0 ? before.rfind('\n', at - 1) + 1 : 0);
+        return bad_input("this is no whole JSON: something else was expected here",
+                         {lines_.path(), std::max(line, 1L) + static_cast<long>(above), static_cast<long>(column)});
     }
 
     void flatten(const std::string& name, const OrderedJson& value) {
@@ -126,11 +186,39 @@ class JsonReader {
         }
     }
 
+    /// A rate and a unit beside the table.
+    void read_facts(const OrderedJson& object) {
+        for (const auto& [key, value] : object.items()) {
+            if (value.is_number() && names_rate(key) && value.get<double>() > 0 && std::isfinite(value.get<double>()))
+                facts_->rate = value.get<double>();
+            if (value.is_string() && (key == "unit" || key == "units") && is_unit(value.get<std::string>()))
+                facts_->unit = value.get<std::string>();
+        }
+    }
+
+    /// Lists of words alone that are not as long as those with numbers do not belong to the table.
+    void leave_out_other_lists(std::vector<JsonColumn>& columns) const {
+        const auto has_numbers = [](const JsonColumn& c) {
+            return std::any_of(c.values.begin(), c.values.end(), [](const OrderedJson* v) { return v->is_number(); });
+        };
+        const auto numbers = std::find_if(columns.begin(), columns.end(), has_numbers);
+        if (numbers == columns.end()) return;
+        const auto rows = numbers->values.size();
+        std::erase_if(columns, [&](const JsonColumn& c) {
+            const bool other = c.values.size() != rows && !has_numbers(c);
+            if (other && facts_)
+                facts_->remarks.push_back(
+                    fmt::format("'{}' holds {} words, and the table has {} rows: left out", c.name, c.values.size(), rows));
+            return other;
+        });
+    }
+
     Result<void> give_columns(const OrderedJson& object) {
         std::vector<JsonColumn> columns;
         find_columns("", object, columns);
         if (columns.empty())
             return wrong("no table in this JSON: a record a line, a list of records, or an object of lists as long as one another is one");
+        leave_out_other_lists(columns);
         const auto rows = columns[0].values.size();
         for (const auto& c : columns)
             if (c.values.size() != rows)
@@ -149,6 +237,7 @@ class JsonReader {
         if (!all.is_object()) return wrong("no table in this JSON: it holds a single value");
         if (all.contains("columns") && all["columns"].is_array() && all.contains("data") && all["data"].is_array())
             return give_split(all["columns"], all["data"]);
+        if (facts_) read_facts(all);
         const OrderedJson* records = nullptr;
         std::size_t lists = 0;
         for (const auto& member : all)
@@ -175,11 +264,11 @@ class JsonReader {
         }
         if (auto ok = lines_.rewind(); !ok) return ok.error();
         if (lines == 0 || !alike || first.size() > most_document) return false;
-        const auto plain = plain_json(first);
-        const auto whole = plain ? OrderedJson::parse(*plain, nullptr, false) : OrderedJson(OrderedJson::value_t::discarded);
-        if (whole.is_discarded() || !whole.is_structured()) return false;
+        const auto whole = parse(first, 1);
+        if (!whole && whole.error().code == Code::interrupted) return whole.error();
+        if (!whole || !whole->is_structured()) return false;
         if (lines > 1) return true;
-        return whole.is_object() && std::none_of(whole.begin(), whole.end(), [](const OrderedJson& v) { return v.is_structured(); });
+        return whole->is_object() && std::none_of(whole->begin(), whole->end(), [](const OrderedJson& v) { return v.is_structured(); });
     }
 
     Result<void> read_lines() {
@@ -214,7 +303,8 @@ class JsonReader {
     }
 
 public:
-    JsonReader(Lines& lines, const Take& take) : lines_(lines), take_(take) {}
+    JsonReader(Lines& lines, const Take& take, const std::function<bool()>& keep_on, JsonFacts* facts)
+        : lines_(lines), take_(take), keep_on_(keep_on), facts_(facts) {}
 
     Result<void> read() {
         const auto by_line = are_json_lines();
@@ -225,8 +315,9 @@ public:
 
 }  // namespace
 
-Result<void> read_json_records(Lines& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take) {
-    return JsonReader(lines, take).read();
+Result<void> read_json_records(Lines& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
+                               const std::function<bool()>& keep_on, JsonFacts* facts) {
+    return JsonReader(lines, take, keep_on, facts).read();
 }
 
 Result<bool> begins_like_json(Lines& lines) {

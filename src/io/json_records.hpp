@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/lines.hpp"
 
@@ -16,8 +18,18 @@ struct JsonField {
     const nlohmann::ordered_json* value;  ///< a number, a word, true, false or null
 };
 
-/// Gives the records one after another; `line`: of a record of JSON lines, else 0. An error of `take` ends it.
-Result<void> read_json_records(Lines&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take);
+/// What a document says beside its table.
+struct JsonFacts {
+    std::optional<double> rate = {};  ///< Hz: a number called fs, rate ...
+    std::string unit = {};            ///< of columns that have none in their name: a word called unit
+    std::vector<std::string> remarks = {};
+};
+
+/// Gives the records one after another; `line`: of a record of JSON lines, else 0. An error of `take` ends it, and so does a `keep_on`
+/// that returns false, which is asked every few thousand values.
+Result<void> read_json_records(
+    Lines&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
+    const std::function<bool()>& keep_on = [] { return true; }, JsonFacts* facts = nullptr);
 
 /// Does the text begin as JSON does? Rewinds it.
 Result<bool> begins_like_json(Lines&);

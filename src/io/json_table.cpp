@@ -28,6 +28,7 @@ class JsonTable final : public Table {
     std::unordered_map<std::string, std::size_t> called_;
     std::vector<long> lines_;  // of the records, if each has one
     ColumnRoles roles_;
+    JsonFacts facts_;
     std::size_t rows_ = 0, next_ = 0, block_ = 0, numbers_ = 0;
 
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -52,8 +53,8 @@ class JsonTable final : public Table {
     double number_of(const nlohmann::ordered_json& value, Values& v) {
         FirstFields* const first = rows_ < rows_looked_at ? &v.first : nullptr;
         if (value.is_string()) return number_of(value.get_ref<const std::string&>(), v, first);
-        const double x = value.is_number() ? value.get<double>() : value.is_boolean() ? (value.get<bool>() ? 1 : 0) : none;
-        if (first) std::isnan(x) ? first->add_other(first->nothing) : first->add_number(x);
+        const double x = value.is_number() ? value.get<double>() : none;
+        if (first) std::isnan(x) ? first->add_other(value.is_boolean() ? first->words : first->nothing) : first->add_number(x);
         return x;
     }
 
@@ -81,8 +82,12 @@ class JsonTable final : public Table {
 public:
     explicit JsonTable(std::string path) : path_(std::move(path)) {}
 
-    Result<void> open(Lines& lines) {
-        if (auto ok = read_json_records(lines, [this](auto fields, long line) { return add(fields, line); }); !ok) return ok;
+    Result<void> open(Lines& lines, const std::function<bool()>& keep_on) {
+        const auto take = [this, &keep_on](auto fields, long line) {
+            if (rows_ % rows_a_block == 0 && !keep_on()) return Result<void>(Error{Code::interrupted, "interrupted"});
+            return add(fields, line);
+        };
+        if (auto ok = read_json_records(lines, take, keep_on, &facts_); !ok) return ok;
         if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
         if (rows_ > most_json_numbers / columns_.size())
             return bad_input("more numbers than fit into memory; CSV is read in blocks", {path_});
@@ -96,6 +101,8 @@ public:
             return !c.name.starts_with("ch") || c.name.find_first_not_of("0123456789", 2) != c.name.npos;
         });
         roles_ = assign_roles(columns_, first, named);
+        for (std::size_t c = 0; c < columns_.size(); ++c)
+            if (columns_[c].unit.empty() && columns_[c].left_out.empty() && c != roles_.time) columns_[c].unit = facts_.unit;
         if (roles_.time && columns_[*roles_.time].stamps) {
             const auto& s = *values_[*roles_.time].stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
@@ -108,6 +115,8 @@ public:
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return roles_.time; }
     bool time_is_guessed() const override { return roles_.time_is_guessed; }
+    std::optional<double> rate() const override { return facts_.rate; }
+    std::vector<std::string> remarks() const override { return facts_.remarks; }
     std::vector<std::string> time_remarks() const override { return roles_.remarks; }
     double done() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
@@ -142,9 +151,9 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Table>> open_json_table(Lines lines) {
+Result<std::unique_ptr<Table>> open_json_table(Lines lines, const std::function<bool()>& keep_on) {
     auto table = std::make_unique<JsonTable>(lines.path());
-    if (auto ok = table->open(lines); !ok) return ok.error();
+    if (auto ok = table->open(lines, keep_on); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }
 

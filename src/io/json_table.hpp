@@ -6,6 +6,6 @@
 
 namespace corpuscle {
 
-Result<std::unique_ptr<Table>> open_json_table(Lines);
+Result<std::unique_ptr<Table>> open_json_table(Lines, const std::function<bool()>& keep_on);
 
 }  // namespace corpuscle

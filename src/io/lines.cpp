@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <utility>
+
+#include "io/foreign_format.hpp"
+#include "signal/text.hpp"
 
 namespace corpuscle {
 
@@ -63,6 +67,25 @@ Result<void> Lines::rewind() {
     if (auto ok = input_->rewind(); !ok) return ok;
     filled_ = 0, at_ = 0, number_ = 0, read_ = 0, ended_ = false, lost_ = false;
     return {};
+}
+
+std::string Lines::copy_command(const std::string& filter, const std::string& mark) const {
+    namespace fs = std::filesystem;
+    std::error_code status;
+    if (!fs::is_regular_file(path_, status) || path_.starts_with("/dev/")) return "";
+    auto name = fs::path(path_).filename();
+    if (lower(name.extension().string()) == ".gz") name = name.stem();
+    const auto stem = name.stem().string() + mark, extension = name.extension().string();
+    const auto is_there = [&](const fs::path& file) {  // also beside the recording, which may be in another folder
+        return fs::exists(fs::symlink_status(file, status)) || fs::exists(fs::symlink_status(fs::path(path_).parent_path() / file, status));
+    };
+    std::string copy = stem + extension;
+    for (int k = 2; is_there(copy); ++k) copy = fmt::format("{}-{}{}", stem, k, extension);
+    auto commands = input_->commands();
+    commands.push_back(filter);
+    std::string line = fmt::format("{} < {}", commands[0], shell_word(path_));
+    for (std::size_t k = 1; k < commands.size(); ++k) line += " | " + commands[k];
+    return fmt::format("{} > {}", line, shell_word(copy));
 }
 
 }  // namespace corpuscle

@@ -32,6 +32,9 @@ public:
     Result<void> rewind();
     long number() const { return number_; }
     const std::string& path() const { return path_; }
+    /// The shell's command that runs a filter, such as "head -n 9", on this text and writes a file which is not there yet, named after
+    /// this one and `mark`: "head -n 9 < press.csv > press-first.csv"; "" if there is no file to read it from.
+    std::string copy_command(const std::string& filter, const std::string& mark) const;
     double done() const { return read_ > 0 ? input_->done() * (read_ - static_cast<double>(filled_ - at_)) / read_ : input_->done(); }
 };
 

@@ -105,10 +105,11 @@ void SaturationCheck::add(std::span<const double> x) {
     }
 }
 
-void SumCheck::add(const std::vector<std::vector<double>>& block) {
-    if (block.size() > most_channels) return;
-    first_.resize(block.size());
-    for (std::size_t c = 0; c < block.size(); ++c)
+void SumCheck::add(const std::vector<std::vector<double>>& block, std::size_t channels) {
+    channels = std::min(channels, block.size());
+    if (channels > most_channels) return;
+    first_.resize(channels);
+    for (std::size_t c = 0; c < channels; ++c)
         for (std::size_t k = 0; k < block[c].size() && first_[c].size() < rows; ++k) first_[c].push_back(block[c][k]);
 }
 

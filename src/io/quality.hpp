@@ -56,8 +56,8 @@ public:
     struct Sum {
         std::size_t channel, from, to;
     };
-    /// A block of rows, one vector a channel.
-    void add(const std::vector<std::vector<double>>& block);
+    /// A block of rows, one vector a channel; `channels`: how many of the vectors are.
+    void add(const std::vector<std::vector<double>>& block, std::size_t channels = most_channels + 1);
     std::vector<Sum> found() const;
 };
 

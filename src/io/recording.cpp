@@ -219,8 +219,9 @@ public:
         if (!paths) return paths.error();
         std::vector<std::string> names;
         for (const auto& c : channels_) names.push_back(c.name);
-        rows_.emplace(Rows(*table_, options_, columns, row_clock_.by_times ? *time : std::nullopt), std::move(*paths), path_,
-                      std::move(names), row_clock_.by_times);
+        const bool with_times = row_clock_.by_times || row_clock_.drops_untimed;
+        rows_.emplace(Rows(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*paths), path_, std::move(names),
+                      row_clock_.by_times);
         return {};
     }
 
@@ -290,7 +291,9 @@ Result<std::unique_ptr<Source>> open_recording(const std::string& path, const Re
         std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
         if (auto refusal = foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
     }
-    auto table = format.open(path, options.table);
+    auto table_options = options.table;
+    table_options.keep_on = [&] { return options.keep_on(0); };
+    auto table = format.open(path, table_options);
     if (!table) return table.error();
     if (options.table.transpose == true && !(*table)->orientation_is_known()) table = transposed(std::move(*table), path);
     if (!table) return table.error();

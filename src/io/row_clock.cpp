@@ -38,7 +38,7 @@ Result<Times> check_times(Table& table, Rows rows, const RowClock& clock, const 
                 continue;
             }
             if (check.count() > 0 && t < last && !options.rate) {
-                const auto trials = table.one_trial();
+                const auto trials = table.one_trial(rows.table_row(k));
                 return bad_input(fmt::format("time goes back, from {:g} s to {:g} s{}", last, t,
                                              trials.empty() ? "; --rate takes the rows as evenly spaced" : ": " + trials),
                                  rows.place(k));
@@ -105,14 +105,33 @@ Result<RowClock> without_times(Table& table, double rate, const Error& why, RowC
 }
 
 /// Times without a unit are seconds; a rate that no sensor of force has is told.
-void doubt_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, bool since_1970,
+void doubt_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, bool is_dated,
                    std::vector<std::string>& remarks) {
-    if (column.unit.empty() && !options.time_unit && !options.rate && clock.rate() < 5 && !since_1970)
-        remarks.push_back(fmt::format("no unit for '{}': taken as seconds, which makes {}; say --time-unit ms if they are milliseconds",
-                                      column.name, hertz(clock.rate())));
+    const double rate = clock.rate();
+    if (!column.unit.empty() || options.time_unit || options.rate || is_dated || (rate >= 5 && rate <= 1e6)) return;
+    const auto [unit, word] = rate > 1e6     ? std::pair{"min", "minutes"}
+                              : rate >= 5e-3 ? std::pair{"ms", "milliseconds"}
+                              : rate >= 5e-6 ? std::pair{"us", "microseconds"}
+                                             : std::pair{"ns", "nanoseconds"};
+    remarks.push_back(fmt::format("no unit for '{}': taken as seconds, which makes {}; say --time-unit {} if they are {}{}", column.name,
+                                  hertz(rate), unit, word, rate > 1e6 ? ", or the true rate with --rate" : ""));
 }
 
-/// Times since 1970 (2001 to 2065), by their size and step: in s, ms, us or ns, and counted from the first.
+/// Days as spreadsheets count them (1968 to 2118) or MATLAB does (1889 to 2160), where the same numbers as seconds would make more than
+/// 100 kHz.
+bool find_serial_days(const std::vector<double>& times, double step, const std::string& name, RowClock& out) {
+    const double first = times[0];
+    const bool spreadsheet = first >= 25'000 && first < 80'000, matlab = first >= 690'000 && first < 790'000;
+    if (!(spreadsheet || matlab) || !(step > 0 && step < 1e-5)) return false;
+    constexpr double day = 86'400;
+    out.seconds_per_unit = day, out.origin = first;
+    out.remarks.push_back(fmt::format("the times in '{}' are days as {} counts them; 0 s is {}, the first of them", name,
+                                      spreadsheet ? "a spreadsheet" : "MATLAB",
+                                      format_instant((first - (spreadsheet ? 25'569 : 719'529)) * day)));
+    return true;
+}
+
+/// Times since 1970 (2001 to 2065), by their size and step: in s, ms, us or ns, and counted from the first. Also serial days.
 Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit_is_known, RowClock& out) {
     std::vector<std::vector<double>> first(1);
     const auto rows = table.read({column}, 64, first);
@@ -123,6 +142,7 @@ Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit
         if (std::isfinite(first[0][k])) times.push_back(first[0][k]);
     if (times.size() < 2) return {};
     const double step = (times.back() - times[0]) / static_cast<double>(times.size() - 1);
+    if (!unit_is_known && find_serial_days(times, step, table.columns()[column].name, out)) return {};
     for (const auto& [name, seconds] : {std::pair{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
         const double factor = unit_is_known ? unit : seconds, since = times[0] * factor;
         if (!(since >= 1e9 && since < 3e9 && step >= 0 && step * factor <= 10)) continue;
@@ -174,6 +194,9 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     if (!times && times.error().code == Code::interrupted) return times.error();
     if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
+    if (times->count() < 1 && options.rate && drop)
+        return without_times(table, *options.rate, bad_input(fmt::format("'{}' holds none", table.columns()[*column].name)), out);
+    out.drops_untimed = drop;
     if (times->gaps() * 20 < times->count()) out.gaps = times->gaps();  // more than that is how this clock runs
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.column].name;

@@ -15,6 +15,7 @@ struct RowClock {
     double seconds_per_unit = 1;        ///< of that column
     double origin = 0;                  ///< of that column, in its unit: what counts as 0 s
     bool by_times = false;              ///< rows stand at their own uneven times; else on the clock
+    bool drops_untimed = false;         ///< rows whose time is not readable are left out
     Clock clock;
     std::int64_t gaps = 0;  ///< steps longer than one and a half times the median step
     std::vector<std::string> remarks;

@@ -27,7 +27,9 @@ public:
     Result<std::size_t> next(std::vector<std::vector<double>>& block);
 
     /// Where row `row` of the last block stands.
-    Place place(std::size_t row) const { return table_.place(drops() ? places_[row] : row); }
+    Place place(std::size_t row) const { return table_.place(table_row(row)); }
+    /// Its number in the table's last block.
+    std::size_t table_row(std::size_t row) const { return drops() ? places_[row] : row; }
 
     std::int64_t out_of_range = 0, dropped = 0;
 };

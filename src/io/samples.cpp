@@ -25,6 +25,12 @@ class SamplesTable final : public Table {
     Result<void> check(std::vector<double>& values, std::size_t column) {
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (std::isfinite(values[k])) continue;
+            const auto field = gaps_allowed_ ? std::nullopt : samples_->place_of(next_ + static_cast<std::int64_t>(k), column);
+            if (field)
+                return bad_input(fmt::format("field {} is no number; --bad-fields interpolate fills it in, --bad-fields drop leaves this "
+                                             "sample out of every channel",
+                                             field->field),
+                                 field->place);
             if (!gaps_allowed_)
                 return bad_input(fmt::format("row {}: column '{}': {} where a number should be", next_ + static_cast<std::int64_t>(k) + 1,
                                              columns()[column].name, values[k]),

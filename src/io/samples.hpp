@@ -18,10 +18,19 @@ struct SamplesFacts {
     std::vector<std::string> remarks = {};
 };
 
+/// Where a reading stands in a file of text: which field of which line.
+struct FieldPlace {
+    Place place;
+    std::size_t field;
+};
+
 class Samples {
 public:
     virtual ~Samples() = default;
     virtual const SamplesFacts& facts() const = 0;
+    virtual std::optional<FieldPlace> place_of(std::int64_t row, std::size_t column) const {
+        return static_cast<void>(row), static_cast<void>(column), std::nullopt;
+    }
     /// `rows` rows from number `first` on, of column wanted[i] into out[i]. All of them are there.
     virtual Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                                std::vector<std::vector<double>>& out) = 0;

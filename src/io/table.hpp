@@ -2,6 +2,7 @@
 // What every file of samples is to us: named columns of numbers, read in blocks, as often as needed.
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@ struct Column {
     std::string unit;  ///< as the file says it; "" if it says none
     /// Why it is no channel unless it is asked for by name, as a sentence says it ("holds words"); "": it may be one.
     std::string left_out = {};
-    bool stamps = false;  ///< dates or times of day, read as seconds from the first
+    bool stamps = false;        ///< dates or times of day, read as seconds from the first
+    std::string evidence = {};  ///< of a column left out for its words: the first of them, its place, and what it should look like
 };
 
 inline constexpr std::size_t rows_a_block = 4096;
@@ -26,6 +28,8 @@ struct TableOptions {
     std::optional<std::string> dataset = {};  ///< which of a file's arrays is meant: "/force/data" in HDF5, "force" in NPZ
     std::optional<bool> transpose = {};       ///< rows are channels; false: rows are samples, even if there are fewer
     std::size_t skip = 0;                     ///< lines of a file of text before its table
+    /// Asked while a file that is read whole is opened; false stops it.
+    std::function<bool()> keep_on = [] { return true; };
 };
 
 class Table {
@@ -52,8 +56,11 @@ public:
     virtual std::vector<std::string> remarks() const { return {}; }
     /// and of the time column that it shows.
     virtual std::vector<std::string> time_remarks() const { return {}; }
-    /// If the rows of several trials may stand one under another: what makes a file of one of them. Else "".
-    virtual std::string one_trial() const { return {}; }
+    /// If a new trial begins at row `row` of the last block, where time goes back: the command that makes a file of one trial. Else "".
+    /// The table must be rewound after that.
+    virtual std::string one_trial(std::size_t row) { return static_cast<void>(row), std::string(); }
+    /// Where each row begins with a word, its name: these words. The table must be rewound after that.
+    virtual Result<std::vector<std::string>> row_names() { return std::vector<std::string>(); }
     /// How much of the file has been read, 0 to 1.
     virtual double done() const = 0;
     /// Where row number `row` of the last block stands, for messages.

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
-#include "io/foreign_format.hpp"
 #include "io/labview.hpp"
 #include "signal/text.hpp"
 
@@ -34,13 +34,12 @@ Result<std::vector<HeadLine>> read_head(Lines& lines, std::size_t skip) {
         if (lines.number() <= static_cast<long>(skip)) continue;
         if (line.find('\0') != line.npos)
             return bad_input("this is no text: it has NUL bytes, as binary files have", {lines.path(), lines.number()});
-        if (line.find('\r') != line.npos && line.find('"') == line.npos)
-            return bad_input(
-                fmt::format(
-                    "its lines end in a way that only old Macs know (CR alone); make a file of it that is read: tr '\\r' '\\n' < {} "
-                    "> lines.csv",
-                    shell_word(lines.path())),
-                {lines.path(), lines.number()});
+        if (line.find('\r') != line.npos && line.find('"') == line.npos) {
+            const auto command = lines.copy_command("tr '\\r' '\\n'", "-lines");
+            return bad_input(fmt::format("its lines end in a way that only old Macs know (CR alone); make a file of it with line feeds{}{}",
+                                         command.empty() ? "" : ": ", command),
+                             {lines.path(), lines.number()});
+        }
         if (is_comment(line)) {
             if (const auto s = trimmed(line); !s.empty()) comment = trimmed(s.substr(1));
             gap = true;
@@ -147,6 +146,43 @@ class FormFinder {
         return k + 1 == head_.size() || values_in(k + 1, form_.dialect, columns) == first;
     }
 
+    /// A header of numbers, as pandas writes it for columns without names: nothing above the index, then 0, 1, 2 ...
+    static bool are_numbered(const Fields& fields) {
+        bool numbered = fields.size() > 1 && fields[0].empty();
+        for (std::size_t c = 1; c < fields.size(); ++c) numbered = numbered && fields[c] == std::to_string(c - 1);
+        return numbered;
+    }
+
+    /// A word and then values in every row: how many fields each has; 0: it is not so.
+    std::size_t fields_of_named_rows() {
+        const auto d = dialect_of(head_[0].text);
+        const auto columns = values_in(0, d).size();
+        if (columns < 2) return 0;
+        for (std::size_t k = 0; k < head_.size(); ++k) {
+            const auto values = values_in(k, d, columns);
+            if (values.size() != columns || fields_[0].empty() || !std::isalpha(static_cast<unsigned char>(fields_[0][0]))) return 0;
+            for (std::size_t c = 0; c < columns; ++c)
+                if (values[c] == (c == 0) && !(c > 0 && fields_[c].empty())) return 0;
+        }
+        return columns;
+    }
+
+    /// Rows that begin with their names, and no header.
+    bool take_named_rows() {
+        const auto columns = fields_of_named_rows();
+        if (columns == 0) return false;
+        form_.dialect = dialect_of(head_[0].text);
+        form_.columns.assign(columns, Column{});
+        return form_.rows_have_names = true;
+    }
+
+    /// A row of times that says so, and channels as rows under it.
+    bool are_rows_channels() {
+        const auto d = dialect_of(head_[0].text);
+        d.split(head_[0].text, fields_);
+        return head_.size() > 1 && names_time(parse_heading(fields_[0]).name) && fields_of_named_rows() > 0;
+    }
+
     /// The table as most files have it: from the first line on, with a header or none.
     struct Plain {
         std::size_t columns = 0;
@@ -157,7 +193,8 @@ class FormFinder {
         form_.dialect = dialect_of(head_[0].text);
         split_row(form_.dialect, head_[0].text, 0, fields_);
         p.columns = fields_.size();
-        p.header = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !is_value(f, form_.dialect); });
+        p.header = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !is_value(f, form_.dialect); }) ||
+                   (head_.size() > 1 && are_numbered(fields_));
         if (p.header && is_row_under_comment(0, p.columns)) p.header = false;
         p.units = p.header && head_.size() > 2 && is_unit_row(1, p.columns, form_.dialect);
         p.whole = !p.header || head_.size() == 1 || are_rows(p.units ? 2 : 1, p.columns, form_.dialect);
@@ -207,7 +244,8 @@ class FormFinder {
             split_row(d, head_[k].text, 0, fields_);
             const auto columns = fields_.size();
             const bool alike = columns == plain.columns && d.separator == plain_dialect.separator;
-            if ((alike && (k < 2 || !is_sure_header(k - 1, columns, d))) || !are_rows(k, columns, d)) continue;
+            const auto is_under_header = [&] { return is_sure_header(k - 1, columns, d) || (k > 2 && is_unit_row(k - 1, columns, d)); };
+            if ((alike && (k < 2 || !is_under_header())) || !are_rows(k, columns, d)) continue;
             if (head_.size() - k < 2 || !may_stand_before(k, plain_dialect)) continue;
             form_.dialect = d;
             std::size_t header = k - 1;
@@ -269,14 +307,13 @@ class FormFinder {
         return first;
     }
 
-    void find_trial_column() {
-        for (std::size_t c = form_.columns.size(); c-- > 0;)
-            if (c != form_.roles.time && names_trial(form_.columns[c].name)) form_.trial = c;
-        for (std::size_t c = 0; c < form_.columns.size() && form_.named && !form_.trial; ++c)  // else the first word may
-            if (c != form_.roles.time && form_.columns[c].left_out.starts_with("holds words")) form_.trial = c;
-        if (!form_.trial || row_ >= head_.size()) return;
-        split_row(form_.dialect, head_[row_].text, form_.columns.size(), fields_);
-        if (*form_.trial < fields_.size()) form_.first_trial = fields_[*form_.trial];
+    void find_trial_columns() {
+        const auto add = [&](const auto& suits) {
+            for (std::size_t c = 0; c < form_.columns.size(); ++c)
+                if (c != form_.roles.time && suits(form_.columns[c])) form_.trials.push_back(c);
+        };
+        add([](const Column& c) { return names_trial(c.name); });
+        if (form_.named) add([](const Column& c) { return !names_trial(c.name) && c.left_out.starts_with("holds words"); });
     }
 
     void find_first_stamp() {
@@ -299,7 +336,7 @@ class FormFinder {
 public:
     explicit FormFinder(std::vector<HeadLine> head) : head_(std::move(head)) {}
 
-    Result<TextForm> find(const std::string& path) {
+    Result<TextForm> find(const std::string& path, bool rows_are_channels) {
         if (!head_.empty())
             if ((separator_ = named_separator(head_[0].text))) head_.erase(head_.begin());
         if (head_.empty()) return bad_input("no data in this file", {path});
@@ -312,6 +349,11 @@ public:
             form_.dialect = labview->dialect, form_.columns = std::move(labview->columns), form_.rate = labview->rate;
             form_.named = form_.last_may_be_missing = true;
             row_ = labview->first_row;
+        } else if (rows_are_channels && take_named_rows()) {
+            row_ = 0;
+        } else if (!rows_are_channels && are_rows_channels()) {
+            return bad_input("every row begins with a name, the first with that of the time; --transpose takes each row as a channel",
+                             {path});
         } else if (const auto plain = plain_form(); plain.whole || !take_after_preamble(plain)) {
             take_plain(plain);
         }
@@ -321,8 +363,12 @@ public:
         const auto rate = form_.rate;
         form_.roles = assign_roles(form_.columns, first, form_.named);
         if (rate) form_.rate = rate;
+        if (row_ < head_.size()) {
+            split_row(form_.dialect, head_[row_].text, form_.columns.size(), fields_);
+            form_.first_fields.assign(fields_.begin(), fields_.end());
+        }
         find_first_stamp();
-        find_trial_column();
+        find_trial_columns();
         tell_passed_over();
         return std::move(form_);
     }
@@ -335,10 +381,10 @@ void split_row(const Dialect& dialect, std::string_view line, std::size_t column
     if (out.size() > 1 && out.back().empty() && (columns == 0 || out.size() == columns + 1)) out.pop_back();
 }
 
-Result<TextForm> find_text_form(Lines& lines, std::size_t skip) {
+Result<TextForm> find_text_form(Lines& lines, std::size_t skip, bool rows_are_channels) {
     auto head = read_head(lines, skip);
     if (!head) return head.error();
-    return FormFinder(std::move(*head)).find(lines.path());
+    return FormFinder(std::move(*head)).find(lines.path(), rows_are_channels);
 }
 
 }  // namespace corpuscle

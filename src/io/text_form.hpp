@@ -16,15 +16,16 @@ struct TextForm {
     std::optional<TimeStamp> first_stamp = {};  ///< of the time, or of the first column that holds some
     std::optional<double> rate = {};            ///< Hz, if the file says it
     std::vector<std::string> remarks = {};
-    long first_row = 1;                     ///< its line
-    bool named = false;                     ///< by a header
-    bool last_may_be_missing = false;       ///< the last field of a row, with its separator
-    std::optional<std::size_t> trial = {};  ///< the column that may tell trials apart,
-    std::string first_trial = {};           ///< and what its first row says
+    long first_row = 1;                    ///< its line
+    bool named = false;                    ///< by a header
+    bool last_may_be_missing = false;      ///< the last field of a row, with its separator
+    bool rows_have_names = false;          ///< the first field of each
+    std::vector<std::string> first_fields = {};  ///< of the first row
+    std::vector<std::size_t> trials = {};  ///< columns that may tell trials apart, the likeliest first
 };
 
-/// Reads the head of the file and rewinds it. `skip`: lines that are not looked at.
-Result<TextForm> find_text_form(Lines&, std::size_t skip);
+/// Reads the head of the file and rewinds it. `skip`: lines that are not looked at. `rows_are_channels`: they may begin with a name.
+Result<TextForm> find_text_form(Lines&, std::size_t skip, bool rows_are_channels);
 
 /// A line that is empty or begins with # or %.
 inline bool is_comment(std::string_view line) {

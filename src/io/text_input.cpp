@@ -102,6 +102,7 @@ public:
     GzipText& operator=(const GzipText&) = delete;
     ~GzipText() override { ::inflateEnd(&stream_); }
     double done() const override { return packed_->done(); }
+    std::vector<std::string> commands() const override { return {"zcat"}; }
 };
 
 void append_letter(std::string& out, unsigned long c) {
@@ -173,6 +174,11 @@ public:
     Utf16Text(std::string path, std::unique_ptr<TextInput> units, bool big_endian)
         : path_(std::move(path)), units_(std::move(units)), big_endian_(big_endian) {}
     double done() const override { return units_->done(); }
+    std::vector<std::string> commands() const override {
+        auto all = units_->commands();
+        all.push_back(fmt::format("iconv -f UTF-16{} -t UTF-8", big_endian_ ? "BE" : "LE"));
+        return all;
+    }
 };
 
 /// 'L' or 'B' for UTF-16 by its mark, or because every other byte is 0; else 0.

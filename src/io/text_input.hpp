@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "signal/error.hpp"
 
@@ -25,6 +26,8 @@ public:
     Result<void> rewind();
     /// The share of the file's own bytes that has been read, 0 to 1.
     virtual double done() const = 0;
+    /// Commands that make this text of the file's bytes, one after another: "zcat", "iconv -f UTF-16LE -t UTF-8".
+    virtual std::vector<std::string> commands() const { return {}; }
 };
 
 /// Refuses, by name and with a way to convert it, what is no text: workbooks, other programs' binary files, archives.

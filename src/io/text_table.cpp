@@ -6,10 +6,10 @@
 #include <cstring>
 #include <limits>
 
-#include "io/foreign_format.hpp"
 #include "io/json_records.hpp"
 #include "io/json_table.hpp"
 #include "io/text_form.hpp"
+#include "io/unread_field.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -22,11 +22,13 @@ class TextTable final : public Table {
     std::vector<Column> columns_;
     std::optional<std::size_t> time_;
     std::size_t skip_;
+    bool rows_are_channels_;
     Fields fields_;
     std::vector<long> numbers_;         // line numbers of the last block's rows
     std::vector<double*> to_;           // of each column: where its block of numbers goes, or nowhere
     std::size_t wanted_end_ = 0;        // behind the last column wanted
     double last_stamp_ = 0, days_ = 0;  // s: of the time of day read last, and the days that have passed
+    bool quoted_rows_ = false, quoted_separators_ = false;  // of the rows that find_trials() saw
 
     Error at(std::string sentence, long column = 0) const {
         return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
@@ -56,8 +58,10 @@ class TextTable final : public Table {
 
     /// What to do about a field that cannot be read.
     std::string remedy(std::size_t c) const {
-        if (c == time_) return "; --rate, such as --rate 1kHz, takes the rows as evenly spaced, --time names another column";
         const bool first = lines_.number() <= form_.first_row;
+        if (c == time_)
+            return fmt::format("; {}--rate, such as --rate 1kHz, takes the rows as evenly spaced, --time names another column",
+                               first ? "" : "--bad-fields drop leaves its row out, ");
         return fmt::format("; --bad-fields interpolate fills it in, --bad-fields drop leaves its row out{}",
                            first ? ", --skip LINES passes over lines before the table" : "");
     }
@@ -72,8 +76,32 @@ class TextTable final : public Table {
         if (gaps_allowed_) return std::numeric_limits<double>::quiet_NaN();
         const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;
         const auto what = fields_[c].empty() ? std::string("nothing") : fmt::format("'{}'", fields_[c].substr(0, 40));
-        return at(fmt::format("column {}: {} where a {} should be{}", called(c), what, columns_[c].stamps ? "time" : "number", remedy(c)),
+        const auto advice = columns_[c].stamps ? "" : advice_for(fields_[c]);
+        return at(fmt::format("column {}: {} where a {} should be{}", called(c), what, columns_[c].stamps ? "time" : "number",
+                              advice.empty() ? remedy(c) : "; it has " + advice),
                   column);
+    }
+
+    /// What is unusual in a field that should be a number, and what makes a file of it that is read; "" if that is not known.
+    std::string advice_for(std::string_view field) const {
+        const auto advice = advice_on(field);
+        if (advice.what.empty()) return "";
+        const auto command = advice.filter.empty() ? "" : lines_.copy_command(advice.filter, "-plain");
+        if (!command.empty()) return fmt::format("{}; make a file without it: {}", advice.what, command);
+        return fmt::format("{}; {}", advice.what, advice.remedy.empty() ? "save the table without it" : advice.remedy);
+    }
+
+    void tell_first_words() {
+        constexpr std::size_t enough = 8;  // one of them is told, if no column holds numbers
+        std::size_t told = 0;
+        for (std::size_t c = 0; c < std::min(columns_.size(), form_.first_fields.size()) && told < enough; ++c) {
+            const auto& word = form_.first_fields[c];
+            if (!columns_[c].left_out.starts_with("holds words") || word.empty()) continue;
+            ++told;
+            const auto advice = advice_for(word);
+            columns_[c].evidence = fmt::format("line {} says '{}'{}{}", form_.first_row, word.substr(0, 40),
+                                               advice.empty() ? " there" : ", which has ", advice);
+        }
     }
 
     void split(std::string_view line) {
@@ -135,14 +163,16 @@ class TextTable final : public Table {
     Result<void> read_row(std::string_view line, std::size_t row, const std::vector<std::size_t>& wanted,
                           std::vector<std::vector<double>>& out) {
         if (read_plain_row(line, row)) return {};
+        if (form_.last_may_be_missing && line.starts_with("Channels")) {
+            const auto command = lines_.copy_command(fmt::format("head -n {}", lines_.number() - 1), "-first");
+            return at(fmt::format("another segment of the measurement begins here, and one is read; keep the first{}{}",
+                                  command.empty() ? "" : ": ", command));
+        }
         split(line);
         if (fields_.size() != columns_.size()) {
             if (!gaps_allowed_)
-                return at(fmt::format("{} columns where {} should be; {}", fields_.size(), columns_.size(),
-                                      form_.last_may_be_missing && line.starts_with("Channels")
-                                          ? fmt::format("another segment begins here; keep the first: head -n {} {} > first.lvm",
-                                                        lines_.number() - 1, shell_word(lines_.path()))
-                                          : "--bad-fields drop leaves such rows out"));
+                return at(
+                    fmt::format("{} columns where {} should be; --bad-fields drop leaves such rows out", fields_.size(), columns_.size()));
             for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // which field is whose is not known
             return {};
         }
@@ -152,6 +182,73 @@ class TextTable final : public Table {
             out[i][row] = *value;
         }
         return {};
+    }
+
+    struct Trial {
+        std::size_t column;  ///< that tells trials apart
+        std::string first;   ///< the field of the first row
+        bool changes;        ///< at the row where time goes back; else it has been the same up to there
+    };
+
+    /// The columns that tell the trial that begins in this line from the first, from another pass through the rows; none if no column
+    /// changes there.
+    Result<std::vector<Trial>> find_trials(long begins) {
+        std::vector<Trial> found;
+        if (form_.trials.empty()) return found;
+        if (auto ok = lines_.rewind(); !ok) return ok.error();
+        std::vector<std::string> first, last, now;
+        std::vector<bool> constant(form_.trials.size(), true);
+        quoted_rows_ = quoted_separators_ = false;
+        for (std::string_view line; lines_.number() < begins;) {
+            const auto more = next_row(line);
+            if (!more) return more.error();
+            if (!*more) return found;
+            split(line);
+            if (line.find('"') != line.npos) {
+                quoted_rows_ = true;
+                const auto inside = [&](auto field) { return field.find(dialect_.separator) != field.npos; };
+                quoted_separators_ = quoted_separators_ || std::any_of(fields_.begin(), fields_.end(), inside);
+            }
+            last = std::move(now);
+            now.clear();
+            for (const auto c : form_.trials) now.emplace_back(c < fields_.size() ? fields_[c] : std::string_view());
+            if (first.empty()) first = now;
+            for (std::size_t k = 0; k < now.size() && lines_.number() < begins; ++k) constant[k] = constant[k] && now[k] == first[k];
+        }
+        if (last.empty()) return found;
+        for (std::size_t k = 0; k < now.size(); ++k) {
+            const bool changes = now[k] != last[k];
+            if (changes || (constant[k] && names_trial(columns_[form_.trials[k]].name)))
+                found.push_back({form_.trials[k], first[k], changes});
+        }
+        // The likeliest column that changes is enough beside those that have not changed yet but may.
+        const auto one = std::find_if(found.begin(), found.end(), [](const Trial& t) { return t.changes; });
+        if (one == found.end()) return std::vector<Trial>();
+        const auto which = one->column;
+        std::erase_if(found, [&](const Trial& t) { return t.changes && t.column != which; });
+        return found;
+    }
+
+    /// The awk that keeps the head and the rows of the first trial; "" where awk does not see the fields as they are.
+    std::string trial_filter(const std::vector<Trial>& trials) const {
+        const char separator = dialect_.separator;
+        if (std::string_view("\"'\\^]").find(separator) != std::string_view::npos || quoted_separators_) return "";
+        std::string wanted;
+        for (const auto& t : trials) {
+            const bool plain = !t.first.empty() && std::all_of(t.first.begin(), t.first.end(), [](unsigned char c) {
+                return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '-';
+            });
+            if (!plain && t.changes) return "";
+            if (!plain) continue;
+            double number;
+            wanted += fmt::format("{}${}=={}", wanted.empty() ? "" : " && ", t.column + 1,
+                                  dialect_.number(t.first, number) ? t.first : "\"" + t.first + "\"");
+        }
+        const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F' *[{}] *'", separator);
+        // The end of a line as Windows writes it would be a part of the last field, quotes a part of any.
+        return quoted_rows_ ? fmt::format("awk{} '{{sub(/\\r$/, \"\"); row=$0; gsub(/\"/, \"\")}} NR<{} || ({}) {{print row}}'", fields,
+                                          form_.first_row, wanted)
+                            : fmt::format("awk{} '{{sub(/\\r$/, \"\")}} NR<{} || ({})'", fields, form_.first_row, wanted);
     }
 
     void name_columns() {
@@ -167,16 +264,18 @@ class TextTable final : public Table {
     }
 
 public:
-    TextTable(Lines lines, std::size_t skip) : lines_(std::move(lines)), skip_(skip) {}
+    TextTable(Lines lines, std::size_t skip, bool rows_are_channels)
+        : lines_(std::move(lines)), skip_(skip), rows_are_channels_(rows_are_channels) {}
 
     Result<void> open() {
-        auto form = find_text_form(lines_, skip_);
+        auto form = find_text_form(lines_, skip_, rows_are_channels_);
         if (!form) return form.error();
         form_ = std::move(*form);
         dialect_ = form_.dialect, columns_ = form_.columns, time_ = form_.roles.time;
-        if (!form_.named && !time_)
+        if (!form_.named && !time_ && !form_.rows_have_names)
             if (auto ok = look_for_time(); !ok) return ok;
         name_columns();
+        tell_first_words();
         return {};
     }
 
@@ -195,27 +294,28 @@ public:
         return all;
     }
 
-    /// awk does it, but for quotes and what is packed.
-    std::string one_trial() const override {
-        if (!form_.trial || std::string_view("\"'\\^]").find(form_.dialect.separator) != std::string_view::npos) return "";
-        const auto& name = columns_[*form_.trial].name;
-        const auto& value = form_.first_trial;
-        const auto said = fmt::format(
-            "the rows of several trials seem to stand one under another, told apart by '{}', and trials are not read "
-            "together yet",
-            name);
-        const bool plain = !value.empty() && std::all_of(value.begin(), value.end(), [](unsigned char c) {
-            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '-';
-        });
-        if (!plain) return said + "; make a file of each";
-        double number;
-        const char separator = dialect_.separator;
-        const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F' *[{}] *'", separator);
-        const auto awk = fmt::format("awk{} 'NR<{} || ${}=={}'", fields, form_.first_row, *form_.trial + 1,
-                                     dialect_.number(value, number) ? value : "\"" + value + "\"");
-        const bool packed = lines_.path().ends_with(".gz");
-        return fmt::format("{}; make a file of one: {} > trial.csv", said,
-                           packed ? fmt::format("zcat {} | {}", shell_word(lines_.path()), awk) : awk + " " + shell_word(lines_.path()));
+    std::string one_trial(std::size_t row) override {
+        auto trials = find_trials(place(row).line);
+        if (!trials || trials->empty()) return "";
+        const auto telling = std::find_if(trials->begin(), trials->end(), [](const Trial& t) { return t.changes; });
+        const auto filter = trial_filter(*trials);
+        const auto command = filter.empty() ? filter : lines_.copy_command(filter, "-trial1");
+        return fmt::format(
+            "the rows of several trials stand one under another, told apart by '{}', and one is read at a time; make a "
+            "file of {}{}",
+            columns_[telling->column].name, command.empty() ? "each" : "one: ", command);
+    }
+
+    Result<std::vector<std::string>> row_names() override {
+        std::vector<std::string> names;
+        if (!form_.rows_have_names) return names;
+        for (std::string_view line;;) {
+            const auto more = next_row(line);
+            if (!more) return more.error();
+            if (!*more) return names;
+            split(line);
+            names.emplace_back(fields_.empty() ? std::string_view() : fields_[0]);
+        }
     }
 
     double done() const override { return lines_.done(); }
@@ -250,8 +350,8 @@ Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const Ta
     if (!lines) return lines.error();
     const auto json = begins_like_json(*lines);
     if (!json) return json.error();
-    if (*json) return open_json_table(std::move(*lines));
-    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip);
+    if (*json) return open_json_table(std::move(*lines), options.keep_on);
+    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip, options.transpose == true);
     if (auto ok = table->open(); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }

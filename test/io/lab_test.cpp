@@ -68,6 +68,22 @@ TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
     EXPECT_EQ(read_lab(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (LabRows{right}));
 }
 
+TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndTold) {
+    const Folder folder;
+    std::string text = "t_s,F_N\n";
+    for (int k = 0; k < 40; ++k) text += k == 30 ? "xx,99\n" : fmt::format("{},1\n", k);
+    EXPECT_NE(
+        lab_said(folder, text, {}).find("x.csv:32:1: column 't': 'xx' where a number should be; --bad-fields drop leaves its row out"),
+        std::string::npos);
+    for (const auto rate : {std::optional<double>(), std::optional<double>(1)}) {
+        const auto r = read_lab(folder / "x.csv", {.rate = rate, .bad_fields = BadFields::drop});
+        EXPECT_EQ(r.force, (LabRows{std::vector<double>(39, 1)}));
+        EXPECT_TRUE(mentions(r.quality.sentences, "1 rows with a bad field were left out"));
+    }
+    const auto untimed = folder.write("y.csv", "time,F_N\nmorning,1\nnoon,2\n");
+    EXPECT_EQ(read_lab(untimed, {.rate = 1, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2}})) << "no time at all is no bad row";
+}
+
 TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
     const Folder folder;
     const auto path = folder.write("x.csv", "t_s,F_N\n0,0\n1,1\n?,2\n3,3\n4,4\n");

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <cstdlib>
+#include <ctime>
 
 #include "support/recordings.hpp"
 
@@ -61,7 +62,7 @@ TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatTakesOneOut) {
     ASSERT_NE(at, said.npos) << said;
     EXPECT_NE(said.find("told apart by 'trial'"), said.npos) << said;
     ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
-    const auto one = recording(folder / "trial.csv");
+    const auto one = recording(folder / "trials-trial1.csv");
     EXPECT_EQ(one.names, std::vector<std::string>{"fz"});
     EXPECT_EQ(one.force[0].size(), 100U);
     EXPECT_TRUE(some_remark(one, "'trial' tells trials apart: left out"));
@@ -81,8 +82,256 @@ TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
         const auto at = said.find("awk ");
         ASSERT_NE(at, said.npos) << said;
         ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
-        EXPECT_EQ(recording(folder / "trial.csv").force[0].size(), 30U) << said;
+        EXPECT_EQ(recording(folder / "all-trial1.txt").force[0].size(), 30U) << said;
     }
+}
+
+/// The command at the end of a refusal, which begins with this word.
+std::string command_in(const std::string& said, const std::string& word) {
+    const auto at = said.find(word);
+    return at == said.npos ? "" : said.substr(at);
+}
+
+/// Runs the command that a refusal ends with; the file that it writes.
+std::string run_remedy(const Folder& folder, const std::string& file, const std::string& word) {
+    const auto command = command_in(try_recording(folder / file).error().text(), word);
+    EXPECT_EQ(std::system(("cd '" + folder.path() + "' && " + command).c_str()), 0) << command;
+    const auto at = command.rfind("> ");
+    return at == command.npos ? "" : folder / command.substr(at + 2);
+}
+
+std::string two_trials(const std::string& end_of_line, const std::string& quote) {
+    std::string text = "time_s,fz_N,trial" + end_of_line;
+    for (int trial = 1; trial <= 2; ++trial)
+        text += rows_of(
+            10, [&](int, double t, double F) { return fmt::format("{:.2f},{:.2f},{}{}{}", t, F, quote, trial, quote) + end_of_line; });
+    return text;
+}
+
+TEST(LoggerFiles, ACommandInAMessageNeverWritesOntoAFileThatIsThere) {
+    const Folder folder;
+    for (const std::string name : {"trial.csv", "x-trial1.csv", "x.csv"}) {
+        folder.write(name, two_trials("\n", ""));
+        const auto written = run_remedy(folder, name, "awk ");
+        EXPECT_EQ(test::read_file(folder / name), two_trials("\n", "")) << name;
+        EXPECT_EQ(recording(written).force[0].size(), 10U) << name;
+    }
+    EXPECT_EQ(folder.names().size(), 6U) << "three files and one of each";
+    folder.write("lines.csv", "time_s,F_N\r0,1\r1,2\r");
+    EXPECT_EQ(recording(run_remedy(folder, "lines.csv", "tr ")).force[0], (std::vector<double>{1, 2}));
+    EXPECT_EQ(test::read_file(folder / "lines.csv").size(), 19U);
+}
+
+TEST(LoggerFiles, TheCommandForOneTrialReadsWindowsLinesQuotesUtf16AndGzip) {
+    const Folder folder;
+    const auto sixteen = [](const std::string& text) {
+        std::string out = "\xff\xfe";
+        for (const char c : text) out += c, out += '\0';
+        return out;
+    };
+    for (const auto& text : {two_trials("\r\n", ""), two_trials("\n", "\""), sixteen(two_trials("\r\n", ""))}) {
+        folder.write("x.csv", text);
+        EXPECT_EQ(recording(run_remedy(folder, "x.csv", text.starts_with("\xff") ? "iconv " : "awk ")).force[0].size(), 10U);
+    }
+    ASSERT_EQ(std::system(("gzip '" + (folder / "x.csv") + "'").c_str()), 0);
+    EXPECT_EQ(recording(run_remedy(folder, "x.csv.gz", "zcat ")).force[0].size(), 10U);
+    EXPECT_EQ(command_in(refused_logged(folder, "note,t_s,F_N,trial\n\"a,b\",0,1,1\n\"a,b\",1,1,1\n\"a,b\",0,1,2\n"), "make a"),
+              "make a file of each")
+        << "awk would split the note";
+}
+
+TEST(LoggerFiles, TrialsAreToldApartByAColumnThatChangesWhereTimeGoesBack) {
+    const Folder folder;
+    std::string text = "subject,trial,t_s,F_N\n";
+    for (const std::string rows : {"S1,1", "S1,2", "S2,1"})
+        text += rows_of(10, [&](int, double t, double F) { return fmt::format("{},{:.2f},{}\n", rows, t, F); });
+    folder.write("x.csv", text);
+    EXPECT_NE(try_recording(folder / "x.csv").error().text().find("told apart by 'trial'"), std::string::npos);
+    EXPECT_EQ(recording(run_remedy(folder, "x.csv", "awk ")).force[0].size(), 10U);
+    EXPECT_EQ(refused_logged(folder, "t_s,phase,F_N\n0,rest,1\n1,rest,1\n0.5,rest,1\n2,press,1\n"),
+              "x.csv:4: time goes back, from 1 s to 0.5 s; --rate takes the rows as evenly spaced");
+}
+
+TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNoForce) {
+    const Folder folder;
+    for (const auto& [name, step] : {std::pair{"millis", 10}, {"ms", 10}, {"micros", 10'000}, {"Nanoseconds", 10'000'000}}) {
+        const auto r = read_logged(folder, name + std::string(",F1\n") +
+                                               rows_of(20, [&](int k, double, double F) { return fmt::format("{},{}\n", k * step, F); }));
+        EXPECT_NEAR(r.clock.rate(), 100, 1e-6) << name;
+        EXPECT_EQ(r.names, std::vector<std::string>{"F1"}) << name;
+    }
+    const auto stamps = read_logged(folder, "stamp.sec,stamp.nanosec,fz\n5,0,1\n5,500000000,2\n6,0,3\n", {.rate = 2});
+    EXPECT_EQ(stamps.names, std::vector<std::string>{"fz"});
+    EXPECT_TRUE(some_remark(stamps, "'stamp.nanosec' is in ns, which is no force: left out"));
+}
+
+TEST(LoggerFiles, CountersAnywhereInATableAreNoForce) {
+    const Folder folder;
+    const auto r = read_logged(folder, "Status (hex),RDTSequence,FTSequence,k,Fz,Time\n" + rows_of(30, [](int k, double t, double F) {
+                                           return fmt::format("0x0,{},{},{},{},{:.2f}\n", 100 + k, 35 * k + k % 3, 7 + k, F, t);
+                                       }));
+    EXPECT_EQ(r.names, std::vector<std::string>{"Fz"});
+    for (const std::string name : {"RDTSequence", "FTSequence", "k"})
+        EXPECT_TRUE(some_remark(r, "'" + name + "' counts the rows: left out")) << name;
+    EXPECT_EQ(read_logged(folder, "Status (hex),Fz,Time\n00000000,1,0\n00000000,2,1\n").names, std::vector<std::string>{"Fz"});
+}
+
+TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
+    const Folder folder;
+    for (const auto& [first, said] : {std::pair{45'650.5, "a spreadsheet counts them; 0 s is 2024-12-24 12:00:00.000"},
+                                      {739'000.25, "MATLAB counts them; 0 s is 2023-04-24 06:00:00.000"}}) {
+        std::string text = "Time,F_N\n";
+        for (int k = 0; k < 50; ++k) text += fmt::format("{:.11f},{}\n", first + k * 0.01 / 86'400, 0.1 * k);
+        const auto r = read_logged(folder, text);
+        EXPECT_NEAR(r.clock.rate(), 100, 0.01) << said;
+        EXPECT_TRUE(some_remark(r, said));
+    }
+    const auto fast = read_logged(folder, "Time,F_N\n0,1\n1e-7,1\n2e-7,1\n");
+    EXPECT_TRUE(some_remark(fast, "taken as seconds, which makes 1e+07 Hz; say --time-unit min if they are minutes"));
+    EXPECT_TRUE(some_remark(read_logged(folder, "Time,F_N\n0,1\n5000,1\n10000,1\n"), "say --time-unit us if they are microseconds"));
+}
+
+TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
+    const Folder folder;
+    const auto seconds = [&](const std::string& text) {
+        folder.write("x.json", text);
+        const auto begin = std::clock();
+        static_cast<void>(try_recording(folder / "x.json", {}, 4096));
+        return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    };
+    std::string times, forces;  // as pandas writes a table by default
+    for (int k = 0; k < 100'000; ++k) {
+        times += fmt::format("{}\"{}\":{}", k > 0 ? "," : "", k, 0.01 * k);
+        forces += fmt::format("{}\"{}\":1", k > 0 ? "," : "", k);
+    }
+    EXPECT_LT(seconds("{\"time_s\":{" + times + "},\"fz_N\":{" + forces + "}}"), 5) << "a quadratic reader takes a minute";
+    EXPECT_LT(seconds("time_s," + std::string(8'000'000, '"') + "\n0,1\n1,2\n"), 5) << "and here minutes";
+}
+
+TEST(LoggerFiles, OpeningALargeJsonDocumentCanBeStopped) {
+    const Folder folder;
+    std::string text = "[";
+    for (int k = 0; k < 20'000; ++k) text += fmt::format("{}{{\"t\":{},\"F_N\":1}}", k > 0 ? "," : "", k);
+    int asked = 0;
+    const auto made = try_recording(folder.write("x.json", text + "]"), {.keep_on = [&](double) { return ++asked < 3; }});
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, Code::interrupted);
+    EXPECT_EQ(asked, 3);
+}
+
+TEST(LoggerFiles, OfJsonTrueAndFalseAreNoForce) {
+    const Folder folder;
+    const auto r = read_logged(folder, R"([{"t":0,"F_N":1,"contact":true},{"t":1,"F_N":2,"contact":false}])", {}, "x.json");
+    EXPECT_EQ(r.names, std::vector<std::string>{"F"});
+    EXPECT_TRUE(some_remark(r, "'contact' holds words, not numbers: left out"));
+}
+
+TEST(LoggerFiles, ASecondSegmentOfALabviewFileEndsWithACommandThatKeepsTheFirst) {
+    const Folder folder;
+    const std::string segment = "Channels\t1\nSamples\t3\n***End_of_Header***\nX_Value\tFz\tComment\n0\t1\n0.01\t2\n0.02\t3\n\n";
+    folder.write("first.lvm", "LabVIEW Measurement\t\nSeparator\tTab\nX_Columns\tOne\n***End_of_Header***\n\n" + segment + segment);
+    for (const auto& options : {RecordingOptions{}, RecordingOptions{.bad_fields = BadFields::drop}, RecordingOptions{.rate = 100}})
+        EXPECT_NE(test::refusal(folder / "first.lvm", options).find("another segment of the measurement begins here"), std::string::npos);
+    EXPECT_EQ(recording(run_remedy(folder, "first.lvm", "head ")).force[0], (std::vector<double>{1, 2, 3}));
+}
+
+TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
+    const Folder folder;
+    const auto r = read_logged(folder, "time_s,Load (N),Extension (mm),bridge_V\n0,1,5,2\n1,2,6,2\n");
+    EXPECT_EQ(r.names, std::vector<std::string>{"Load"});
+    EXPECT_TRUE(some_remark(r, "'Extension' is in mm, which is no force: left out"));
+    EXPECT_NE(refused_logged(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is no force"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; --unit gf takes it"),
+              std::string::npos);
+    EXPECT_NEAR(recording(folder / "x.csv", {.unit = "gf"}).force[0][1], 2 * 9.80665e-3, 1e-9) << "the remedy";
+    std::string heading = "time_s,F_N", first = "0,1", second = "1,2";
+    for (int k = 0; k < 31; ++k) heading += fmt::format(",T{}_degC", k), first += ",20", second += ",20";
+    EXPECT_TRUE(some_remark(read_logged(folder, heading + "\n" + first + "\n" + second + "\n"), "15 more columns hold no force: left out"));
+}
+
+TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem) {
+    const Folder folder;
+    const std::tuple<std::string, std::string, std::string> cases[] = {
+        {"time_s,fz\n0,\u22121.5\n1,\u22122.5\n", "line 2 says '\u22121.5', which has a minus sign of print (U+2212)", "sed "},
+        {"time_s,fz\n0,-1.5D+00\n1,-0.25D+01\n", "'-1.5D+00', which has a Fortran exponent", "sed "},
+        {"time_s,fz\n0,-1.5 N\n1,-2.5 N\n", "'-1.5 N', which has the unit N behind the number", "sed "},
+        {"time_s|fz_N\n0|-1.5\n1|-2.5\n", "'0|-1.5', which has '|' as separator", "sed "},
+        {"t:-1 F:-2\nt:0 F:-1.5\nt:1 F:-2.5\n", "'t:0', which has a name in front of the number", "sed "},
+        {"time_s,fz\n0,0x0A\n1,0x0B\n", "'0x0A', which has hexadecimal digits; save the table with decimal numbers", ""},
+        {"time_s,fz\n0,n/a\n1,n/a\n", "'fz' holds words, not numbers; line 2 says 'n/a' there", ""},
+    };
+    for (const auto& [text, said, word] : cases) {
+        const auto refused = refused_logged(folder, text);
+        EXPECT_NE(refused.find(said), std::string::npos) << refused;
+        if (word.empty()) continue;
+        const auto mended = recording(run_remedy(folder, "x.csv", word)).force[0];
+        EXPECT_EQ(std::vector<double>(mended.end() - 2, mended.end()), (std::vector<double>{-1.5, -2.5})) << refused;
+    }
+    EXPECT_NE(refused_logged(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN behind the number (say --unit mN of the new file)"),
+              std::string::npos);
+}
+
+TEST(LoggerFiles, ThousandsInGroupsAreNamedAndManyFilledReadingsWarnedOf) {
+    const Folder folder;
+    for (const std::string text : {"Zeit (s);Kraft (mN)\n0,0;999,21\n0,1;1.016,21\n0,2;998,50\n",
+                                   "t_s,F_mN\n0,999.21\n0.1,\"1,016.21\"\n0.2,998.5\n", "t_s,F_mN\n0,999\n0.1,\"1,016\"\n0.2,998\n"}) {
+        const auto said = refused_logged(folder, text);
+        EXPECT_NE(said.find("it has a separator of thousands; save the table without it"), std::string::npos) << said;
+        EXPECT_EQ(said.find("--bad-fields"), std::string::npos) << said;
+        const auto filled = recording(folder / "x.csv", {.bad_fields = BadFields::interpolate});
+        EXPECT_TRUE(std::any_of(filled.quality.warnings.begin(), filled.quality.warnings.end(),
+                                [](const auto& s) { return s.starts_with("1 of 3 readings were filled in"); }));
+    }
+}
+
+TEST(LoggerFiles, AHeaderOfColumnNumbersIsAHeader) {
+    const Folder folder;
+    const auto r = read_logged(folder, ",0,1\n" + rows_of(20, [](int k, double t, double F) { return fmt::format("{},{},{}\n", k, t, F); }),
+                               {.time = "0"});
+    EXPECT_EQ(r.names, std::vector<std::string>{"1"});
+    EXPECT_NEAR(r.clock.rate(), 100, 1e-6);
+    EXPECT_TRUE(some_remark(r, "'ch1' counts the rows: left out (--channel ch1 takes it)"));
+    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"ch1"}, .time = "0"}).force[0][7], 7) << "the remedy";
+}
+
+TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsPassedOverAboveARowOfUnits) {
+    const Folder folder;
+    const auto r = read_logged(folder, "Test report;;\nOperator;Max;\nDate;24.12.2024;\n\nTime;Force\n(s);(mN)\n" +
+                                           rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f};{:.2f}\n", t, F); }));
+    EXPECT_EQ(r.names, std::vector<std::string>{"Force"});
+    EXPECT_NEAR(r.clock.rate(), 100, 1e-6);
+    EXPECT_NEAR(r.force[0][10], 0.5e-3, 1e-12);
+}
+
+TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveAPlace) {
+    const Folder folder;
+    RecordingOptions rows;
+    rows.table.transpose = true;
+    const auto named = read_logged(folder, "time_s,0,0.01,0.02\nfx_mN,1,2,3\nfz_N,4,5,6\n", rows);
+    EXPECT_EQ(named.names, (std::vector<std::string>{"fx", "fz"}));
+    EXPECT_EQ(named.force[1], (std::vector<double>{4, 5, 6}));
+    EXPECT_NEAR(named.clock.rate(), 100, 1e-6);
+    EXPECT_EQ(test::refusal(folder / "x.csv"),
+              "x.csv: every row begins with a name, the first with that of the time; --transpose takes each row as a channel");
+    EXPECT_EQ(
+        refused_logged(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
+        "x.csv:2: field 3 is no number; --bad-fields interpolate fills it in, --bad-fields drop leaves this sample out of every channel");
+    rows.bad_fields = BadFields::interpolate;
+    EXPECT_EQ(recording(folder / "x.csv", rows).force[0], (std::vector<double>{4, 5, 6})) << "the remedy";
+    rows.bad_fields.reset();
+    rows.rate = 100;
+    EXPECT_EQ(refused_logged(folder, "0,1,2,,4\n1,2,3,4,5\n", rows).substr(0, 29), "x.csv:1: field 4 is no number");
+}
+
+TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut) {
+    const Folder folder;
+    const auto r = read_logged(folder, R"({"fs":200,"unit":"mN","force":[500,1000,1500]})", {}, "x.json");
+    EXPECT_EQ(r.clock.rate(), 200);
+    EXPECT_NEAR(r.force[0][1], 1, 1e-12);
+    const auto tagged = read_logged(folder, R"({"tags":["a","b"],"time_s":[0,1,2],"fz_N":[1,2,3]})", {}, "x.json");
+    EXPECT_EQ(tagged.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
+    EXPECT_TRUE(some_remark(tagged, "'tags' holds 2 words, and the table has 3 rows: left out"));
+    EXPECT_EQ(refused_logged(folder, "[{\"t\":NaN,\"F\":-Infinity},\n{\"t\":NaN,\"F\":}]", {}, "x.json").substr(0, 11), "x.json:2:14");
 }
 
 TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
@@ -195,7 +444,7 @@ TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
     const auto at = said.find("tr '");
     ASSERT_NE(at, said.npos) << said;
     ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0);
-    EXPECT_EQ(recording(folder / "lines.csv").force[0], (std::vector<double>{1, 2}));
+    EXPECT_EQ(recording(folder / "x-lines.csv").force[0], (std::vector<double>{1, 2}));
 }
 
 TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
@@ -264,8 +513,8 @@ TEST(LoggerFiles, AColumnInAUnitThatIsNoForceNeverPassesAsNewtons) {
     EXPECT_TRUE(some_remark(r, "'temp' is in C, which is no force: left out (if the header is wrong, --channel 2 --unit N takes it)"));
     EXPECT_EQ(recording(folder / "x.csv", {.channels = {"2"}, .unit = "N"}).force[0][0], 31) << "the remedy";
     EXPECT_EQ(recording(folder / "x.csv", {.scale = 2}).names, std::vector<std::string>{"fz"}) << "nor does a scale make it one";
-    EXPECT_NE(refused_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n").find("'humidity' is in %, which is no force"),
-              std::string::npos);
+    EXPECT_TRUE(
+        some_remark(read_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n"), "'humidity' is in %, which is no force: left"));
     EXPECT_NE(refused_logged(folder, "time_s,temp_C\n0,1\n1,1\n").find("'temp' is in C"), std::string::npos);
     EXPECT_EQ(read_logged(folder, "time_s,left_A,left_C,left_F\n0,1,2,3\n1,1,2,3\n").names,
               (std::vector<std::string>{"left_A", "left_C", "left_F"}))
@@ -299,7 +548,7 @@ TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
               "its row out");
     EXPECT_EQ(recording(folder / "x.csv", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(refused_logged(folder, "time_s,phase\n0,rest\n1,press\n"),
-              "x.csv: no column holds readings: 'phase' holds words, not numbers");
+              "x.csv: no column holds readings: 'phase' holds words, not numbers; line 2 says 'rest' there");
 }
 
 TEST(LoggerFiles, ChannelsAreChosenByRangesOfNamesAndCountedOnesAreCalledByName) {

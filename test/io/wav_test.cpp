@@ -71,6 +71,17 @@ TEST(Wav, OfAFileCutShortTheBeginningIsRead) {
     const auto whole = test::read_file(folder / "x.wav");
     const auto made = recording(folder.write("cut.wav", whole.substr(0, whole.size() - 4000)));
     EXPECT_EQ(made.force[0], std::vector<double>(500, 1.5));
+    EXPECT_EQ(made.remarks.at(0),
+              "the samples should take 8000 bytes, and 4000 are there: cut short? Only the beginning of the recording is read");
+    for (const auto& [name, format] : {std::pair{"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}}) {
+        write_sound(folder / name, format, 100, {std::vector<double>(1000, 0.5)});
+        EXPECT_TRUE(recording(folder / name, {.scale = 1}).remarks.empty()) << name;
+        const auto bytes = test::read_file(folder / name);
+        const auto cut = recording(folder.write(name, bytes.substr(0, bytes.size() - 1000)), {.scale = 1});
+        EXPECT_EQ(cut.force[0].size(), 500U) << name;
+        ASSERT_FALSE(cut.remarks.empty()) << name;
+        EXPECT_NE(cut.remarks[0].find("cut short?"), std::string::npos) << cut.remarks[0];
+    }
     write_sound(folder / "x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 100, {test::force("noise", {.rate = 20000})});
     const auto packed = test::read_file(folder / "x.flac");
     EXPECT_NE(refusal(folder.write("cut.flac", packed.substr(0, packed.size() / 2)), {.scale = 1}).find("cut short?"), std::string::npos);
