@@ -35,7 +35,7 @@ constexpr std::string_view a_pickle = "a Python pickle (reading one runs what is
 constexpr Foreign foreign_formats[] = {
     {"PK\x03\x04", "opendocument", ".ods", "an OpenDocument spreadsheet", "pandas and odfpy", workbook},
     {"PK\x03\x04", "", ".xlsx", "an Excel workbook", "pandas and openpyxl", workbook},
-    {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", "pandas and xlrd", workbook},
+    {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", "pandas and xlrd (2.0.1 or later)", workbook},
     {"PAR1", "", ".parquet", "a Parquet file", "pandas and pyarrow",
      R"py(python3 -c "import pandas; pandas.read_parquet({0}).to_csv({1}.csv')")py"},
     {"ARROW1", "", ".feather", "a Feather (Arrow) file", "pandas and pyarrow", feather},
