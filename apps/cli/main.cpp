@@ -163,8 +163,9 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     verb.callback([&w, report] {
         w.report = report->count() > 0;
         if (w.report_file.empty() || w.report_file.ends_with(".html")) return;
-        // "--report press": the word is no page, so it is one of the forces.
+        // "respond --report press": the word is no page, so it is the force. Beside a force it may be meant as the page.
         if (!is_force(w.report_file)) throw CLI::ValidationError(page_name_needed(w.report_file));
+        if (!w.forces.empty()) throw CLI::ValidationError(force_behind_report(w.report_file, w.forces));
         w.forces.push_back(std::exchange(w.report_file, ""));
     });
 }

@@ -15,6 +15,7 @@
 #include "skin/class_settings.hpp"
 #include "skin/pressed.hpp"
 #include "skin_outputs.hpp"
+#include "skin_spike_times.hpp"
 #include "study/nerve_limit.hpp"
 #include "study/silence.hpp"
 #include "study/skin_checkpoint.hpp"
@@ -317,7 +318,9 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
             tell(fmt::format("goes on after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->step()),
                              w.checkpoint));
     }
+    SkinSpikeTimes times;
     std::vector<SkinListener*> listeners = {&summary, &silence};
+    if (common.json) listeners.push_back(&times);
     outputs.listen(listeners);
     const auto answerer = self.ranks ? leading_answerer(*self.ranks, **skin, pool) : alone_answerer(**skin, pool);
     const SkinInput input{job.name, job.source->sentence(), job.source->clock(), job.source->phases(), *job.skin};
@@ -340,8 +343,12 @@ Result<void> lead_skin(SkinJob& job, const RespondWords& w, const Common& common
     if (checkpoint) checkpoint->done();
     for (const auto& r : common.quiet ? std::vector<std::string>{} : job.told.remarks) tell(fmt::format("{}: {}", job.name, r));
     for (const auto& warning : job.told.warnings) tell_warning(warning);
+    if (common.json) answer["spikes"] = times.document();
+    if (common.json && times.are_too_many())
+        tell_warning(fmt::format("{}: more than {} million spikes are not printed; --out DIR writes them to spikes.csv", job.name,
+                                 SkinSpikeTimes::most / 1'000'000));
     if (common.json)
-        fmt::print("{}", document);
+        fmt::print("{}\n", json_text(answer));
     else if (!common.quiet)
         show(table(summary.table()) + outputs.told());
     return {};

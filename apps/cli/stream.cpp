@@ -64,6 +64,26 @@ class LiveRun {
         return {};
     }
 
+    /// The names of a header are sites, or not one of them is and the numbers go by order. `sites`: of each number, by --layout; none: all.
+    HeaderReader header_reader(std::vector<std::uint32_t> sites) const {
+        return [this, sites = std::move(sites)](std::span<const std::string> names) -> Result<std::vector<std::uint32_t>> {
+            const auto& all = skin_->innervation().plan.sites;
+            auto named = sites_if_named(all, names);
+            const auto from = name_of_input(words_.in);
+            if (!named)
+                return bad_input(
+                    fmt::format("{}; a header without names of sites is passed over, and numbers go by order", named.error().sentence),
+                    {from + ": header"});
+            if (!*named || sites.empty()) return *named ? **std::move(named) : std::vector<std::uint32_t>();
+            for (std::size_t k = 0; k < sites.size(); ++k)
+                if ((**named)[k] != sites[k])
+                    return bad_input(fmt::format("number {} is site '{}' by name, and '{}' by {}; leave out --layout or the header", k + 1,
+                                                 all.names[(**named)[k]], all.names[sites[k]], words_.layout),
+                                     {from + ": header"});
+            return std::vector<std::uint32_t>();
+        };
+    }
+
     Result<void> open_wired(const StreamNumbers& n, std::span<const Wish> wishes) {
         const auto clock = wire_clock(words_, n);
         if (!clock) return clock.error();
@@ -82,7 +102,7 @@ class LiveRun {
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
         layout_ = *layout;
-        frames_ = frames_of(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.longest), words_.together);
+        frames_ = frames_of(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.longest), words_.together, header_reader(sites));
         if (!sites.empty()) frames_ = placed_frames(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
@@ -158,6 +178,7 @@ class LiveRun {
     std::string misfit_text(const FrameMisfit& misfit) const {
         const auto text = text_of(misfit, layout_, words_.layout.empty() ? words_.population : words_.layout);
         const auto stamps = layout_.stamp == FrameStamp::none ? 0U : 1U;
+        if (misfit.why == FrameMisfit::header) return "header: " + text;
         if (misfit.why != FrameMisfit::width || !words_.layout.empty() || misfit.found <= stamps) return text;
         const auto& plan = skin_->innervation().plan;
         if (plan.is_by_channel) return fmt::format("{}; --channels {} takes frames of this width", text, misfit.found - stamps);

@@ -96,6 +96,7 @@ nlohmann::ordered_json stream_document(const StreamFacts& f) {
         {"population", plan.name},          {"sites", f.skin.sites()}, {"units", f.skin.innervation().units.size()},
         {"rate_Hz", f.skin.clock().rate()}, {"frames", counts.frames}, {"frames_filled", done.filled},
         {"steps", f.skin.frames()},         {"spikes", done.spikes}};
+    if (plan.is_by_channel) doc["channels"] = plan.sites.names;  // the numbers of binary events count these
     doc["frames_in_order"] = {{"gaps", counts.order.gaps},         {"held", counts.order.held},
                               {"released", counts.order.released}, {"duplicates", counts.order.duplicates},
                               {"late", counts.order.late},         {"restarts", counts.order.restarts}};

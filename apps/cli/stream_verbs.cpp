@@ -89,7 +89,7 @@ void add_events(CLI::App& verb, StreamWords& w) {
     verb.add_option("--to", w.to, "send them to who listens there; on this machine if only a port is said")
         ->type_name("[HOST:]PORT")
         ->group(group);
-    verb.add_option("--format,-f", w.format, "lines (afferent,channel,time_s), jsonl, aer (binary, all of it), aedat2 (doc/events.md)")
+    verb.add_option("--format,-f", w.format, "lines (afferent,channel,time_s), jsonl, aer (binary, all of it), aedat2; their headers say which address is which afferent and channel (doc/events.md)")
         ->capture_default_str()
         ->type_name("FORMAT")
         ->group(group);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "io/foreign_format.hpp"
 
 namespace corpuscle {
 
@@ -9,6 +12,13 @@ std::string page_name_needed(const std::string& name) {
     const auto dot = name.rfind('.');
     const auto stem = dot == std::string::npos || dot == 0 || name.find('/', dot) != std::string::npos ? name : name.substr(0, dot);
     return fmt::format("--report {}: needs a name that ends in .html, such as {}.html", name, stem);
+}
+
+std::string force_behind_report(const std::string& name, std::vector<std::string> forces) {
+    if (std::find(forces.begin(), forces.end(), name) == forces.end()) forces.push_back(name);
+    std::string words;
+    for (const auto& force : forces) words += shell_word(force) + " ";
+    return fmt::format("{}; of forces a report is made by: corpuscle respond {}--report", page_name_needed(name), words);
 }
 
 void add_netlist_words(CLI::App& verb, NetlistWords& w) {

@@ -54,9 +54,9 @@ class Hdf5Samples final : public Samples {
         return {};
     }
 
-    /// Where row `row` of column `column` of the band lies in it, both counted from its first.
+    /// Where row `row` of column `column` of the band lies in it, both counted from its first. Members of a compound lie side by side.
     std::size_t place(std::size_t row, std::size_t column) const {
-        return extent_.lying && rank_ == 2 ? column * band_rows_ + row : row * width_ + column;
+        return extent_.lying && rank_ == 2 && members_.empty() ? column * band_rows_ + row : row * width_ + column;
     }
 
     /// Readings in chunks that were never written are not numbers.

@@ -3,6 +3,7 @@
 // little-endian.
 //     header: "corpaer1", i64 per, i64 seconds (a sample is seconds/per s), u32 runs, u32 bytes that follow; then the runs of units
 //     a run:  u32 first address, u32 stride, u32 first number (0: the name stands alone), u32 count, u32 letters, letters, 0 to 3 zeros
+//     then, if bytes of the header remain: u32 runs of channels, and these: the name is the channel's that the addresses stand on
 //     spike:  i64 step, u32 place in the step, u32 address
 // A spike's place in its step is (place + 1) / 2^32, so that its time is (step - 1 + that) * seconds / per.
 

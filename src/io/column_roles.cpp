@@ -130,10 +130,18 @@ struct Roles {
 
 }  // namespace
 
-ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named) {
-    Roles roles{columns, first};
+bool are_named(const std::vector<Column>& columns) {
+    return std::any_of(columns.begin(), columns.end(), [](const Column& c) {
+        return !c.name.starts_with("ch") || c.name.find_first_not_of("0123456789", 2) != c.name.npos;
+    });
+}
+
+ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named, std::optional<std::size_t> time) {
+    Roles roles{columns, first, {.time = time}};
     roles.find_kinds();
-    if (named)
+    if (time)
+        columns[*time].left_out.clear();
+    else if (named)
         roles.find_named_time();
     else if (roles.take_time([&](std::size_t c) { return columns[c].stamps; }))
         roles.out.time_is_guessed = true;

@@ -2,6 +2,7 @@
 // Which column of a table is the time and which are no channels (indexes, words), by their headings and first rows.
 
 #include <limits>
+#include <optional>
 
 #include "io/heading.hpp"
 
@@ -26,7 +27,11 @@ struct ColumnRoles {
 };
 
 /// Marks the columns that hold stamps or are to be left out, and finds the time. `first`: a member a column. `named`: the columns have
-/// headings; without them the time is not looked for but among stamps.
-ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named);
+/// headings; without them the time is not looked for but among stamps. `time`: the file itself says which column that is.
+ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named,
+                         std::optional<std::size_t> time = {});
+
+/// Whether columns have names that their file gave them: they are not ch1, ch2 ...
+bool are_named(const std::vector<Column>& columns);
 
 }  // namespace corpuscle

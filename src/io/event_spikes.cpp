@@ -28,7 +28,10 @@ public:
     template <class Name>
     std::vector<double>& of(std::uint32_t address, const Name& name) {
         auto& train = of_[address];
-        if (!train) train = &trains_.of(name(address), "");
+        if (!train) {
+            const auto [afferent, channel] = name(address);
+            train = &trains_.of(afferent, channel);
+        }
         return *train;
     }
     std::vector<NamedTrain> in_order() && { return std::move(trains_).in_order(); }
@@ -61,7 +64,7 @@ T number_at(std::span<const std::byte> bytes, std::size_t at) {
 class AerFile {
     std::unique_ptr<Bytes> file_;
     Clock clock_;
-    std::vector<aer::NameRun> runs_;
+    std::vector<aer::NameRun> runs_, channels_;
     std::uint64_t begin_ = 0;  // of the spikes
 
     Error wrong(std::string sentence) const { return bad_input(std::move(sentence), {file_->name()}); }
@@ -85,27 +88,40 @@ class AerFile {
         std::vector<std::byte> text(bytes);
         if (auto ok = file_->read(text); !ok) return ok;
         std::size_t at = 0;
-        for (std::uint32_t k = 0; k < runs; ++k) {
+        if (auto ok = read_runs(text, at, runs, "units", runs_); !ok) return ok;
+        if (text.size() - at < sizeof(std::uint32_t)) return {};
+        runs = number_at<std::uint32_t>(text, at), at += sizeof runs;
+        return read_runs(text, at, runs, "channels", channels_);
+    }
+
+    Result<void> read_runs(std::span<const std::byte> text, std::size_t& at, std::uint32_t count, std::string_view of,
+                           std::vector<aer::NameRun>& out) const {
+        for (std::uint32_t k = 0; k < count; ++k) {
             const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(text, at + 4 * field); };
             if (text.size() - at < aer::run_bytes || text.size() - at - aer::run_bytes < number(4))
-                return wrong(fmt::format("the names of the units end within run {} of {}", k + 1, runs));
+                return wrong(fmt::format("the names of the {} end within run {} of {}", of, k + 1, count));
             aer::NameRun run{number(0), number(1), number(2), number(3), {}};
-            if (run.stride == 0 || run.count == 0) return wrong(fmt::format("run {} of units has a stride or a count of 0", k + 1));
+            if (run.stride == 0 || run.count == 0) return wrong(fmt::format("run {} of {} has a stride or a count of 0", k + 1, of));
             run.name.assign(reinterpret_cast<const char*>(text.data()) + at + aer::run_bytes, number(4));
             at = std::min<std::size_t>(text.size(), at + aer::run_bytes + (number(4) + std::size_t{3}) / 4 * 4);
-            runs_.push_back(std::move(run));
+            out.push_back(std::move(run));
         }
         return {};
     }
 
-    /// "sa1#17"; the address itself if the header does not name it.
-    std::string name_of(std::uint32_t address) const {
-        for (const auto& r : runs_) {
-            if (address < r.address || (address - r.address) % r.stride != 0 || (address - r.address) / r.stride >= r.count) continue;
-            const auto number = std::uint64_t{r.number} + (address - r.address) / r.stride;
-            return r.number == 0 ? r.name : fmt::format("{}#{}", r.name, number);
-        }
-        return std::to_string(address);
+    static const aer::NameRun* run_at(const std::vector<aer::NameRun>& runs, std::uint32_t address) {
+        for (const auto& r : runs)
+            if (address >= r.address && (address - r.address) % r.stride == 0 && (address - r.address) / r.stride < r.count) return &r;
+        return nullptr;
+    }
+
+    /// Afferent and channel: "sa1" and "fz"; without a channel "sa1#17"; without a name the address itself.
+    std::pair<std::string, std::string> names_of(std::uint32_t address) const {
+        const auto *const run = run_at(runs_, address), *const channel = run_at(channels_, address);
+        if (!run) return {std::to_string(address), channel ? channel->name : ""};
+        if (channel) return {run->name, channel->name};
+        const auto number = std::uint64_t{run->number} + (address - run->address) / run->stride;
+        return {run->number == 0 ? run->name : fmt::format("{}#{}", run->name, number), ""};
     }
 
 public:
@@ -120,7 +136,7 @@ public:
             std::memcpy(&spike, at, sizeof spike);
             if (spike.step < 0 || spike.step > last_event_step)
                 return wrong(fmt::format("spike {} is at step {}, outside 0 to 2^53", count, spike.step));
-            trains.of(spike.address, [&](std::uint32_t a) { return name_of(a); })
+            trains.of(spike.address, [&](std::uint32_t a) { return names_of(a); })
                 .push_back(clock_.time(spike.step, aer::offset_of(spike.place)));
             ++count;
             return {};
@@ -170,7 +186,8 @@ Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path) {
         const auto stamp = big_at(at + 4);
         // The nearest time to the last one that has these 32 bits.
         now = std::exchange(first, false) ? stamp : now + static_cast<std::int32_t>(stamp - static_cast<std::uint32_t>(now));
-        trains.of(big_at(at), [](std::uint32_t a) { return std::to_string(a); }).push_back(static_cast<double>(now) * 1e-6);
+        trains.of(big_at(at), [](std::uint32_t a) { return std::pair(std::to_string(a), std::string()); })
+            .push_back(static_cast<double>(now) * 1e-6);
         return {};
     });
     if (!ok) return ok.error();

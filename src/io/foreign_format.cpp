@@ -15,36 +15,49 @@ struct Foreign {
     std::string_view within;     ///< what else must be among them
     std::string_view extension;  ///< or its name
     std::string_view what;
-    std::string_view command;  ///< {0}: the file, {1}: the new one's name without extension
+    std::string_view needs;    ///< Python's packages, or programs, that do not come with either
+    std::string_view command;  ///< {0}: the file, {1}: the new one's name without extension, both for Python; {2}, {3}: for a shell
 };
 
 // In Python the names stand in single quotes. An index goes along where there may be one: it may be the time.
 constexpr std::string_view workbook = R"py(python3 -c "import pandas; pandas.read_excel({0}).to_csv({1}.csv', index=False)")py";
+constexpr std::string_view feather = R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py";
+constexpr std::string_view pickle = R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py";
+constexpr std::string_view tdms =
+    R"py(python3 -c "import nptdms; f = nptdms.TdmsFile.read({0}); c = [c for g in f.groups() for c in g.channels()]; )py"
+    R"py(t = all('wf_increment' in k.properties for k in c); d = f.as_dataframe(time_index=t); d.columns = [k.name for k in c]; )py"
+    R"py(d.to_csv({1}.csv', index_label=['index', 'time_s'][t])")py";
+constexpr std::string_view matlab =
+    R"py(python3 -c "import numpy, scipy.io; )py"
+    R"py(numpy.savez({1}.npz', **{{k: v for k, v in scipy.io.loadmat({0}, squeeze_me=True).items() if k[0] != '_'}})")py";
+constexpr std::string_view a_pickle = "a Python pickle (reading one runs what is in it: only from people you trust)";
 
 constexpr Foreign foreign_formats[] = {
-    {"PK\x03\x04", "opendocument", ".ods", "an OpenDocument spreadsheet", workbook},
-    {"PK\x03\x04", "", ".xlsx", "an Excel workbook", workbook},
-    {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", workbook},
-    {"PAR1", "", ".parquet", "a Parquet file", R"py(python3 -c "import pandas; pandas.read_parquet({0}).to_csv({1}.csv')")py"},
-    {"ARROW1", "", ".feather", "a Feather (Arrow) file",
-     R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py"},
-    {"FEA1", "", ".feather", "a Feather file", R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py"},
-    {"TDSm", "", ".tdms", "a LabVIEW TDMS file",
-     R"py(python3 -c "import nptdms; nptdms.TdmsFile.read({0}).as_dataframe(time_index=True).to_csv({1}.csv', index_label='time_s')")py"},
-    {"MATLAB 5.0 MAT-file", "", "", "a MATLAB file of version 5 to 7 (one of save -v7.3 is read)",
-     R"py(python3 -c "import numpy, scipy.io; numpy.savez({1}.npz', **{{k: v for k, v in scipy.io.loadmat({0}).items() if k[0] != '_'}})")py"},
-    {"\x80\x02", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
-    {"\x80\x03", "", ".pickle", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
-    {"\x80\x04", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
-    {"\x80\x05", "", ".pkl", "a Python pickle (reading one runs what is in it: only from people you trust)",
-     R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py"},
-    {"BZh", "", ".bz2", "packed with bzip2", "bunzip2 -k {2}"},
-    {"\xfd\x37zXZ", "", ".xz", "packed with xz", "xz -dk {2}"},
-    {"\x28\xb5\x2f\xfd", "", ".zst", "packed with zstd", "zstd -d {2}"},
-    {"#ROSBAG V", "", ".bag", "a ROS bag", "rostopic echo -p -b {2} /TOPIC > {3}.csv"},
+    {"PK\x03\x04", "opendocument", ".ods", "an OpenDocument spreadsheet", "pandas and odfpy", workbook},
+    {"PK\x03\x04", "", ".xlsx", "an Excel workbook", "pandas and openpyxl", workbook},
+    {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", "pandas and xlrd (2.0.1 or later)", workbook},
+    {"PAR1", "", ".parquet", "a Parquet file", "pandas and pyarrow",
+     R"py(python3 -c "import pandas; pandas.read_parquet({0}).to_csv({1}.csv')")py"},
+    {"ARROW1", "", ".feather", "a Feather (Arrow) file", "pandas and pyarrow", feather},
+    {"FEA1", "", ".feather", "a Feather file", "pandas and pyarrow", feather},
+    {"TDSm", "", ".tdms", "a LabVIEW TDMS file", "nptdms and pandas", tdms},
+    {"MATLAB 5.0 MAT-file", "", "", "a MATLAB file of version 5 to 7 (one of save -v7.3 is read)", "scipy", matlab},
+    {"\x80\x02", "", ".pkl", a_pickle, "pandas", pickle},
+    {"\x80\x03", "", ".pickle", a_pickle, "pandas", pickle},
+    {"\x80\x04", "", ".pkl", a_pickle, "pandas", pickle},
+    {"\x80\x05", "", ".pkl", a_pickle, "pandas", pickle},
+    {"#ROSBAG V", "", ".bag", "a ROS bag", "rostopic of ROS 1, and a topic that 'rosbag info' lists in the place of /TOPIC",
+     "rostopic echo -p -b {2} /TOPIC > {3}.csv"},
+};
+
+/// Packed files: the programs that unpack them know them by the end of their names.
+struct PackedFormat {
+    std::string_view first, program, extension;
+};
+constexpr PackedFormat packed_formats[] = {
+    {"BZh", "bzip2", ".bz2"},
+    {"\xfd\x37zXZ", "xz", ".xz"},
+    {"\x28\xb5\x2f\xfd", "zstd", ".zst"},
 };
 
 /// Formats that are read, by the name of the file; here under another name.
@@ -66,12 +79,15 @@ bool plain_word(const std::string& path) {
 /// The name without its extension.
 std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
+/// The file as a command names it; standard input has to be put into one.
+std::string named_file(const std::string& path) { return path == "-" ? "FILE" : path; }
+
 std::string sentence_of(const Foreign& f, const std::string& path) {
-    const std::string name = std::filesystem::path(path).extension().empty() ? "FILE" : path;
+    const auto name = named_file(path);
     // What a single-quoted Python word within a double-quoted shell word cannot hold is left to be put in.
     const bool simple = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= ' ' && !std::strchr("'\"\\$`!", c); });
     const std::string file = simple ? name : "FILE", stem = simple ? stem_of(name) : "FILE";
-    return fmt::format("this is {}, which is not read here; make a file that is: {}", f.what,
+    return fmt::format("this is {}, which is not read here; with {} make a file that is: {}", f.what, f.needs,
                        fmt::format(fmt::runtime(f.command), "'" + file + "'", "'" + stem, shell_word(file), shell_word(stem)));
 }
 
@@ -84,8 +100,18 @@ std::string shell_word(const std::string& path) {
     return out + "'";
 }
 
+std::string unpack_command(const std::string& program, std::string_view extension, const std::string& path) {
+    const auto file = named_file(path);
+    if (file.size() > extension.size() && file.ends_with(extension)) return fmt::format("{} -dk {}", program, shell_word(file));
+    return fmt::format("{} -dc < {} > {}", program, shell_word(file), shell_word(stem_of(file) + "-unpacked"));
+}
+
 std::string foreign_format(std::string_view first, const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
+    for (const auto& p : packed_formats)
+        if (first.starts_with(p.first))
+            return fmt::format("this is packed with {}, which is not read here; make a file that is: {}", p.program,
+                               unpack_command(std::string(p.program), p.extension, path));
     for (const auto& f : foreign_formats) {
         const bool zip = f.first == "PK\x03\x04";
         if (!first.starts_with(f.first)) continue;

@@ -12,6 +12,9 @@ std::string foreign_format(std::string_view first, const std::string& path);
 /// The same of files that are no text but are read here by another name (HDF5, NumPy ...); what names them is the end of their name.
 std::string misnamed_format(std::string_view first, const std::string& path);
 
+/// What unpacks a file that gzip, bzip2, xz or zstd has packed: to the name without `extension`, or to one beside if it has none.
+std::string unpack_command(const std::string& program, std::string_view extension, const std::string& path);
+
 /// A path as a shell takes it, in quotes where it needs them.
 std::string shell_word(const std::string& path);
 

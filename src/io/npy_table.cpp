@@ -158,8 +158,7 @@ struct Npz {
     /// The list of times that goes with `rows` rows of array number `chosen`.
     std::optional<std::size_t> times(std::size_t chosen, std::int64_t rows) const {
         for (std::size_t k = 0; k < arrays.size(); ++k)
-            if (k != chosen && arrays[k].numeric && arrays[k].shape == std::vector{static_cast<std::uint64_t>(rows)} &&
-                headers[k].fields[0].name.empty() && names_time(parse_heading(last_name(arrays[k].name)).name))
+            if (k != chosen && length_of_times(arrays[k]) == static_cast<std::uint64_t>(rows) && headers[k].fields[0].name.empty())
                 return k;
         return {};
     }

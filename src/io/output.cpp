@@ -96,6 +96,10 @@ int owned(const char* name) {
 /// A file system or a device that knows no fsync has done what it can.
 bool is_on_disk(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
+/// The system begins to write the bytes and does not wait for them, which takes 0.05 ms. A file system that keeps the order of data and
+/// names (ext4, as it is set up by default) then never shows this file under its name without its bytes.
+void start_writing_back(int file) { (void)::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE); }
+
 }  // namespace
 
 Result<void> sync_directory_of(const std::string& path) {
@@ -167,6 +171,7 @@ Result<void> OutputFile::commit(Sync sync) {
     constexpr auto costly = std::chrono::seconds(1);
     synced_ = sync == Sync::always || std::chrono::steady_clock::now() - begun_ > costly;
     if (synced_ && !is_on_disk(::fileno(file_))) return broken();
+    if (!synced_) start_writing_back(::fileno(file_));
     if (!grows_ && !close()) return broken();  // one that grows is kept from others until it has its name
     if (std::rename(part_.c_str(), path_.c_str()) != 0)
         return bad_input(fmt::format("cannot be put in its place: {}", std::strerror(errno)), {path_});

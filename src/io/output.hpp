@@ -13,7 +13,7 @@
 
 namespace corpuscle {
 
-/// What is quick to make again is left to the system: waiting for the disk takes several times as long as a short run.
+/// The disk is not waited for where a file is quick to make again: for a disk that turns that takes several times as long as a short run.
 enum class Sync { if_costly, always };
 
 class OutputFile {
@@ -44,7 +44,8 @@ public:
     Result<void> rewrite(std::size_t at, std::string_view text);
     std::size_t size() const { return size_; }  ///< what was written
     /// Puts the file in its place; refuses if a byte could not be written. Of one that took longer than a second to make, or always, its
-    /// bytes are on the disk before: behind the last of a directory sync_directory_of() keeps the names, too.
+    /// bytes are on the disk before: behind the last of a directory sync_directory_of() keeps the names, too. Of others they are on the
+    /// way.
     Result<void> commit(Sync = Sync::if_costly);
     bool is_synced() const { return synced_; }
     const std::string& path() const { return path_; }

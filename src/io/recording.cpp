@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <unordered_map>
 #include <utility>
 
@@ -287,8 +286,7 @@ Result<std::unique_ptr<Source>> open_recording(const std::string& path, const Re
     if (options.table.skip > 0 && format.name != "text")
         return bad_usage(fmt::format("--skip {}: lines are of files of text, and {} is {}", options.table.skip, path, format.name));
     if (format.name != "text") {  // MATLAB's older files are called as its HDF5 files are
-        std::string first(512, '\0');
-        std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+        const auto first = first_bytes_of_input(path, 512);
         if (auto refusal = foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
     }
     auto table_options = options.table;

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
-#include "io/text_table.hpp"
+#include "io/column_roles.hpp"
 #include "signal/field.hpp"
 #include "signal/text.hpp"
 
@@ -13,10 +14,13 @@ namespace corpuscle {
 namespace {
 
 constexpr std::uint64_t most_columns = std::uint64_t{1} << 20;
+constexpr std::size_t most_numbers_looked_at = std::size_t{1} << 22;
 
 class SamplesTable final : public Table {
     std::string path_;
     std::unique_ptr<Samples> samples_;
+    std::vector<Column> columns_;
+    ColumnRoles roles_;
     std::int64_t block_ = 0, next_ = 0;  // rows: where the last block begins, and where the next
 
     const SamplesFacts& facts() const { return samples_->facts(); }
@@ -41,18 +45,31 @@ class SamplesTable final : public Table {
     }
 
 public:
-    SamplesTable(std::string path, std::unique_ptr<Samples> samples) : path_(std::move(path)), samples_(std::move(samples)) {}
+    SamplesTable(std::string path, std::unique_ptr<Samples> samples)
+        : path_(std::move(path)), samples_(std::move(samples)), columns_(facts().columns), roles_{.time = facts().time} {}
 
-    const std::vector<Column>& columns() const override { return facts().columns; }
+    /// By the names of the columns and their first rows, as of a file of text.
+    Result<void> find_roles() {
+        if (!are_named(columns_)) return {};
+        const auto rows = std::min({rows_looked_at, static_cast<std::size_t>(facts().rows), most_numbers_looked_at / columns_.size()});
+        std::vector<std::size_t> all(columns_.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        std::vector<std::vector<double>> numbers(columns_.size(), std::vector<double>(rows));
+        if (auto ok = samples_->fetch(0, rows, all, numbers); !ok) return ok;
+        std::vector<FirstFields> first(columns_.size());
+        for (std::size_t c = 0; c < first.size(); ++c)
+            for (const double x : numbers[c]) first[c].add_number(x);
+        roles_ = assign_roles(columns_, first, true, facts().time);
+        return {};
+    }
+
+    const std::vector<Column>& columns() const override { return columns_; }
     std::optional<double> rate() const override { return facts().rate > 0.0 ? facts().rate : std::nullopt; }
     bool orientation_is_known() const override { return true; }
     std::vector<std::string> remarks() const override { return facts().remarks; }
-    std::optional<std::size_t> time_column() const override {
-        if (facts().time) return facts().time;
-        const auto found = std::find_if(columns().begin(), columns().end(), [](const auto& c) { return names_time(c.name); });
-        return found == columns().end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - columns().begin()));
-    }
-    bool time_is_guessed() const override { return false; }
+    std::optional<std::size_t> time_column() const override { return roles_.time; }
+    bool time_is_guessed() const override { return roles_.time_is_guessed; }
+    std::vector<std::string> time_remarks() const override { return roles_.remarks; }
     double done() const override { return static_cast<double>(next_) / static_cast<double>(facts().rows); }
     Place place(std::size_t row) const override { return {path_, block_ + static_cast<long>(row) + 1}; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
@@ -209,7 +226,9 @@ Result<std::size_t> only_array(std::span<const ArrayFacts> arrays, const std::st
 Result<std::unique_ptr<Table>> table_of(SamplesResult samples, const std::string& path) {
     if (!samples) return samples.error();
     if ((*samples)->facts().rows < 1 || (*samples)->facts().columns.empty()) return bad_input("no data in this file", {path});
-    return std::unique_ptr<Table>(std::make_unique<SamplesTable>(path, *std::move(samples)));
+    auto table = std::make_unique<SamplesTable>(path, *std::move(samples));
+    if (auto ok = table->find_roles(); !ok) return ok.error();
+    return std::unique_ptr<Table>(std::move(table));
 }
 
 std::unique_ptr<Samples> with_times(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples) {

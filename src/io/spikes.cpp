@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <fstream>
 
 #include "io/address_events.hpp"
 #include "io/trains.hpp"
 #include "io/utf8.hpp"
+#include "signal/input_files.hpp"
 #include "signal/text.hpp"
 
 namespace corpuscle {
@@ -57,8 +57,7 @@ std::string csv_field(const std::string& text) {
 }
 
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& columns) {
-    std::string first(512, '\0');
-    std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+    const auto first = first_bytes_of_input(path, 512);
     for (const auto& [begin, what] : {std::pair{"\x89HDF", "an HDF5 file"}, {"RIFF", "a sound"}, {"fLaC", "a sound"}})
         if (first.starts_with(begin))
             return bad_input(fmt::format("this is {}, no file of spikes: these are CSV, JSON lines, .npy, .npz or address events", what),

@@ -235,9 +235,8 @@ Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path) {
     if (!first) return first.error();
     const auto foreign = foreign_format(*first, path);
     if (const auto refusal = foreign.empty() ? misnamed_format(*first, path) : foreign; !refusal.empty())
-        return bad_input(
-            packed ? fmt::format("what this gzip file holds is no text; unpack it first: gunzip -k {}", shell_word(path)) : refusal,
-            {path});
+        return bad_input(packed ? "what this gzip file holds is no text; unpack it first: " + unpack_command("gzip", ".gz", path) : refusal,
+                         {path});
     if (const char order = utf16_order(*first))
         return std::unique_ptr<TextInput>(std::make_unique<Utf16Text>(path, std::move(input), order == 'B'));
     if (first->find('\0') != first->npos) return bad_input("this is no text: it has NUL bytes, as binary files have", {path});

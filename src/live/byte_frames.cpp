@@ -15,6 +15,7 @@ class ByteFrames final : public FrameSource {
     bool found_ = false;
     std::size_t misfits_ = 0;  // frames that could not be read, whose places are to be filled
 
+    bool is_refused() const { return decoder_.refused_header() && source_->has_one_sender(); }
     bool numbered() const { return decoder_.layout().stamp != FrameStamp::none; }
 
     /// Looks at the next frame's number: whether it is to be answered, and what before it.
@@ -41,8 +42,9 @@ class ByteFrames final : public FrameSource {
     }
 
 public:
-    ByteFrames(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold, std::int64_t longest, std::size_t together)
-        : source_(std::move(source)), decoder_(layout, together), order_(hold, longest) {
+    ByteFrames(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold, std::int64_t longest, std::size_t together,
+               HeaderReader read_header)
+        : source_(std::move(source)), decoder_(layout, together, std::move(read_header)), order_(hold, longest) {
         if (layout.kind != FrameKind::csv) source_->enough(together * layout.bytes());
     }
 
@@ -56,14 +58,15 @@ public:
         counts.senders = source_->senders();
         return counts;
     }
-    std::int64_t due() const override { return source_->due(); }
+    std::int64_t due() const override { return is_refused() ? 0 : source_->due(); }
     bool is_live() const override { return source_->is_live(); }
     std::size_t unread_bytes() const override { return source_->unread(); }
-    std::optional<FrameMisfit> first_misfit() const override { return decoder_.first_misfit(); }
+    std::optional<FrameMisfit> first_misfit() const override { return is_refused() ? std::nullopt : decoder_.first_misfit(); }
 
     void hurry() override { source_->enough(1); }
 
     Result<bool> receive() override {
+        if (is_refused()) return *decoder_.refused_header();
         auto room = decoder_.room();
         if (source_->has_datagrams()) room = room.first(room.size() - 1);  // for the end of a line
         const auto came = source_->read(room);
@@ -95,6 +98,7 @@ public:
                     find();
                     break;
                 case FrameDecoder::Found::unreadable:
+                    if (is_refused()) return Next::nothing;  // receive() says why
                     ++counts_.unreadable;
                     if (!numbered()) return Next::filled;
             }
@@ -105,8 +109,8 @@ public:
 }  // namespace
 
 std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold,
-                                       std::int64_t longest, std::size_t together) {
-    return std::make_unique<ByteFrames>(std::move(source), layout, hold, longest, together);
+                                       std::int64_t longest, std::size_t together, HeaderReader read_header) {
+    return std::make_unique<ByteFrames>(std::move(source), layout, hold, longest, together, std::move(read_header));
 }
 
 }  // namespace corpuscle

@@ -87,6 +87,7 @@ public:
         enough_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20));
         if (client_) wake_at_enough();
     }
+    bool has_one_sender() const override { return false; }
     std::int64_t producers() const override { return clients_; }
     SenderCounts senders() const override { return {.idle = idle_clients_}; }
     Result<Came> read(std::span<char> out) override {

@@ -40,6 +40,7 @@ public:
     virtual void enough(std::size_t) {}
     virtual std::int64_t producers() const { return 1; }  ///< that sent until now
     virtual SenderCounts senders() const { return {}; }
+    virtual bool has_one_sender() const { return true; }  ///< false: others may come, of whom one that errs ends nothing
     virtual bool is_live() const { return true; }         ///< false: a file, which can wait
     virtual bool has_datagrams() const { return false; }  ///< each read gives one datagram, of whole frames
     virtual std::size_t unread() const;                   ///< bytes that have come and wait to be read

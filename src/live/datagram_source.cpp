@@ -79,6 +79,7 @@ public:
     int waits_on() const override { return fd_.get(); }
     std::string sentence() const override { return "listening on " + at_.text() + " for datagrams"; }
     bool has_datagrams() const override { return true; }
+    bool has_one_sender() const override { return false; }
     std::int64_t producers() const override { return senders_; }
     SenderCounts senders() const override { return counts_; }
     Result<Came> read(std::span<char> out) override {

@@ -36,6 +36,13 @@ std::size_t fields_in(std::string_view line) {
     return fields;
 }
 
+bool is_number(std::string_view field) {
+    double x = 0;
+    if (field.starts_with('+')) field.remove_prefix(1);
+    const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), x);
+    return status == std::errc{} && end == field.data() + field.size();
+}
+
 double number_of(std::string_view field) {
     double x = 0;
     if (field.starts_with('+')) field.remove_prefix(1);
@@ -50,10 +57,11 @@ const lanes::FrameLanes& best_lanes() {
 
 }  // namespace
 
-FrameDecoder::FrameDecoder(const FrameLayout& layout, std::size_t frames)
+FrameDecoder::FrameDecoder(const FrameLayout& layout, std::size_t frames, HeaderReader read_header)
     : layout_(layout), lanes_(best_lanes()),
       bytes_(std::max<std::size_t>(
-          65536, 2 * (1 + frames) * (layout.kind == FrameKind::csv ? (layout.sites + 1) * longest_field : layout.bytes()))) {
+          65536, 2 * (1 + frames) * (layout.kind == FrameKind::csv ? (layout.sites + 1) * longest_field : layout.bytes()))),
+      read_header_(std::move(read_header)) {
     if (layout.kind == FrameKind::csv) values_.resize(layout.sites);
 }
 
@@ -67,7 +75,10 @@ std::span<char> FrameDecoder::room() {
     return std::span(bytes_).subspan(end_);
 }
 
-void FrameDecoder::forget() { begin_ = end_ = looked_ = 0, skipping_ = false, first_ = true; }
+void FrameDecoder::forget() {
+    begin_ = end_ = looked_ = 0, skipping_ = false, first_ = true;
+    places_.clear(), refused_.reset();
+}
 
 FrameDecoder::Found FrameDecoder::next() {
     if (layout_.kind != FrameKind::csv) {
@@ -92,16 +103,18 @@ FrameDecoder::Found FrameDecoder::next() {
         const auto line = trimmed(whole.ends_with('\r') ? whole.substr(0, whole.size() - 1) : whole);
         if (line.empty() || line.front() == '#' || line.front() == '%') continue;
         if (std::exchange(first_, false) && is_header(line)) {
-            ++headers_;
+            take_header(line);
             continue;
         }
         ++seen_;
-        return read_line(line);
+        if (!refused_) return read_line(line);
+        if (!misfit_) misfit_ = FrameMisfit{FrameMisfit::header, seen_, 0, refused_->sentence};
+        return Found::unreadable;
     }
 }
 
 FrameDecoder::Found FrameDecoder::unreadable(FrameMisfit::Why why, std::size_t found) {
-    if (!misfit_) misfit_ = FrameMisfit{why, seen_, found};
+    if (!misfit_) misfit_ = FrameMisfit{why, seen_, found, {}};
     return Found::unreadable;
 }
 
@@ -115,12 +128,29 @@ bool FrameDecoder::came_datagram(std::size_t bytes) {
     return came(bytes), true;
 }
 
-/// As many words as a frame has numbers, and not one of them is a number.
+/// As many words as a frame has numbers, and not one of them is a number, or nan.
 bool FrameDecoder::is_header(std::string_view line) const {
     std::size_t fields = 0;
     for (; !line.empty(); ++fields)
-        if (!std::isnan(number_of(next_field(line)))) return false;
+        if (is_number(next_field(line))) return false;
     return fields == layout_.sites + (layout_.stamp == FrameStamp::none ? 0 : 1);
+}
+
+void FrameDecoder::take_header(std::string_view line) {
+    ++headers_;
+    if (!read_header_) return;
+    std::vector<std::string> names;
+    while (!line.empty()) {
+        auto field = next_field(line);
+        if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+        names.emplace_back(field);
+    }
+    if (layout_.stamp != FrameStamp::none) names.erase(names.begin());
+    auto places = read_header_(names);
+    if (!places)
+        refused_ = places.error();
+    else
+        places_ = *std::move(places);
 }
 
 bool FrameDecoder::read_stamp(double seconds) {
@@ -142,9 +172,9 @@ bool FrameDecoder::read_stamp(std::string_view text) {
 FrameDecoder::Found FrameDecoder::read_line(const std::string_view line) {
     auto rest = line;
     const bool is_stamped = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
-    for (auto& v : values_) {
+    for (std::size_t k = 0; k < values_.size(); ++k) {
         if (rest.empty()) return unreadable(FrameMisfit::width, fields_in(line));
-        v = number_of(next_field(rest));
+        values_[places_.empty() ? k : places_[k]] = number_of(next_field(rest));
     }
     if (!rest.empty()) return unreadable(FrameMisfit::width, fields_in(line));
     return is_stamped ? Found::frame : unreadable(FrameMisfit::stamp);

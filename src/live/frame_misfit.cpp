@@ -38,6 +38,8 @@ std::string text_of(const FrameMisfit& misfit, const FrameLayout& layout, std::s
         case FrameMisfit::datagram:
             return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", misfit.found, wanted_frame(layout, population),
                                layout.bytes());
+        case FrameMisfit::header:
+            return misfit.detail;
     }
     return {};
 }

@@ -9,6 +9,7 @@
 #include "live/frame_layout.hpp"
 #include "live/frame_misfit.hpp"
 #include "live/frame_order.hpp"
+#include "live/header_reader.hpp"
 #include "live/steady_clock.hpp"
 #include "signal/source.hpp"
 
@@ -50,9 +51,10 @@ public:
     virtual FrameOrder* order() { return nullptr; }                         ///< of numbered frames
 };
 
-/// `hold`, `longest`: of a gap, in frames (see FrameOrder). `together`: so many are answered at once.
+/// `hold`, `longest`: of a gap, in frames (see FrameOrder). `together`: so many are answered at once. A header that is refused is an error
+/// of the only sender; of one of several, none of its frames is read.
 std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t longest,
-                                       std::size_t together = 1);
+                                       std::size_t together = 1, HeaderReader = {});
 
 /// A recording, each frame at its time, or as fast as they can be answered.
 std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source>, bool at_its_pace);

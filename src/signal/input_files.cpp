@@ -1,6 +1,7 @@
 #include "signal/input_files.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,8 +9,10 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace corpuscle {
 namespace {
@@ -100,6 +103,32 @@ Result<std::size_t> read_input(std::FILE* file, std::span<char> to, const std::s
         filled += static_cast<std::size_t>(got);
     }
     return filled;
+}
+
+Result<std::string> read_whole_input(const std::string& path, std::size_t most_bytes, const std::string& what) {
+    struct ::stat facts = {};
+    if (::stat(path.c_str(), &facts) == 0 && S_ISDIR(facts.st_mode))
+        return bad_input(fmt::format("this is a directory, not a {}", what), {path});
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
+    if (!file)
+        return bad_input(fmt::format("cannot be read: {}", errno == ENOENT ? "there is no such file" : std::strerror(errno)), {path});
+    std::string text;
+    for (std::vector<char> block(std::size_t{1} << 16);;) {
+        const auto got = read_input(file.get(), block, path);
+        if (!got) return got.error();
+        text.append(block.data(), *got);
+        if (text.size() > most_bytes) return bad_input(fmt::format("is no {}: it is larger than {} MB", what, most_bytes >> 20), {path});
+        if (*got < block.size()) return text;
+    }
+}
+
+std::string first_bytes_of_input(const std::string& path, std::size_t count) {
+    struct ::stat facts = {};
+    if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return {};
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
+    std::string first(count, '\0');
+    first.resize(file ? std::fread(first.data(), 1, count, file.get()) : 0);
+    return first;
 }
 
 }  // namespace corpuscle

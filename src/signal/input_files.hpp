@@ -26,4 +26,10 @@ std::FILE* open_input(const std::string& path);
 /// fread(), but that an interruption is an error. Fewer bytes than asked for: the end. No other way of reading may be mixed with it.
 Result<std::size_t> read_input(std::FILE*, std::span<char>, const std::string& name);
 
+/// All of a file of at most `most_bytes`; `what` it should be is named if it is larger ("population file").
+Result<std::string> read_whole_input(const std::string& path, std::size_t most_bytes, const std::string& what);
+
+/// The first bytes of a regular file; "" of what can be read only once, such as a pipe, and of a file that cannot be opened.
+std::string first_bytes_of_input(const std::string& path, std::size_t count);
+
 }  // namespace corpuscle

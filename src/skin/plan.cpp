@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "signal/carried.hpp"
 #include "signal/input_files.hpp"
@@ -18,19 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_of_a_skin = std::uintmax_t{64} << 20;  // bytes
+constexpr std::size_t most_of_a_skin = std::size_t{64} << 20;  // bytes
 
 std::string carried_path(std::string_view name) { return fmt::format("skins/{}.toml", name); }
-
-Result<std::string> skin_text_at(const fs::path& path) {
-    std::error_code status;
-    if (fs::file_size(path, status) > most_of_a_skin)
-        return bad_input(fmt::format("is no population file: it is larger than {} MB", most_of_a_skin >> 20), {path.string()});
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return bad_input("cannot be read", {path.string()});
-    remember_input(path.string());
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 Error unknown_skin(std::string_view name) {
     std::vector<std::string_view> names = {"grid 8x8"};
@@ -68,8 +56,8 @@ Result<SkinPlan> plan_skin(std::string_view name, std::span<const Channel> chann
     if (const auto text = carried_text(carried_path(lower(name)))) return read_skin_plan(*text, carried_path(lower(name)), channels);
     const fs::path path(name);
     std::error_code status;
-    if (fs::is_regular_file(path, status)) {
-        const auto text = skin_text_at(path);
+    if (fs::exists(path, status) && !fs::is_directory(path, status)) {
+        const auto text = read_whole_input(path.string(), most_of_a_skin, "population file");
         return text ? read_skin_plan(*text, path.string(), channels) : Result<SkinPlan>(text.error());
     }
     if (path.extension() == ".toml") return bad_input("cannot be read: there is no such file", {path.string()});

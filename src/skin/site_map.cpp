@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "io/dialect.hpp"
+#include "io/heading.hpp"
 #include "io/lines.hpp"
 #include "signal/field.hpp"
 #include "signal/text.hpp"
@@ -128,6 +130,22 @@ Result<std::vector<std::uint32_t>> sites_named(const Sites& sites, std::span<con
         found.push_back(at->second);
     }
     return found;
+}
+
+Result<std::optional<std::vector<std::uint32_t>>> sites_if_named(const Sites& sites, std::span<const std::string> names) {
+    std::unordered_set<std::string> known;  // in small letters: 'R1C1' is meant as a name
+    for (const auto& name : sites.names) known.insert(lower(name));
+    const auto is_site = [&](const std::string& name) { return known.contains(lower(name)); };
+    std::vector<std::string> bare;
+    for (const auto& name : names) bare.push_back(is_site(name) ? name : parse_heading(name).name);
+    if (std::none_of(bare.begin(), bare.end(), is_site)) return std::optional<std::vector<std::uint32_t>>();
+    for (const auto& name : bare) {
+        const auto first = name.substr(0, name.rfind(" ("));  // a recording's second channel of one name is "r1c1 (2)"
+        if (!is_site(name) && name.ends_with(')') && is_site(first))
+            return bad_input(fmt::format("two channels are called '{}', which is one site", first));
+    }
+    auto found = sites_named(sites, bare);
+    return found ? std::optional(std::move(*found)) : Result<std::optional<std::vector<std::uint32_t>>>(found.error());
 }
 
 Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites& sites) {

@@ -69,15 +69,20 @@ std::unique_ptr<SkinForce> site_force(Source& source, std::vector<std::uint32_t>
 Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const Source& source) {
     std::vector<std::string> names;
     for (const auto& c : source.channels()) names.push_back(c.name);
-    if (auto named = sites_named(plan.sites, names)) return *named;
+    std::vector<std::uint32_t> in_order(plan.sites.size());
+    std::iota(in_order.begin(), in_order.end(), 0U);
+    if (names == plan.sites.names) return in_order;
+    auto named = sites_if_named(plan.sites, names);
+    if (!named)
+        return bad_input(fmt::format("{}; --layout FILE gives channels other names, --channel chooses some", named.error().sentence),
+                         {source.name()});
+    if (*named) return **std::move(named);
     if (source.channels().size() != plan.sites.size())
         return bad_input(
             fmt::format("{} has {} channels, and {} has {} sites, which are called {} ...; name the channels after sites with "
                         "--layout, choose as many with --channel, or take a population that stands at the channels "
                         "(sites = \"channels\")",
                         source.name(), source.channels().size(), plan.name, plan.sites.size(), plan.sites.names[0]));
-    std::vector<std::uint32_t> in_order(plan.sites.size());
-    std::iota(in_order.begin(), in_order.end(), 0U);
     return in_order;
 }
 

@@ -30,8 +30,9 @@ TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
 
 TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
     const Folder folder;
-    const auto chip = test::root() + "/circuits/sa1.cir";
-    const auto ran = run(folder, "respond press --afferent sa1 --afferent '" + chip + "' --afferent fa1 --out answer");
+    std::filesystem::create_directory_symlink(test::root() + "/circuits", folder / "circuits");
+    const std::string chip = "circuits/sa1.cir";  // not by its full path, of which the width of the table would depend
+    const auto ran = run(folder, "respond press --afferent sa1 --afferent " + chip + " --afferent fa1 --out answer");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto table = ran.out.substr(std::min(ran.out.find("version "), ran.out.size()));
     EXPECT_NE(table.find("by phase   differ  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;

@@ -1,7 +1,12 @@
 // What the program may replace: nothing that it reads, nothing that it did not write.
 
+#include <fcntl.h>
+#include <linux/fiemap.h>
+#include <linux/fs.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -265,6 +270,30 @@ TEST(Outputs, ThatCostMoreThanASecondOrAreToBeTakenUpAreSyncedBeforeTheyHaveThei
     EXPECT_TRUE(kept.is_synced());
     EXPECT_TRUE(slow.is_synced());
     EXPECT_TRUE(sync_directory_of(folder / "slow.csv"));
+}
+
+/// Whether the file system has not yet decided where bytes of the file go; none: it does not tell.
+std::optional<bool> waits_for_its_place(const std::string& path) {
+    alignas(::fiemap) char room[sizeof(::fiemap) + 8 * sizeof(::fiemap_extent)] = {};
+    auto* const map = reinterpret_cast<::fiemap*>(room);
+    map->fm_length = FIEMAP_MAX_OFFSET, map->fm_extent_count = 8;
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool done = file >= 0 && ::ioctl(file, FS_IOC_FIEMAP, map) == 0;
+    ::close(file);
+    if (!done || map->fm_mapped_extents == 0) return {};
+    for (unsigned k = 0; k < map->fm_mapped_extents; ++k)
+        if ((map->fm_extents[k].fe_flags & FIEMAP_EXTENT_DELALLOC) != 0) return true;
+    return false;
+}
+
+TEST(Outputs, OfAShortRunAreOnTheirWayToTheDiskWhenTheyHaveTheirNames) {
+    const Folder folder;
+    const std::string text(100'000, 'x');
+    if (waits_for_its_place(folder.write("plain", text)) != true) GTEST_SKIP() << "the file system does not tell what it has yet to write";
+    auto quick = test::sure(OutputFile::create(folder / "quick.csv"));
+    ASSERT_TRUE(quick.write(text));
+    ASSERT_TRUE(quick.commit());
+    EXPECT_EQ(waits_for_its_place(folder / "quick.csv"), false);
 }
 
 TEST(Outputs, ADeviceIsWrittenInPlace) {

@@ -79,6 +79,23 @@ TEST(PrintedText, AReportIsAPageByItsName) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{"report.html"});
 }
 
+TEST(PrintedText, ARecordingBehindReportIsNoSecondForce) {
+    const Folder folder;
+    for (const auto* const name : {"a.csv", "b 2.csv"}) folder.write(name, "time_s,fz_N\n0,0\n0.001,1\n0.002,1\n");
+    for (const auto& [words, remedy] : {std::pair{"respond a.csv --report a.csv", "respond a.csv --report"},
+                                        {"respond a.csv --report 'b 2.csv'", "respond a.csv 'b 2.csv' --report"},
+                                        {"respond press --report=sine", "respond press sine --report"}}) {
+        const auto ran = test::run(folder, words);
+        EXPECT_EQ(ran.status, 2) << words;
+        EXPECT_NE(ran.err.find("needs a name that ends in .html, such as "), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find(std::string("corpuscle ") + remedy + "\n"), std::string::npos) << ran.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
+        EXPECT_EQ(test::run(folder, remedy).status, 0) << remedy;
+        EXPECT_TRUE(std::filesystem::remove(folder / "report.html"));
+    }
+    EXPECT_EQ(test::run(folder, "respond --report a.csv -q").status, 0) << "the only force";
+}
+
 TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
     const Folder folder;
     std::string text =
@@ -150,6 +167,22 @@ TEST(PrintedText, OneDocumentHoldsTheTimeOfEverySpike) {
     EXPECT_FALSE(Json::parse(test::read_file(folder / "a/summary.json")).contains("spikes")) << "spikes.csv has them";
 }
 
+TEST(PrintedText, OneDocumentHoldsTheSpikesOfAPopulation) {
+    const Folder folder;
+    const auto document = Json::parse(test::run(folder, "respond press --population 'grid 3x3' --json -o a").out);
+    const auto trains = test::sure(read_spikes(folder / "a/spikes.csv"));
+    ASSERT_GT(trains.size(), 2U);
+    ASSERT_EQ(document["spikes"].size(), trains.size()) << "of units that fired";
+    for (const auto& unit : document["spikes"]) {
+        const auto same = std::find_if(trains.begin(), trains.end(), [&](const auto& t) { return t.afferent == unit["afferent"]; });
+        ASSERT_NE(same, trains.end()) << unit["afferent"];
+        EXPECT_EQ(same->channel, unit["channel"]);
+        ASSERT_EQ(same->times.size(), unit["times_s"].size());
+        for (std::size_t k = 0; k < same->times.size(); ++k) EXPECT_NEAR(same->times[k], unit["times_s"][k].get<double>(), 1e-9);
+    }
+    EXPECT_FALSE(Json::parse(test::read_file(folder / "a/summary.json")).contains("spikes"));
+}
+
 TEST(PrintedText, TablesFitInAHundredColumnsAndHaveNoMinusZero) {
     const Folder folder;
     std::string text = "t_s,fz_N\n";
@@ -160,6 +193,24 @@ TEST(PrintedText, TablesFitInAHundredColumnsAndHaveNoMinusZero) {
         EXPECT_LE(widest_line(test::run(folder, words).out), 100U) << test::run(folder, words).out;
     EXPECT_NE(test::run(folder, "respond f.csv --scale=-1").out.find(", -2 to 0 N\n"), std::string::npos)
         << test::run(folder, "respond f.csv --scale=-1").out;
+}
+
+TEST(PrintedText, OperatingPointsFitInAHundredColumnsWithEveryReading) {
+    const Folder folder;
+    for (const std::string name : {"bias", "sa1", "spiker"}) {
+        const auto ran = test::run(folder, "run '" + test::root() + "/circuits/" + name + ".cir'");
+        EXPECT_LE(widest_line(ran.out), 100U) << ran.out;
+    }
+    const auto bias = test::run(folder, "run '" + test::root() + "/circuits/bias.cir'").out;
+    const auto count = [&](const std::string& words) {
+        std::size_t found = 0;
+        for (auto at = bias.find(words); at != bias.npos; at = bias.find(words, at + 1)) ++found;
+        return found;
+    };
+    for (const std::string reading : {" i_d", " g_mb", " c_gs", " c_bd\n"}) EXPECT_EQ(count(reading), 1U) << reading << bias;
+    EXPECT_EQ(count("\nm1a "), 3U) << "sixteen readings on three lines";
+    EXPECT_EQ(count("  moderate, saturation\n"), 7U) << bias;
+    EXPECT_EQ(count("  weak, saturation\n"), 4U) << bias;
 }
 
 }  // namespace

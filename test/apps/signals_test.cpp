@@ -75,11 +75,14 @@ int status_after(int signal, const Folder& folder, std::vector<std::string> word
 
 TEST(Signals, OneEndsAReadThatWaits) {
     const Folder folder;
-    ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+    for (const auto* const name : {"fifo", "fifo.toml"}) ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
     const std::vector<std::vector<std::string>> commands = {
         {"respond", "-", "--rate", "1kHz", "-o", "new"},
         {"respond", "fifo", "--rate", "1kHz", "-o", "new"},  // nobody writes it
         {"run", "fifo"},
+        {"respond", "press", "--population", "fifo.toml", "-o", "new"},
+        {"compare", "fifo", "fifo"},
+        {"sweep", "fifo.toml", "-o", "new"},
     };
     for (const auto& words : commands)
         for (const int signal : {SIGINT, SIGTERM}) {

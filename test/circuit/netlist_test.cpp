@@ -412,7 +412,7 @@ TEST(NetlistFiles, ThatCannotBeReadAreRefused) {
     EXPECT_EQ(refusal(".include 0.inc", chain), "dir/49.inc:1:10: files include each other more than 50 deep");
     const auto missing = Netlist::read("/nowhere/at/all.cir");
     ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().text(), "/nowhere/at/all.cir: cannot be read: No such file or directory");
+    EXPECT_EQ(missing.error().text(), "/nowhere/at/all.cir: cannot be read: there is no such file");
 }
 
 // ---- dot lines ----

@@ -15,8 +15,16 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
+/// Columns from the last to the first; names that begin with x are refused.
+Result<std::vector<std::uint32_t>> backwards(std::span<const std::string> names) {
+    std::vector<std::uint32_t> places;
+    for (std::size_t k = names.size(); k-- > 0;) places.push_back(static_cast<std::uint32_t>(k));
+    if (names[0].starts_with('x')) return bad_input("no site is called so");
+    return places;
+}
+
 std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t piece) {
-    FrameDecoder decoder(layout);
+    FrameDecoder decoder(layout, 1, backwards);
     std::vector<double> all, force(layout.sites);
     while (!bytes.empty()) {
         const auto room = decoder.room();
@@ -36,7 +44,7 @@ std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8
 
 /// The same bytes as datagrams: each holds whole frames or none, and leaves nothing behind.
 void take_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t piece) {
-    FrameDecoder decoder(layout);
+    FrameDecoder decoder(layout, 1, backwards);
     std::vector<double> force(layout.sites);
     while (!bytes.empty()) {
         const auto room = decoder.room();

@@ -109,6 +109,41 @@ TEST(Hdf5, MembersOfACompoundAreColumns) {
     EXPECT_EQ(made.force[0][4999], 2499.5);
 }
 
+TEST(Hdf5, MembersOfACompoundThatLiesOnItsSideAreColumns) {
+    const Folder folder;
+    struct Row {
+        double fx, fz;
+    };
+    std::vector<Row> rows;
+    for (int k = 0; k < 50; ++k) rows.push_back({k * 1.0, 100.0 + k});
+    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(Row));
+    H5Tinsert(type, "fx_N", HOFFSET(Row, fx), H5T_NATIVE_DOUBLE), H5Tinsert(type, "fz_N", HOFFSET(Row, fz), H5T_NATIVE_DOUBLE);
+    Hdf5File(folder / "x.h5").raw("/log", type, type, {1, rows.size()}, rows.data());
+    H5Tclose(type);
+    const auto made = recording(folder / "x.h5", {.rate = 100});
+    ASSERT_EQ(made.force.size(), 2U);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        EXPECT_EQ(made.force[0][k], rows[k].fx) << k;
+        EXPECT_EQ(made.force[1][k], rows[k].fz) << k;
+    }
+}
+
+TEST(Hdf5, AColumnThatCountsTheRowsIsNoForce) {
+    const Folder folder;
+    std::vector<double> rows;
+    for (int k = 0; k < 500; ++k) rows.insert(rows.end(), {static_cast<double>(k), std::sin(k), 2.0});
+    {
+        Hdf5File file(folder / "x.h5");
+        file.numbers("/force", {500, 3}, rows);
+        file.words("/force", "columns", {"frame", "fx_N", "fz_N"});
+    }
+    const auto made = recording(folder / "x.h5", {.rate = 100});
+    EXPECT_EQ(made.names, (std::vector<std::string>{"fx", "fz"}));
+    EXPECT_EQ(made.force[0][7], std::sin(7));
+    ASSERT_FALSE(made.remarks.empty());
+    EXPECT_EQ(made.remarks[0], "'frame' counts the rows: left out (--channel 1 takes it)");
+}
+
 TEST(Hdf5, MatlabsMatricesAreTurned) {
     const Folder folder;
     {
@@ -282,7 +317,7 @@ TEST(Hdf5, AnArrayThatLiesOnItsSideIsRefusedOrTurned) {
     EXPECT_EQ(
         timed.remarks.at(0),
         "/force (2 x 3000): taken as 2 channels of 3000 samples, as the times beside it say; --no-transpose takes each row as a sample");
-    lying([](auto& f) { f.words("/force", "channels", {"fx", "fz"}); });
+    lying([](auto& f) { f.words("/force", "channels", {"fx_N", "fz_N"}); });
     EXPECT_EQ(recording(folder / "x.h5", {.rate = 500}).names, (std::vector<std::string>{"fx", "fz"}));
     lying([](auto& f) { f.numbers("/timestamps", {2}, ramp(2, 0.002)); });
     EXPECT_EQ(recording(folder / "x.h5").force.size(), 3000U) << "few samples of many electrodes";

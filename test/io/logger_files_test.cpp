@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "io/archive.hpp"
 #include "support/recordings.hpp"
+#include "support/writers.hpp"
 
 namespace corpuscle {
 namespace {
@@ -595,7 +597,7 @@ TEST(LoggerFiles, GzipIsUnpackedInPiecesAndItsDamageNamed) {
     whole[whole.size() / 2] ^= 0x55;
     EXPECT_NE(refused_logged(folder, whole, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
     EXPECT_NE(refused_logged(folder, packed(text) + "more", {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, packed("\x93NUMPY..."), {}, "x.npy.gz").find("unpack it first: gunzip -k"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, packed("\x93NUMPY..."), {}, "x.npy.gz").find("unpack it first: gzip -dk "), std::string::npos);
 }
 
 TEST(LoggerFiles, AGzipBombTakesNoMoreMemoryThanALineMay) {
@@ -685,13 +687,75 @@ TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
         {"x.tdms", std::string("TDSm\x0e\0\0\0", 8), "nptdms.TdmsFile.read('"},
         {"x.pkl", "\x80\x04\x95....", "pandas.read_pickle('"},
         {"v5.mat", "MATLAB 5.0 MAT-file, Platform: GLNXA64", "scipy.io.loadmat('"},
-        {"x.csv.bz2", "BZh91AY", "bunzip2 -k "},
+        {"x.bag", "#ROSBAG V2.0\n", "rostopic echo -p -b "},
+        {"x.csv.bz2", "BZh91AY", "bzip2 -dk "},
         {"x.zip", std::string("PK\x03\x04 x.csv\0", 11), "unzip "},
         {"x.dat", "\x89HDF\r\n", "x.h5"},
         {"x.bin", std::string("ab\0cd", 5), "this is no text: it has NUL bytes"},
     };
     for (const auto& [name, bytes, said] : cases)
         EXPECT_NE(refused_logged(folder, bytes, {}, name).find(said), std::string::npos) << refused_logged(folder, bytes, {}, name);
+}
+
+/// The command at the end of what is said of a file.
+std::string command_in(const std::string& said) {
+    const auto at = said.find("make a file that is: ");
+    return at == std::string::npos ? "" : said.substr(at + 21);
+}
+
+int typed(const Folder& folder, const std::string& command) {
+    return std::system(("cd '" + folder.path() + "' && { " + command + "; } >/dev/null 2>&1").c_str());
+}
+
+TEST(LoggerFiles, PackedFilesAreUnpackedByTheCommandThatIsNamed) {
+    const std::string table = "time_s,fz_N\n0,1\n0.01,2\n0.02,3\n";
+    for (const auto& [program, extension] : {std::pair{"bzip2", ".bz2"}, {"xz", ".xz"}, {"zstd", ".zst"}}) {
+        const Folder folder;
+        if (typed(folder, fmt::format("command -v {}", program)) != 0) continue;
+        folder.write("plain", table);
+        for (const auto& [name, made] :
+             {std::pair{"x.csv" + std::string(extension), "x.csv"}, {"data", "data-unpacked"}, {"a b.csv", "a b-unpacked"}}) {
+            ASSERT_EQ(typed(folder, fmt::format("{} -c < plain > '{}'", program, name)), 0);
+            const auto refused = try_recording(folder / name);
+            ASSERT_FALSE(refused);
+            const auto command = command_in(refused.error().text());
+            ASSERT_EQ(typed(folder, command), 0) << command;
+            EXPECT_EQ(test::read_file(folder / made), table) << command;
+        }
+    }
+}
+
+TEST(LoggerFiles, CommandsOfPythonAreWhole) {
+    const Folder folder;
+    if (typed(folder, "command -v python3") != 0) GTEST_SKIP() << "no python3 here";
+    for (const auto& [name, bytes] : {std::pair{"x.xlsx", std::string("PK\x03\x04 [Content_Types].xml")},
+                                      {"x y.parquet", std::string("PAR1")},
+                                      {"x.feather", std::string("ARROW1")},
+                                      {"x.tdms", std::string("TDSm")},
+                                      {"x.mat", std::string("MATLAB 5.0 MAT-file")},
+                                      {"x.pkl", std::string("\x80\x04")}}) {
+        const auto command = command_in(refused_logged(folder, bytes, {}, name));
+        ASSERT_TRUE(command.starts_with("python3 -c \"")) << command;
+        const auto code = "compile(\\\"\\\"\\\"" + command.substr(12, command.size() - 13) + "\\\"\\\"\\\", 'x', 'exec')";
+        EXPECT_EQ(typed(folder, "python3 -c \"" + code + "\""), 0) << command;
+    }
+}
+
+TEST(LoggerFiles, AMatlabVectorOfTimesBesideTheForceIsItsClock) {
+    const Folder folder;
+    const auto doubles = [](std::size_t count, double step) {
+        std::string bytes;
+        for (std::size_t k = 0; k < count; ++k) {
+            const double x = static_cast<double>(k) * step;
+            bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+        }
+        return bytes;
+    };
+    const auto made = make_archive(
+        {{"t_s.npy", test::npy("'<f8'", "(1, 50)", doubles(50, 0.01))}, {"force_N.npy", test::npy("'<f8'", "(1, 50)", doubles(50, 0.1))}});
+    const auto read = recording(folder.write("m.npz", test::sure(made)));
+    EXPECT_NEAR(read.clock.rate(), 100, 1e-6);
+    EXPECT_EQ(read.force[0][10], 1);
 }
 
 }  // namespace

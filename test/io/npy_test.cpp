@@ -99,6 +99,37 @@ TEST(Npy, AStructuresNumbersAreColumnsWithNameAndUnit) {
     EXPECT_EQ(made.force[0][4321], 4321 * 30.0 * 1e-3);
 }
 
+/// What pandas' to_records() and a logger's frame counter make: the first column is the number of the row.
+std::string records(const std::string& index, std::size_t rows = 500) {
+    std::string data;
+    for (std::size_t k = 0; k < rows; ++k)
+        data += bytes_of(static_cast<std::int64_t>(k), false) + bytes_of(std::sin(static_cast<double>(k)), false);
+    return npy(fmt::format("[('{}', '<i8'), ('fz_N', '<f8')]", index), fmt::format("({},)", rows), data);
+}
+
+TEST(Npy, AColumnThatCountsTheRowsIsNoForce) {
+    const Folder folder;
+    for (const std::string index : {"index", "sample", "frame", "level_0"}) {  // the last by its numbers alone
+        const auto made = recording(folder.write("x.npy", records(index)), {.rate = 100});
+        EXPECT_EQ(made.names, std::vector<std::string>{"fz"}) << index;
+        EXPECT_EQ(made.force[0][7], std::sin(7.0));
+        ASSERT_FALSE(made.remarks.empty());
+        EXPECT_EQ(made.remarks[0], fmt::format("'{}' counts the rows: left out (--channel 1 takes it)", index));
+        EXPECT_EQ(recording(folder / "x.npy", {.channels = {index}, .rate = 100}).force[0][7], 7);
+        const auto packed = make_archive({{"log.npy", records(index)}});
+        EXPECT_EQ(recording(folder.write("x.npz", test::sure(packed)), {.rate = 100}).names, std::vector<std::string>{"fz"}) << index;
+    }
+}
+
+TEST(Npy, AColumnInSecondsIsTheTimeWhateverItsName) {
+    const Folder folder;
+    std::string data;
+    for (int k = 0; k < 500; ++k) data += bytes_of(0.01 * k, false) + bytes_of(2.0, false);
+    const auto made = recording(folder.write("x.npy", npy("[('Zeit_s', '<f8'), ('fz_N', '<f8')]", "(500,)", data)));
+    EXPECT_EQ(made.names, std::vector<std::string>{"fz"});
+    EXPECT_NEAR(made.clock.rate(), 100, 1e-6);
+}
+
 TEST(Npy, ARowLyingDownIsOneChannel) {
     const Folder folder;
     const auto made = recording(folder.write("x.npy", npy("'|u1'", "(1, 3)", "\1\2\3")), {.rate = 10});

@@ -121,6 +121,31 @@ TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
     EXPECT_TRUE(lines(hand, 16, "lines").starts_with("sa1#17," + hand->plan.sites.regions[hand->units[16].region] + ","));
 }
 
+TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
+    const Folder folder;
+    const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
+    const auto units = event_units(*sure(innervate(sure(plan_channels("sa1,fa1", channels)))), {1000, 1});
+    const auto aer = sure(event_format("aer", units)), aedat = sure(event_format("aedat2", units));
+    const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // units: class after class
+    const auto trains = sure(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
+    ASSERT_EQ(trains.size(), 3U);
+    std::vector<std::string> names;
+    for (const auto& t : trains) names.push_back(t.afferent + " on " + t.channel);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"fa1 on ch3", "fa1 on thumb\n#x", "sa1 on fz"}));
+    EXPECT_EQ(aedat->header(),
+              "#!AER-DAT2.0\r\n# spikes of afferents: address, microseconds modulo 2^32\r\n"
+              "# addresses 0, 2 ... 4: sa1#1 ... sa1#3\r\n# addresses 1, 3 ... 5: fa1#1 ... fa1#3\r\n"
+              "# addresses 0, 1: channel fz\r\n# addresses 2, 3: channel thumb #x\r\n# addresses 4, 5: channel ch3\r\n");
+    EXPECT_EQ(sure(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
+    const auto counted = event_units(*sure(innervate(sure(plan_channels("sa1,fa1", 3, {})))), {1000, 1});
+    EXPECT_LT(sure(event_format("aer", counted))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
+    std::vector<Channel> many(4000);
+    for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
+    const auto long_one = sure(event_format("aedat2", event_units(*sure(innervate(sure(plan_channels("sa1", many)))), {1000, 1})));
+    EXPECT_EQ(sure(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(), 1U);
+}
+
 TEST(Events, FilesThatAreDamagedAreRefused) {
     const Folder folder;
     const auto format = sure(event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
@@ -188,6 +213,12 @@ TEST(Frames, ALineWithTooFewOrTooManyForcesIsNoneAndWhatIsNoNumberIsHeld) {
     EXPECT_EQ(d.bad, 3U) << "x, 1e9 (beyond the limit), nan";
     const std::string endless(10'000'000, '7');
     EXPECT_EQ(decoded(layout, "1,2\n" + endless + "\n3,4\n", {}).frames.size(), 2U) << "a line without an end takes no memory";
+}
+
+TEST(Frames, AFirstLineThatIsNoNumberButNanIsAFrame) {
+    FrameLayout layout;
+    layout.sites = 2;
+    EXPECT_EQ(decoded(layout, "nan,nan\n1,2\n", {}).frames, (std::vector<std::vector<double>>{{0, 0}, {1, 2}}));
 }
 
 TEST(Frames, NumbersSayWhatIsMissingTwiceOrLate) {
@@ -422,6 +453,24 @@ TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
         const auto refused = map(text);
         ASSERT_FALSE(refused) << text;
         EXPECT_NE(refused.error().text().find(said), std::string::npos) << refused.error().text();
+    }
+}
+
+TEST(SiteMap, NamesAreAllOfSitesOrNotOne) {
+    const auto sites = sure(grid_sites(2, 2, 2e-3));
+    using Names = std::vector<std::string>;
+    const auto found = [&](const Names& names) { return sites_if_named(sites, names); };
+    EXPECT_EQ(*sure(found({"r2c2", "r1c1", "r1c2_N", "r2c1 [mN]"})), (std::vector<std::uint32_t>{3, 0, 1, 2}));
+    EXPECT_EQ(*sure(found({"r2c1"})), std::vector<std::uint32_t>{2});
+    EXPECT_FALSE(sure(found({"fx", "fy", "fz", "r3c3"})));
+    for (const auto& [names, said] :
+         std::vector<std::pair<Names, std::string>>{{{"r1c1", "r2cl"}, "no site is called 'r2cl'; did you mean"},
+                                                    {{"R1C1", "R1C2"}, "no site is called 'R1C1'; did you mean 'r1c1'"},
+                                                    {{"r1c1", "r1c1"}, "two channels are called 'r1c1', which is one site"},
+                                                    {{"r1c1", "r1c1 (2)"}, "two channels are called 'r1c1', which is one site"}}) {
+        const auto refused = found(names);
+        ASSERT_FALSE(refused) << names[1];
+        EXPECT_NE(refused.error().sentence.find(said), std::string::npos) << refused.error().sentence;
     }
 }
 

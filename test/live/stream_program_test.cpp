@@ -410,6 +410,106 @@ TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
     EXPECT_TRUE(stamped.said("frame 2 does not begin with its count, a whole number")) << stamped.told();
 }
 
+// --- names in the header
+
+/// Half a second of 3 N at one site of a grid of four, whose columns are in this order.
+std::string pressed(const std::string& header, std::size_t column) {
+    std::string text = header + "\n";
+    for (int k = 0; k < 500; ++k)
+        for (std::size_t c = 0; c < 4; ++c) text += fmt::format("{}{}", c == column && k > 50 ? 3 : 0, c == 3 ? '\n' : ',');
+    return text;
+}
+
+const std::vector<std::string> small_grid = {"--population", "grid 2x2", "--rate", "1kHz"};
+
+TEST(StreamProgram, NamesInTheHeaderSayWhichSiteEachColumnIs) {
+    before();
+    const Folder folder;
+    const auto answered = [&](const std::string& text, std::vector<std::string> more = {}) {
+        auto words = small_grid;
+        words.insert(words.end(), more.begin(), more.end());
+        Child child(folder, words);
+        child.send(text), child.close_in();
+        auto out = child.read_out();
+        EXPECT_EQ(child.wait(), 0) << child.told();
+        return out;
+    };
+    const auto in_order = answered(pressed("r1c1,r1c2,r2c1,r2c2", 2));
+    EXPECT_NE(in_order.find("sa1#3,"), std::string::npos) << in_order;
+    EXPECT_EQ(answered(pressed("r2c2_N,r2c1_N,r1c1_N,r1c2_N", 1)), in_order);
+    EXPECT_EQ(answered(pressed("\"r2c1\";r2c2;r1c1;r1c2", 0)), in_order);
+    EXPECT_EQ(answered(pressed("north,east,south,west", 2)), in_order) << "no names of sites: in order";
+    folder.write("turned.csv", "channel,name\n1,r2c1\n2,r1c1\n3,r1c2\n4,r2c2\n");
+    EXPECT_EQ(answered(pressed("a,b,c,d", 0), {"--layout", folder / "turned.csv"}), in_order);
+    EXPECT_EQ(answered(pressed("r2c1,r1c1,r1c2,r2c2", 0), {"--layout", folder / "turned.csv"}), in_order);
+}
+
+TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefused) {
+    before();
+    const Folder folder;
+    folder.write("turned.csv", "channel,name\n1,r2c1\n2,r1c1\n3,r1c2\n4,r2c2\n");
+    const auto refused = [&](const std::string& header, const std::string& said, std::vector<std::string> more = {}) {
+        auto words = small_grid;
+        words.insert(words.end(), more.begin(), more.end());
+        Child child(folder, words);
+        child.send(pressed(header, 0));  // the sender stays: that is no reason to wait
+        EXPECT_EQ(child.wait(), 1) << child.told();
+        EXPECT_TRUE(child.said(said)) << child.told();
+        EXPECT_EQ(child.told().find("could not be read"), std::string::npos) << child.told();
+    };
+    refused("r1c1,r1c2,r2cl,r2c2", "header: no site is called 'r2cl'; did you mean 'r2c1'");
+    refused("r1c1,r1c2,r1c1,r2c2", "header: two channels are called 'r1c1', which is one site");
+    refused("r1c1,r1c2,r2c1,r2c2", "number 1 is site 'r1c1' by name, and 'r2c1' by", {"--layout", folder / "turned.csv"});
+}
+
+TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
+    before();
+    const Folder folder;
+    auto words = small_grid;
+    words.insert(words.end(), {"--in", "tcp:0", "--clients", "2", "--json", "-o", folder / "x.csv"});
+    Child child(folder, words);
+    const int port = child.port();
+    const auto send = [&](const std::string& text) {
+        const int client = connected(port);
+        EXPECT_EQ(::write(client, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+        ::close(client);
+    };
+    send(pressed("r1c1,r1c2,r2cl,r2c2", 0));
+    send(pressed("r2c2,r2c1,r1c1,r1c2", 1));
+    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_TRUE(child.said("no site is called 'r2cl'; did you mean 'r2c1'")) << child.told();
+    const auto spikes = test::read_file(folder / "x.csv");
+    EXPECT_NE(spikes.find("sa1#3,"), std::string::npos) << spikes;
+    EXPECT_EQ(spikes.find("sa1#1,"), std::string::npos) << spikes;
+}
+
+TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
+    before();
+    const Folder folder;
+    const auto recorded = [&](const std::string& header) {
+        std::string text = "time_s," + header + "\n";
+        for (int k = 0; k < 500; ++k) text += fmt::format("{:.3f},{},0,0,0\n", 0.001 * k, k > 50 ? 3 : 0);
+        folder.write("x.csv", text);
+        return test::run(folder, "stream --in x.csv --population 'grid 2x2' --pace fast");
+    };
+    const auto in_order = recorded("r1c1,r1c2,r2c1,r2c2"), turned = recorded("r2c2,r2c1,r1c1,r1c2"), free = recorded("a,b,c,d");
+    EXPECT_NE(in_order.out.find("sa1#1,"), std::string::npos) << in_order.err;
+    EXPECT_NE(turned.out.find("sa1#4,"), std::string::npos) << turned.err;
+    EXPECT_EQ(free.out, in_order.out);
+    for (const auto& [header, said] :
+         {std::pair{"r2c2,r2c1,r2c2,r1c2", "x: two channels are called 'r2c2', which is one site; --layout FILE"},
+          {"r2c2,r2cl,r1c1,r1c2", "x: no site is called 'r2cl'; did you mean 'r2c1'"}}) {
+        const auto refused = recorded(header);
+        EXPECT_EQ(refused.status, 1);
+        EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+        const auto at_once = test::run(folder, "respond x.csv --population 'grid 2x2'");
+        EXPECT_EQ(at_once.status, 1);
+        EXPECT_NE(at_once.err.find(said), std::string::npos) << at_once.err;
+    }
+    folder.write("x.csv", "time_s,fz_N,fz_N\n0,0,0\n0.001,1,2\n0.002,1,2\n");
+    EXPECT_EQ(test::run(folder, "stream --in x.csv --population sa1 --pace fast -q").status, 0) << "they are fz and fz (2)";
+}
+
 // --- settings
 
 TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {

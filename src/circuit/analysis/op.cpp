@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/rest_states.hpp"
@@ -11,32 +13,71 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Devices of a kind with their readings: a header, a row a device.
+constexpr std::size_t page_width = 100, least_cell_width = 12, least_name_width = 24;
+
+/// Devices that follow one another and have the same readings.
+struct DeviceGroup {
+    struct Row {
+        std::string name, state;
+        std::vector<std::string> cells;
+    };
+    std::vector<std::string_view> readings;
+    std::vector<Row> rows;
+
+    template <class Length>
+    std::size_t longest(std::size_t least, const Length& length) const {
+        for (const auto& r : rows) least = std::max(least, length(r));
+        return least;
+    }
+
+    /// A header, a row a device: as often as it takes for all readings on lines of 100 letters. The state stands behind the last of them.
+    std::string table() const {
+        const auto name_width = longest(least_name_width, [](const Row& r) { return r.name.size(); });
+        const auto state_width = longest(0, [](const Row& r) { return r.state.empty() ? 0 : r.state.size() + 2; });
+        std::vector<std::size_t> widths;
+        for (std::size_t k = 0; k < readings.size(); ++k)
+            widths.push_back(
+                longest(std::max(least_cell_width, readings[k].size() + 1), [k](const Row& r) { return r.cells[k].size() + 1; }));
+        std::string out;
+        for (std::size_t from = 0, to = 0; from < readings.size(); from = to) {
+            auto width = name_width + widths[to++];
+            const auto behind = [&] { return to + 1 == readings.size() ? state_width : 0; };  // the reading that is next
+            while (to < readings.size() && width + widths[to] + behind() <= page_width) width += widths[to++];
+            out += fmt::format("\n{:{}}", "", name_width);
+            for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", readings[k], widths[k]);
+            for (const auto& r : rows) {
+                out += fmt::format("\n{:{}}", r.name, name_width);
+                for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", r.cells[k], widths[k]);
+                if (to == readings.size() && !r.state.empty()) out += "  " + r.state;
+            }
+            out += '\n';
+        }
+        return out;
+    }
+};
+
+/// All unknowns, then the devices with their readings.
 std::string table_of(const System& system, std::span<const double> x) {
     std::string out;
     for (const auto& n : system.names()) {
         const auto at = static_cast<std::size_t>(&n - system.names().data());
         out += fmt::format("{:24} {:>14}\n", n, format_quantity(x[at], system.is_voltage(static_cast<int>(at)) ? "V" : "A"));
     }
-    std::vector<std::string_view> header;
+    DeviceGroup group;
     for (const auto& d : system.devices()) {
         const auto v = system.terminals(*d, x);
         const auto readings = d->readings(v);
         if (readings.empty()) continue;
         std::vector<std::string_view> names;
-        for (const auto& r : readings) names.push_back(r.name);
-        if (names != header) {
-            header = names;
-            out += fmt::format("\n{:24}", "");
-            for (const auto& name : names) out += fmt::format(" {:>11}", name);
-            out += '\n';
+        DeviceGroup::Row row{d->name, std::string(d->state(v)), {}};
+        for (const auto& r : readings) names.push_back(r.name), row.cells.push_back(format_quantity(r.value, r.unit));
+        if (names != group.readings) {
+            out += group.table();
+            group = {std::move(names), {}};
         }
-        out += fmt::format("{:24}", d->name);
-        for (const auto& r : readings) out += fmt::format(" {:>11}", format_quantity(r.value, r.unit));
-        if (const auto state = d->state(v); !state.empty()) out += fmt::format("  {}", state);
-        out += '\n';
+        group.rows.push_back(std::move(row));
     }
-    return out;
+    return out + group.table();
 }
 
 /// A second look from elsewhere: all nodes high. Its answer, if it is another one.

@@ -1,11 +1,6 @@
 #include "circuit/netlist/netlist.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 
 #include "circuit/netlist/parsed.hpp"
@@ -14,20 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-Result<std::string> text_of(const std::string& path) {
-    std::error_code failed;
-    if (std::filesystem::is_directory(path, failed)) return bad_input("is a directory, not a netlist", {path});
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
-    if (!file) return bad_input(fmt::format("cannot be read: {}", std::strerror(errno)), {path});
-    std::string text;
-    for (char block[1 << 16];;) {
-        const auto got = read_input(file.get(), block, path);
-        if (!got) return got.error();
-        text.append(block, *got);
-        if (text.size() > most_text) return bad_input(fmt::format("is larger than {} MB", most_text >> 20), {path});
-        if (*got < sizeof block) return text;
-    }
-}
+Result<std::string> text_of(const std::string& path) { return read_whole_input(path, most_text, "netlist"); }
 
 int found(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
     const auto at = numbers.find(std::string(name));

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "signal/carried.hpp"
 #include "signal/field.hpp"
@@ -19,21 +17,19 @@ namespace fs = std::filesystem;
 using circuit::Knob;
 using circuit::Netlist;
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;
+constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
 bool is_carried(std::string_view path) {
     const auto all = carried_files();
     return std::find(all.begin(), all.end(), path) != all.end();
 }
 
+/// A file that can be read again: once for each process corner.
 Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
     std::error_code status;
-    if (!fs::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {name});
-    if (fs::file_size(path, status) > most_bytes) return bad_input(fmt::format("is larger than {} MB", most_bytes >> 20), {name});
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return bad_input("cannot be read", {name});
-    remember_input(path.string());
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    if (fs::exists(path, status) && !fs::is_regular_file(path, status)) return bad_input("this is no plain file; save it to one", {name});
+    auto text = read_whole_input(path.string(), most_bytes, "netlist");
+    return text ? std::move(text) : Error{text.error().code, text.error().sentence, {name}};
 }
 
 Knob knob_of(const std::string& name, std::string value) { return {name, std::move(value), name, same_letters(name, "supply")}; }

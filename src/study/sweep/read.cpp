@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "circuit/carried.hpp"
 #include "signal/input_files.hpp"
@@ -16,18 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 using sweeps::SweepText;
 
-constexpr std::uintmax_t most_of_a_sweep = std::uintmax_t{1} << 20;  // bytes
+constexpr std::size_t most_of_a_sweep = std::size_t{1} << 20;  // bytes
 
 Result<SweepText> text_at(const fs::path& path) {
-    std::error_code status;
-    if (!fs::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path.string()});
-    if (fs::file_size(path, status) > most_of_a_sweep)
-        return bad_input(fmt::format("is no sweep file: it is larger than {} MB", most_of_a_sweep >> 20), {path.string()});
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return bad_input("cannot be read", {path.string()});
-    remember_input(path.string());
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    return sweeps::read_sweep_text(text, path.string());
+    const auto text = read_whole_input(path.string(), most_of_a_sweep, "sweep file");
+    return text ? sweeps::read_sweep_text(*text, path.string()) : Result<SweepText>(text.error());
 }
 
 /// A netlist alone: its own .step and .mc say what varies.

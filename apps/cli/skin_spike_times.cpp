@@ -1,0 +1,37 @@
+#include "skin_spike_times.hpp"
+
+namespace corpuscle {
+
+Result<void> SkinSpikeTimes::begin(const SkinInput& input) {
+    const auto& skin = input.skin;
+    times_.assign(skin.units.size(), {});
+    for (std::size_t u = 0; u < skin.units.size(); ++u) {
+        afferents_.push_back(skin.unit_name(u));
+        channels_.push_back(skin.plan.sites.regions[skin.units[u].region]);
+    }
+    return {};
+}
+
+void SkinSpikeTimes::add(const Clock& clock, std::span<const Spike> spikes) {
+    count_ += spikes.size();
+    if (are_too_many()) return times_.clear();
+    for (const auto& s : spikes) times_[s.unit].push_back(clock.time(s.step, s.offset));
+}
+
+Result<void> SkinSpikeTimes::block(const SkinInput& input, const SkinAnswered& answered) {
+    return add(input.clock, answered.spikes), Result<void>();
+}
+
+Result<void> SkinSpikeTimes::end(const SkinInput& input, std::int64_t, std::span<const Spike> last) {
+    return add(input.clock, last), Result<void>();
+}
+
+nlohmann::ordered_json SkinSpikeTimes::document() const {
+    if (are_too_many()) return nullptr;
+    auto units = nlohmann::ordered_json::array();
+    for (std::size_t u = 0; u < times_.size(); ++u)
+        if (!times_[u].empty()) units.push_back({{"afferent", afferents_[u]}, {"channel", channels_[u]}, {"times_s", times_[u]}});
+    return units;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,29 @@
+#pragma once
+// The spikes of a population for the document on standard output.
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "study/skin_run.hpp"
+
+namespace corpuscle {
+
+class SkinSpikeTimes final : public SkinListener {
+    std::vector<std::vector<double>> times_;  // of each unit, s
+    std::vector<std::string> afferents_, channels_;
+    std::size_t count_ = 0;
+
+    void add(const Clock&, std::span<const Spike>);
+
+public:
+    static constexpr std::size_t most = 10'000'000;  ///< more are left to files
+
+    Result<void> begin(const SkinInput&) override;
+    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
+    bool are_too_many() const { return count_ > most; }
+    /// Of each unit that fired, under the names of spikes.csv: afferent, channel, times_s. null: they are too many.
+    nlohmann::ordered_json document() const;
+};
+
+}  // namespace corpuscle

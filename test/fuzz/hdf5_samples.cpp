@@ -1,0 +1,205 @@
+// HDF5 files of any shape, type, storage and attributes, made by the library itself and read by our code in this process, where its
+// branches are seen. Damaged files are fuzz-hdf5's, through the helper process: the library may die of them.
+
+#include <fuzzer/FuzzedDataProvider.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hdf5_file.hpp"
+#include "hdf5_samples.hpp"
+
+namespace corpuscle::fuzz {
+namespace {
+
+using hdf5::Id;
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+constexpr const char* dataset_names[] = {"/force", "/a/force", "/a/b/data", "/t", "/a/time_s", "/fs", "/a/starting_time", "/frame"};
+constexpr const char* numbers_of_attributes[] = {"rate", "Sampling_Rate", "conversion", "offset"};
+constexpr const char* words_of_attributes[] = {"unit", "units", "MATLAB_class", "columns", "channels", "names"};
+constexpr const char* some_words[] = {"N", "mN", "fz_N", "frame", "t_s", "", "x y", "double", "\xff"};
+
+hid_t number_type(unsigned k) {
+    const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_STD_I8LE,
+                           H5T_STD_U8LE,   H5T_STD_I16BE,  H5T_STD_I64LE,  H5T_STD_U32LE};
+    return types[k % std::size(types)];
+}
+
+/// Exact in every type.
+double value_at(std::size_t k) { return static_cast<double>(k * 37 % 101); }
+
+class Maker {
+    FuzzedDataProvider& given_;
+    Id file_;
+
+    static Id scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
+
+    void add_number(hid_t object) {
+        const auto* const name = given_.PickValueInArray(numbers_of_attributes);
+        const double value = given_.PickValueInArray({1.0, 2.0, 1000.0, -1.0, 0.5, 0.0});
+        if (H5Aexists(object, name) > 0) return;
+        const Id space = scalar(), attribute(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
+    }
+
+    void add_words(hid_t object) {
+        const auto* const name = given_.PickValueInArray(words_of_attributes);
+        std::vector<std::string> words(given_.ConsumeIntegralInRange<std::size_t>(1, 4));
+        for (auto& w : words) w = given_.PickValueInArray(some_words);
+        if (H5Aexists(object, name) > 0) return;
+        const hsize_t count = words.size();
+        const Id space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose),
+            type(H5Tcopy(H5T_C_S1), H5Tclose);
+        const bool any_length = given_.ConsumeBool();
+        H5Tset_size(type, any_length ? H5T_VARIABLE : 8);
+        const Id attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        std::vector<const char*> texts;
+        std::string fixed;
+        for (const auto& w : words) texts.push_back(w.c_str()), fixed += w, fixed.resize(8 * texts.size());
+        H5Awrite(attribute, type, any_length ? static_cast<const void*>(texts.data()) : fixed.data());
+    }
+
+    /// In parts of the file's choosing: contiguous, compact, chunked, packed; some of it never written.
+    Id storage(const std::vector<hsize_t>& shape) {
+        Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+        const auto kind = given_.ConsumeIntegralInRange(0, 3);
+        if (shape.empty() || kind == 0) return how;
+        if (kind == 1) return H5Pset_layout(how, H5D_COMPACT), std::move(how);
+        std::vector<hsize_t> chunk;
+        for (const auto n : shape) chunk.push_back(given_.ConsumeIntegralInRange<hsize_t>(1, std::max<hsize_t>(1, n)));
+        H5Pset_chunk(how, static_cast<int>(chunk.size()), chunk.data());
+        if (kind == 3) H5Pset_shuffle(how), H5Pset_deflate(how, 1), H5Pset_fletcher32(how);
+        return how;
+    }
+
+    void write(hid_t dataset, hid_t memory, const std::vector<hsize_t>& shape, std::size_t numbers_each) {
+        std::size_t count = numbers_each;
+        for (const auto n : shape) count *= n;
+        std::vector<double> values(count);
+        for (std::size_t k = 0; k < count; ++k) values[k] = value_at(k);
+        const auto part = given_.ConsumeIntegralInRange(0, 2);  // all, half of the rows, nothing
+        if (count == 0 || part == 2) return;
+        const Id space(H5Dget_space(dataset), H5Sclose);
+        Id some(H5Scopy(space), H5Sclose);
+        if (part == 1 && !shape.empty()) {
+            std::vector<hsize_t> start(shape.size(), 0), extent = shape;
+            extent[0] = (extent[0] + 1) / 2;
+            H5Sselect_hyperslab(some, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
+        }
+        H5Dwrite(dataset, memory, some, some, H5P_DEFAULT, values.data());
+    }
+
+public:
+    explicit Maker(FuzzedDataProvider& given) : given_(given) {
+        const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+        H5Pset_fapl_core(access, std::size_t{1} << 16, false);
+        if (given_.ConsumeBool()) H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+        file_ = Id(H5Fcreate("made", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+        require(static_cast<bool>(file_));
+    }
+
+    void add_dataset() {
+        const std::string name = given_.PickValueInArray(dataset_names);
+        std::vector<hsize_t> shape(given_.ConsumeIntegralInRange<std::size_t>(0, 3));
+        for (auto& n : shape) n = given_.ConsumeIntegralInRange<hsize_t>(0, 20);
+        const bool is_compound = given_.ConsumeIntegralInRange(0, 3) == 0;
+        const auto kind = given_.ConsumeIntegral<unsigned>();
+        Id type(is_compound ? H5Tcreate(H5T_COMPOUND, 24) : H5Tcopy(number_type(kind)), H5Tclose), memory(H5Tcopy(type), H5Tclose);
+        if (is_compound) {
+            for (std::size_t k = 0; k < 3; ++k)
+                H5Tinsert(type, std::array{"t_s", "frame", "fz_N"}[(k + kind) % 3], 8 * k, k < 2 ? H5T_NATIVE_DOUBLE : H5T_STD_I64LE);
+            memory = Id(H5Tcopy(type), H5Tclose);
+        } else {
+            memory = Id(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
+        }
+        const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+        H5Pset_create_intermediate_group(links, 1);
+        const Id space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                       H5Sclose);
+        const Id how = storage(shape), dataset(H5Dcreate2(file_, name.c_str(), type, space, links, how, H5P_DEFAULT), H5Dclose);
+        if (!dataset) return;  // the name is taken, or the layout cannot have it
+        write(dataset, memory, shape, is_compound ? 3 : 1);
+        for (auto n = given_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_number(dataset);
+        for (auto n = given_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_words(dataset);
+    }
+
+    /// The file, in memory under a descriptor.
+    int finished() {
+        H5Fflush(file_, H5F_SCOPE_GLOBAL);
+        const auto size = H5Fget_file_image(file_, nullptr, 0);
+        require(size > 0);
+        std::vector<char> image(static_cast<std::size_t>(size));
+        require(H5Fget_file_image(file_, image.data(), image.size()) == size);
+        const int file = ::memfd_create("made", MFD_CLOEXEC);
+        require(file >= 0 && ::write(file, image.data(), image.size()) == size);
+        return file;
+    }
+};
+
+/// Blocks from anywhere, of any columns, hold what a reading of everything at once does.
+void check_samples(Samples& samples, FuzzedDataProvider& given) {
+    const auto& facts = samples.facts();
+    require(facts.rows > 0 && !facts.columns.empty() && (!facts.time || *facts.time < facts.columns.size()));
+    const auto rows = static_cast<std::size_t>(facts.rows), columns = facts.columns.size();
+    require(rows <= 8000 && columns <= 400);
+    const auto fetched = [&](std::size_t from, std::size_t count, const std::vector<std::size_t>& wanted) {
+        std::optional<std::vector<std::vector<double>>> out(std::in_place, wanted.size(), std::vector<double>(count));
+        const auto done = samples.fetch(static_cast<std::int64_t>(from), count, wanted, *out);
+        if (!done) require(!done.error().sentence.empty()), out.reset();
+        return out;
+    };
+    std::vector<std::size_t> all(columns);
+    for (std::size_t c = 0; c < columns; ++c) all[c] = c;
+    const auto whole = fetched(0, rows, all);
+    for (int k = 0; k < 4; ++k) {
+        std::vector<std::size_t> wanted;
+        for (std::size_t c = 0; c < columns; ++c)
+            if (given.ConsumeBool()) wanted.push_back(c);
+        const auto from = given.ConsumeIntegralInRange<std::size_t>(0, rows - 1),
+                   count = given.ConsumeIntegralInRange<std::size_t>(0, rows - from);
+        const auto some = fetched(from, count, wanted);
+        if (!whole || wanted.empty()) continue;
+        require(some.has_value());
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            for (std::size_t n = 0; n < count; ++n) {
+                const double a = (*some)[i][n], b = (*whole)[wanted[i]][from + n];
+                require(a == b || (std::isnan(a) && std::isnan(b)));
+            }
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace corpuscle;
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    FuzzedDataProvider given(data, size);
+    int file = -1;
+    {
+        fuzz::Maker maker(given);
+        for (auto n = given.ConsumeIntegralInRange(1, 4); n > 0; --n) maker.add_dataset();
+        file = maker.finished();
+    }
+    TableOptions options;
+    if (given.ConsumeBool()) options.transpose = given.ConsumeBool();
+    if (given.ConsumeBool()) options.dataset = given.PickValueInArray({"force", "a", "data", "/t", "none"});
+    auto samples = open_hdf5_samples(file, "made.h5", options);
+    if (samples)
+        fuzz::check_samples(**samples, given);
+    else
+        fuzz::require(!samples.error().sentence.empty());
+    samples = bad_input("closed");
+    ::close(file);
+    return 0;
+}
