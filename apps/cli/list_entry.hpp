@@ -9,7 +9,7 @@
 namespace corpuscle {
 
 /// Something told of an entry that is no parameter.
-struct Told {
+struct CatalogNote {
     std::string of, text, source;
 };
 
@@ -18,7 +18,7 @@ struct Entry {
     std::vector<Parameter> parameters;
     std::vector<std::string> other_names;
     std::string_view made_of_is = "made_of";  ///< what made_of is of this kind of entry, in JSON
-    std::vector<Told> told = {};
+    std::vector<CatalogNote> told = {};
 };
 
 struct Section {

@@ -42,7 +42,7 @@ std::string densities(const SkinPlan& plan, const SkinClass& c) {
     return out + " /cm2";
 }
 
-void tell_class(const SkinPlan& plan, std::uint32_t k, std::vector<Told>& out) {
+void tell_class(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogNote>& out) {
     const auto& c = plan.classes[k];
     const auto by_region = units_by_region(plan, k);
     const auto units = std::accumulate(by_region.begin(), by_region.end(), std::uint64_t{0});

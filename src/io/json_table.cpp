@@ -97,16 +97,9 @@ public:
             for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, rows_looked_at); ++k) v.first.add_other(v.first.nothing);
             first.push_back(std::move(v.first));
         }
-<<<<<<< HEAD
-        const bool named = std::any_of(columns_.begin(), columns_.end(), [](const Column& c) {
-            return !c.name.starts_with("ch") || c.name.find_first_not_of("0123456789", 2) != c.name.npos;
-        });
-        roles_ = assign_roles(columns_, first, named);
+        roles_ = assign_roles(columns_, first, are_named(columns_));
         for (std::size_t c = 0; c < columns_.size(); ++c)
             if (columns_[c].unit.empty() && columns_[c].left_out.empty() && c != roles_.time) columns_[c].unit = facts_.unit;
-=======
-        roles_ = assign_roles(columns_, first, are_named(columns_));
->>>>>>> wt-small
         if (roles_.time && columns_[*roles_.time].stamps) {
             const auto& s = *values_[*roles_.time].stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
