@@ -28,6 +28,8 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     alternations_.assign(count, 0), calming_ = 0, charged_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
+    largest_capacity_ = 0;
+    for (const double c : newton_.sums.C) largest_capacity_ = std::max(largest_capacity_, std::abs(c));
     find_held();
     past_.clear();
     auto& first = past_.next();
@@ -91,11 +93,15 @@ void Transient::allow() {
         if (!voltage && !plan_.all_reported) may_err_[n] *= Bend::current_may;
     }
     if (!plan_.all_reported) return;
-    largest_charge_ = 0;
+    largest_charge_ = fastest_charge_ = 0;
+    double volts = 1;  // V: a junction's charge is a difference of parts as large as at its potential
     for (std::size_t n = 0; n < allowed_.size(); ++n) {
         largest_charge_ = std::max(largest_charge_, std::abs(past_[0].q[n]));
+        fastest_charge_ = std::max(fastest_charge_, std::abs(rate_[n]));
+        if (system_.is_voltage(static_cast<int>(n))) volts = std::max(volts, scale_[n]);
         if (!system_.is_voltage(static_cast<int>(n))) may_err_[n] += of_largest * largest;
     }
+    largest_charge_ = std::max(largest_charge_, largest_capacity_ * volts);  // between nodes of much the same voltage, little of it is left
 }
 
 /// Solves the step to t; the answer is past_.next(). One whose error will be far too large is left at once.
@@ -143,12 +149,15 @@ double Transient::worst_error() {
     return jump_ ? worst : std::max(worst, others_);
 }
 
-/// What rounding of charges leaves in a current, in steps as short as this one.
-double Transient::noise(int unknown) const { return system_.is_voltage(unknown) ? 0 : 1e-14 * std::abs(leading_) * largest_charge_; }
+/// What rounding of charges and of times leaves in a current, in steps as short as this one.
+double Transient::noise(int unknown) const {
+    return system_.is_voltage(unknown) ? 0 : std::abs(leading_) * (1e-14 * largest_charge_ + 1e-15 * past_[0].t * fastest_charge_);
+}
 
 /// How far the curve in the step just solved is off half way, of what it may be; it goes through as many points as make that least.
 /// The first step after a corner has no third point to tell.
 double Transient::bend() {
+    constexpr double slowest = 0.9;  // of what each further point takes away, to the one before
     constexpr double written = 3;  // times as exact as what is only looked at: straight lines between points err, too
     curve_ = 0;
     if (curves_.empty()) return 0;
@@ -156,7 +165,7 @@ double Transient::bend() {
     std::array<double, Past::most + 1> times{next.t};
     const auto before = past_.times();
     std::copy(before.begin(), before.end(), times.begin() + 1);
-    const auto curve = least_bend(times, past_.seen(), [&](const PastWeights& w, int points) {
+    const auto worst_of = [&](const PastWeights& w, int points) {
         double worst = 0;
         for (const int u : curves_) {
             const auto n = static_cast<std::size_t>(u);
@@ -165,9 +174,16 @@ double Transient::bend() {
             worst = std::max(worst, std::abs(sum) / (may_err_[n] + noise(u)));
         }
         return worst;
-    });
+    };
+    const auto curve = least_bend(times, past_.seen(), worst_of);
     curve_ = curve.points;
-    return plan_.all_reported ? written * curve.off : curve.off;
+    if (!plan_.all_reported) return curve.off;
+    const auto off = [&](int points) {
+        return worst_of(weights_of_bend(std::span(times).first(static_cast<std::size_t>(points) + 1)), points) / StepControl::curved;
+    };
+    const double more = curve.points < past_.seen() ? off(curve.points + 1) : 0, fewer = curve.points > 2 ? off(curve.points - 1) : 0;
+    const double rest = fewer > 0 ? std::min(std::max(more, curve.off) / fewer, slowest) : 0;
+    return written * std::max(more, curve.off) / (1 - rest);
 }
 
 /// Of the step just solved, had it been of this order, in units of what is allowed. Infinity: too few points to tell.

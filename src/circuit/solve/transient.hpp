@@ -68,7 +68,7 @@ private:
     enum class Opening { none, first, at_once } opening_ = Opening::none;  // after a corner: a point at once, a first step
     int curve_ = 0;                                                        // points of the curve in the last step; 0: as the rule has it
     double others_ = 0;                                                    // the error of unknowns without charge in the last step
-    double largest_charge_ = 0;
+    double largest_capacity_ = 0, largest_charge_ = 0, fastest_charge_ = 0;  // F, C, A: what rounding in currents is measured by
     std::vector<double> scale_, allowed_, may_err_, history_, rate_, error_;  // may_err_: of what is reported
     std::vector<char> charged_;
     std::vector<int> curves_;  // unknowns that are reported and that sources alone do not hold
