@@ -188,13 +188,17 @@ double Transient::bend() {
     std::array<double, Past::most + 1> times{next.t};
     const auto before = past_.times();
     std::copy(before.begin(), before.end(), times.begin() + 1);
+    std::array<const double*, Past::most + 1> x{next.x.data()};
+    for (int k = 0; k < past_.seen(); ++k) x[static_cast<std::size_t>(k) + 1] = past_[k].x.data();
+    auto& may = error_;
+    for (const int u : curves_) may[static_cast<std::size_t>(u)] = may_err_[static_cast<std::size_t>(u)] + noise(u);
     const auto worst_of = [&](const PastWeights& w, int points) {
         double worst = 0;
         for (const int u : curves_) {
             const auto n = static_cast<std::size_t>(u);
-            double sum = w[0] * next.x[n];
-            for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k) + 1] * past_[k].x[n];
-            worst = std::max(worst, std::abs(sum) / (may_err_[n] + noise(u)));
+            double sum = w[0] * x[0][n];
+            for (std::size_t k = 1; k <= static_cast<std::size_t>(points); ++k) sum += w[k] * x[k][n];
+            worst = std::max(worst, std::abs(sum) / may[n]);
         }
         return worst;
     };
@@ -321,7 +325,8 @@ Result<bool> Transient::step(double until) {
         double off = found ? bend() : 0;
         if (found) measure_rounding(error, off);
         const double worst = jump_ ? error : std::max(error, off);
-        alike = found && arrived_ && past_.count() == 1 && worst > no_better * rejected && rejected > 0 ? alike + 1 : 0;
+        alike =
+            found && arrived_ && plan_.all_reported && past_.count() == 1 && worst > no_better * rejected && rejected > 0 ? alike + 1 : 0;
         rejected = found ? worst : 0;
         if (!found || (!(worst <= 1) && alike < enough)) {
             if (auto ok = shorten(t - t0, found ? worst : 0); !ok) return ok.error();
