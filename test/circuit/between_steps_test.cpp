@@ -147,9 +147,12 @@ TEST(AfterACorner, RoundingRefusesNoStep) {
     TransientPlan plan;
     plan.all_reported = true;
     plan.reltol = 1e-8, plan.vntol = 1e-9, plan.abstol = 1e-19;
-    const auto run = circuit.run(plan);
-    EXPECT_EQ(run.wrong, "");
-    EXPECT_LT(run.work.steps, 20'000);
+    for (const double longest : {60e-6, 30e-6, 15e-6}) {
+        plan.longest = longest;
+        const auto run = circuit.run(plan);
+        EXPECT_EQ(run.wrong, "") << longest;
+        EXPECT_LT(run.work.steps, 20'000) << longest;
+    }
 }
 
 TEST(BetweenSteps, AFormulasJumpIsWhereItsInputCrosses) {

@@ -129,11 +129,12 @@ bool Transient::attempt(double t, double& error) {
     if (rounding_measured_) std::fill(rounding_.begin(), rounding_.end(), 0.0), rounding_measured_ = false;
     equations_.prepare(t, leading_, history_);
     equations_.check_formulas(!jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
+    const bool to_the_end = plan_.all_reported && past_.count() == 1;  // what rounding leaves in a first step is known only there
     for (;;) {
         using Way = StepEquations::Way;
         const auto way = equations_.iterate(next.x, allowed_);
         if (way == Way::lost) return false;
-        const bool far = way == Way::on && equations_.step_size() > far_off;  // is it worth to go on?
+        const bool far = way == Way::on && equations_.step_size() > far_off && !to_the_end;  // is it worth to go on?
         if (way == Way::on && !far) continue;
         equations_.charges(next.q);
         arrived_ = way == Way::arrived;
