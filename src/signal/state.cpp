@@ -49,6 +49,29 @@ Result<void> take_checksum(std::span<const std::byte> all, const std::array<char
     return {};
 }
 
+/// A format without its version, as in "sa1b+lif-b/2, T = 0.0001 s": what stands before and after it.
+struct Versioned {
+    std::string_view before, version, after;
+};
+
+Versioned versioned(std::string_view format) {
+    const auto slash = format.rfind('/');
+    if (slash == format.npos) return {format, {}, {}};
+    const auto end = std::min(format.find_first_not_of("0123456789", slash + 1), format.size());
+    return {format.substr(0, slash), format.substr(slash + 1, end - slash - 1), format.substr(end)};
+}
+
+/// Of a state whose format is not the one of the afferent that is to go on from it.
+Error other_state(std::string_view name, std::string_view format, std::string_view met) {
+    const auto ours = versioned(format), theirs = versioned(met);
+    if (ours.before != theirs.before || ours.after != theirs.after || ours.version == theirs.version)
+        return bad_input(fmt::format("a state of '{}' was handed to '{}'", met, format));
+    return bad_input(
+        fmt::format("{}: a saved state of version {}, and this program reads version {}; begin anew with start(), which gives a state of "
+                    "version {}, or go on with the program that saved it",
+                    name, theirs.version.empty() ? "0" : theirs.version, ours.version, ours.version));
+}
+
 }  // namespace
 
 std::size_t first_not_finite(std::span<const double> x) {
@@ -61,8 +84,10 @@ std::size_t first_not_finite(std::span<const double> x) {
 
 Result<void> check_block(std::string_view name, std::string_view format, std::size_t values, const State& state,
                          std::span<const double> force) {
-    if (state.format != format || state.values.size() != values)
-        return bad_input(fmt::format("a state of '{}' was handed to '{}'", state.format, format));
+    if (state.format != format) return other_state(name, format, state.format);
+    if (state.values.size() != values)
+        return bad_input(fmt::format("{}: a saved state is damaged: it holds {} values, and {} are expected; begin anew with start()", name,
+                                     state.values.size(), values));
     if (const auto bad = first_not_finite(force); bad < force.size())
         return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name,
                                      state.step + static_cast<std::int64_t>(bad), force[bad]));

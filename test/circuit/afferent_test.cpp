@@ -238,6 +238,24 @@ TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {
     }
 }
 
+TEST(CircuitAfferent, AStateOfTheVersionBeforeIsRefusedWithBothVersionsAndARemedy) {
+    const auto afferent = design(spiker())->make(1e-3, false);
+    std::vector<Spike> spikes;
+    Answer answer{spikes};
+    auto before = afferent->start();
+    const auto at = before.format.find("/2, ");
+    ASSERT_NE(at, std::string::npos) << before.format;
+    before.format[at + 1] = '1';
+    before = sure(unpack(pack(before)));
+    const auto refused = afferent->respond(wave(20, 1e-3), before, answer);
+    ASSERT_FALSE(refused);
+    const auto& told = refused.error().sentence;
+    EXPECT_NE(told.find("a saved state of version 1, and this program reads version 2; begin anew with start()"), std::string::npos)
+        << told;
+    before = afferent->start();  // the remedy
+    EXPECT_TRUE(afferent->respond(wave(20, 1e-3), before, answer));
+}
+
 TEST(CircuitAfferent, OfTwoNetlistsNeitherTakesTheOthersState) {
     const auto a = design(std::string(relaxer) + ".spike v(s) 0.5\n"), b = design(std::string(relaxer) + ".spike v(s) 0.6\n");
     EXPECT_NE(a->make(1e-3, false)->start().format, b->make(1e-3, false)->start().format);

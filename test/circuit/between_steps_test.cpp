@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "circuit/device/course.hpp"
 #include "circuit/in_time.hpp"
 
 namespace corpuscle::circuit {
@@ -112,6 +113,48 @@ TEST(AfterACorner, AJumpIsNotDrawnAsARamp) {
 }
 
 /// A comparator has no charge and no corner that a source would name; its edge is where its input crosses.
+TEST(AfterACorner, ASourceHasItsLastDigits) {
+    const double since = 1e-12, slope = 4e3;  // s, V/s: 4 nV of 4 V
+    const Course charges({Waveform::Shape::exponential, 0, false, 0, 0, {0, 4, 2e-4, 1e-3, 1, 1}}, 1e-6, 3e-3);
+    const double late = 2e-4 + since;
+    EXPECT_NEAR(charges.at(late), slope * (late - 2e-4), 1e-9 * slope * since);
+    const Course returns({Waveform::Shape::pulse, 0, false, 0, 0, {4, 0, 1e-4, 3e-5, 1e-3, 2e-4, 2e-3}}, 1e-6, 3e-3);
+    const double corner = returns.next_corner(2e-4), then = corner + since;
+    EXPECT_EQ(returns.at(corner), 0);
+    EXPECT_NEAR(returns.at(then), slope * (then - corner), 1e-9 * slope * since);
+}
+
+/// What Newton's limits looked at instead would be a charge too many, and a current of 15 mA for a step.
+TEST(AfterACorner, JunctionsBeginWithTheChargeOfTheirVoltage) {
+    const auto circuit = InTime::text(
+        "two in series\nv1 a 0 exp(-1.98516 1.98516 0.3m 0.44m)\nd1 b a d\nd2 0 b d\nr1 a b 33meg\nc1 a 0 1n\n"
+        ".model d d(is=1.68381e-13 n=1.30859 cjo=5.99394e-14)\n.tran 1u 1m\n");
+    TransientPlan plan;
+    plan.all_reported = true;
+    const auto run = circuit.run(plan);
+    const auto i = static_cast<std::size_t>(circuit.unknown("i(v1)"));
+    ASSERT_EQ(run.wrong, "");
+    ASSERT_LT(run.t[1], 1e-12);
+    EXPECT_GT(std::abs(run.x[0][i]), 0.1);
+    for (std::size_t k = 1; run.t[k] < 1e-4; ++k) EXPECT_NEAR(run.x[k][i], run.x[0][i], 1e-6) << run.t[k];
+}
+
+/// A current of a steep edge through a floating capacitor, at tolerances where its last digits are all there is.
+TEST(AfterACorner, RoundingRefusesNoStep) {
+    const auto circuit = InTime::text(
+        "floating\nv1 a 0 pulse(-1.785 1.785 0.27m 1.6u 0.9u 0.28m 1.36m)\nr1 a b 43.9k\nr2 b 0 64.4k\nr3 a c 4.5meg\nd1 a c d\n"
+        "c1 c b 1.24n\nd2 c e d\nr4 e 0 4.67k\n.model d d(is=1.46257e-12 n=1.20338 cjo=0)\n.tran 1u 3m\n");
+    TransientPlan plan;
+    plan.all_reported = true;
+    plan.reltol = 1e-8, plan.vntol = 1e-9, plan.abstol = 1e-19;
+    for (const double longest : {60e-6, 30e-6, 15e-6}) {
+        plan.longest = longest;
+        const auto run = circuit.run(plan);
+        EXPECT_EQ(run.wrong, "") << longest;
+        EXPECT_LT(run.work.steps, 20'000) << longest;
+    }
+}
+
 TEST(BetweenSteps, AFormulasJumpIsWhereItsInputCrosses) {
     const auto run =
         ran("comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"

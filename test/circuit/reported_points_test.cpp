@@ -8,25 +8,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 
 #include "circuit/random_circuits.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-/// One that is further off than it should be: how far, of what is allowed (0: it is left out), and why.
-struct Excused {
-    double within;
-    const char* reason;
-};
-
-/// A kind of circuit, and of those drawn the ones that are excused.
 struct DrawnKind {
     const char* name;
     int many;
     std::string (*draw)(Dice&);
-    std::map<int, Excused> excused;
 };
 
 constexpr double stop_time = 3e-3;  // s
@@ -186,8 +177,6 @@ TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
     for (int k = 0; k < kind.many; ++k) {
         Dice dice(static_cast<std::uint64_t>(1000 + k));
         const auto text = kind.draw(dice) + fmt::format(".tran 1u {:g}\n", stop_time);
-        const auto excused = kind.excused.find(k);
-        if (excused != kind.excused.end() && excused->second.within == 0) continue;
         const auto circuit = InTime::text(text);
         TransientPlan plan;
         plan.all_reported = true;
@@ -200,23 +189,12 @@ TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
         if (std::getenv("CORPUSCLE_SHOW"))
             std::printf("%s %d: %.2f, %ld steps, %ld rejected, %ld iterations; finer %ld; %s\n", kind.name, k, worst, run.work.steps,
                         run.work.rejected, run.work.iterations, fine.work.steps, where.c_str());
-        if (excused == kind.excused.end())
-            EXPECT_LE(worst, 1) << kind.name << " " << k << ": " << where << "\n" << text;
-        else
-            EXPECT_LE(worst, excused->second.within) << kind.name << " " << k << ", " << excused->second.reason << ": " << where;
+        EXPECT_LE(worst, 1) << kind.name << " " << k << ": " << where << "\n" << text;
+        EXPECT_LT(fine.work.steps, 100'000) << kind.name << " " << k << ": rounding refuses steps\n" << text;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Drawn, ReportedPoints,
-                         testing::Values(DrawnKind{"Diodes",
-                                                   60,
-                                                   diodes,
-                                                   {{2, {0, "at a thousandth of the tolerances it takes millions of steps"}},
-                                                    {24, {1.1, "errors of three thousand steps add up"}},
-                                                    {42, {1.1, "errors of many steps add up"}},
-                                                    {55, {1.1, "errors of many steps add up"}},
-                                                    {52, {0, "at a thousandth of the tolerances it takes millions of steps"}}}},
-                                         DrawnKind{"Transistors", 60, transistors, {}}),
+INSTANTIATE_TEST_SUITE_P(Drawn, ReportedPoints, testing::Values(DrawnKind{"Diodes", 60, diodes}, DrawnKind{"Transistors", 60, transistors}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 /// What swings by itself is compared by its period.

@@ -44,14 +44,14 @@ double Course::pulse(double t) const {
     const auto given = [&](std::size_t k, double otherwise) { return number(k, 0) > 0 ? number(k, 0) : otherwise; };
     const double v1 = number(0, 0), v2 = number(1, 0), rise = given(3, step_), fall = given(4, step_), width = number(5, stop_);
     const double period = given(6, std::max(stop_, rise + width + fall));
-    double in = t - number(2, 0);
-    if (in < 0) return v1;
-    const double round = std::floor(in / period);
+    if (t < number(2, 0)) return v1;
+    const double round = std::floor((t - number(2, 0)) / period);
     if (const double most = number(7, 0); most > 0 && round >= most) return v1;
-    in -= round * period;
-    if (in < rise) return v1 + (v2 - v1) * (in / rise);
-    if (in < rise + width) return v2;
-    return in < rise + width + fall ? v2 + (v1 - v2) * ((in - rise - width) / fall) : v1;
+    // Times since a corner as next_corner() has it, which no rounding alters: a steep edge shows the last digit of a time.
+    const double start = number(2, 0) + round * period, down = start + (rise + width);
+    if (t < start + rise) return v1 + (v2 - v1) * ((t - start) / rise);
+    if (t < down) return v2;
+    return t < start + (rise + width + fall) ? v2 + (v1 - v2) * ((t - down) / fall) : v1;
 }
 
 /// vo va freq td theta phase
@@ -66,9 +66,10 @@ double Course::sine(double t) const {
 double Course::exponential(double t) const {
     const double v1 = number(0, 0), v2 = number(1, 0), up = number(2, 0), down = number(4, up + step_);
     const auto given = [&](std::size_t k) { return number(k, 0) > 0 ? number(k, 0) : step_; };
+    const auto part = [](double in) { return in * num::exprel(-in); };  // 1 - e^-in, to the last digits right after a corner, too
     double v = v1;
-    if (t > up) v += (v2 - v1) * (1 - num::exp(-(t - up) / given(3)));
-    if (t > down) v += (v1 - v2) * (1 - num::exp(-(t - down) / given(5)));
+    if (t > up) v += (v2 - v1) * part((t - up) / given(3));
+    if (t > down) v += (v1 - v2) * part((t - down) / given(5));
     return v;
 }
 

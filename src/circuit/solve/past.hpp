@@ -37,6 +37,7 @@ public:
     /// Of the points accepted so far, as many as these count.
     void count_only(int count) { count_ = std::clamp(count, std::min(seen_, 1), seen_); }
     const Moment& operator[](int k) const { return ring_[static_cast<std::size_t>((first_ + k) % room)]; }
+    Moment& newest() { return ring_[static_cast<std::size_t>(first_)]; }
     /// Room for the next point, to be filled and then taken by accept().
     Moment& next() { return ring_[static_cast<std::size_t>((first_ + room - 1) % room)]; }
     void accept();

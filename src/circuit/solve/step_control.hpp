@@ -57,11 +57,11 @@ struct StepControl {
     void stretch(double taken, double by, int points) { h = taken * std::clamp(by, 0.3, points < 3 ? 5 : longer); }
 
     /// After one that was too long by its error, or whose equations were not solved (0). True: all is to begin anew, from the last point;
-    /// `before`: how long the last step was, 0 if there was none since the start.
-    bool shorten(double taken, double error, double before) {
+    /// `before`: how long the last step was, 0 if there was none since the start; `patience`: how often it may fail before that.
+    bool shorten(double taken, double error, double before, int patience = 1) {
         ++failures;
         h = taken * (error > 0 ? std::clamp(growth(error, order), before > 0 ? 0.1 : 1e-3, 0.8) : 0.125);
-        return before > 0 && (failures > 1 || h < 0.1 * before);
+        return before > 0 && (failures > patience || h < 0.1 * before);
     }
 };
 

@@ -20,7 +20,7 @@ constexpr double far_off = 20, hopeless = 2;  // allowed units: of a first itera
 Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
     plan_.longest = std::min(plan_.longest, system_.pace());
     const auto count = x.size();
-    for (auto* v : {&scale_, &allowed_, &may_err_, &history_, &rate_, &error_, &turn_, &fastest_}) v->assign(count, 0);
+    for (auto* v : {&scale_, &allowed_, &may_err_, &rounding_, &history_, &rate_, &error_, &turn_, &fastest_}) v->assign(count, 0);
     newton_.memory = system_.fresh_memory();
     newton_.instant.charges = true, newton_.instant.time = 0;
     system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
@@ -28,6 +28,12 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
     alternations_.assign(count, 0), calming_ = 0, charged_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
         charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
+    capacity_.assign(count, 0);
+    const auto& pattern = system_.pattern();
+    for (std::size_t column = 0; column < count; ++column)
+        for (int e = pattern.begin()[column]; e < pattern.begin()[column + 1]; ++e)
+            capacity_[static_cast<std::size_t>(pattern.rows()[static_cast<std::size_t>(e)])] +=
+                std::abs(newton_.sums.C[static_cast<std::size_t>(e)]);
     find_held();
     past_.clear();
     auto& first = past_.next();
@@ -70,10 +76,12 @@ Result<void> Transient::settle() {
     return {};
 }
 
-/// Only the newest point counts from now on; dq/dt there is what the currents leave. Its charge stays what came of the steps before.
-void Transient::start_over(bool forget) {
-    const Moment& now = past_[0];
+/// Only the newest point counts from now on; dq/dt there is what the currents leave. Its charge stays what came of the steps before, or
+/// (`exact`) becomes that of its x: what Newton's last step left over would be a large current in a first step that is short.
+void Transient::start_over(bool forget, bool exact) {
+    Moment& now = past_.newest();
     equations_.at(now.t, now.x, rate_, error_);
+    if (exact) now.q = error_;
     for (double& r : rate_) r = -r;
     past_.start_over(forget);
     pace_.start_over();
@@ -91,11 +99,16 @@ void Transient::allow() {
         if (!voltage && !plan_.all_reported) may_err_[n] *= Bend::current_may;
     }
     if (!plan_.all_reported) return;
-    largest_charge_ = 0;
+    largest_charge_ = fastest_charge_ = 0;
+    volts_ = 1;  // V: a junction's charge is a difference of parts as large as at its potential
     for (std::size_t n = 0; n < allowed_.size(); ++n) {
         largest_charge_ = std::max(largest_charge_, std::abs(past_[0].q[n]));
+        fastest_charge_ = std::max(fastest_charge_, std::abs(rate_[n]));
+        if (system_.is_voltage(static_cast<int>(n))) volts_ = std::max(volts_, scale_[n]);
         if (!system_.is_voltage(static_cast<int>(n))) may_err_[n] += of_largest * largest;
     }
+    // Between nodes of much the same voltage, little of it is left.
+    largest_charge_ = std::max(largest_charge_, *std::max_element(capacity_.begin(), capacity_.end()) * volts_);
 }
 
 /// Solves the step to t; the answer is past_.next(). One whose error will be far too large is left at once.
@@ -113,15 +126,18 @@ bool Transient::attempt(double t, double& error) {
         const auto weights = past_.slope(t, pace_.order, leading_);
         past_.sum(weights, pace_.order, &Moment::q, history_);
     }
+    if (rounding_measured_) std::fill(rounding_.begin(), rounding_.end(), 0.0), rounding_measured_ = false;
     equations_.prepare(t, leading_, history_);
     equations_.check_formulas(!jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
+    const bool to_the_end = plan_.all_reported && past_.count() == 1;  // what rounding leaves in a first step is known only there
     for (;;) {
         using Way = StepEquations::Way;
         const auto way = equations_.iterate(next.x, allowed_);
         if (way == Way::lost) return false;
-        const bool far = way == Way::on && equations_.step_size() > far_off;  // is it worth to go on?
+        const bool far = way == Way::on && equations_.step_size() > far_off && !to_the_end;  // is it worth to go on?
         if (way == Way::on && !far) continue;
         equations_.charges(next.q);
+        arrived_ = way == Way::arrived;
         error = error_of(pace_.order);
         if (way == Way::arrived || error > hopeless) return true;
     }
@@ -134,7 +150,7 @@ double Transient::worst_error() {
     double worst = 0;
     others_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
-        if (charged_[n] && allowed_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / allowed_[n]);
+        if (charged_[n] && allowed_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / (allowed_[n] + rounding_[n]));
     if (plan_.all_reported) worst *= adding_up;
     if (!plan_.all_reported || plan_.method != Integration::bdf) return worst;
     for (std::size_t n = 0; n < error_.size(); ++n)
@@ -143,35 +159,63 @@ double Transient::worst_error() {
     return jump_ ? worst : std::max(worst, others_);
 }
 
-/// What rounding of charges leaves in a current, in steps as short as this one.
-double Transient::noise(int unknown) const { return system_.is_voltage(unknown) ? 0 : 1e-14 * std::abs(leading_) * largest_charge_; }
+/// What rounding of charges and of times leaves in a current, in steps as short as this one; in a voltage, once measured.
+double Transient::noise(int unknown) const {
+    const double measured = rounding_[static_cast<std::size_t>(unknown)];
+    if (system_.is_voltage(unknown)) return measured;
+    return std::max(measured, std::abs(leading_) * (1e-14 * largest_charge_ + 1e-15 * past_[0].t * fastest_charge_));
+}
+
+/// What the last digits of the charges do to each unknown of the step just solved, before its errors refuse it. The shorter it is, the less
+/// the voltage of nodes that hang together by capacitors is known.
+void Transient::measure_rounding(double& error, double& off) {
+    constexpr double digit = 1e-15;
+    if (!arrived_ || !plan_.all_reported || std::max(error, off) <= 1) return;
+    for (std::size_t n = 0; n < rounding_.size(); ++n) rounding_[n] = digit * std::abs(leading_) * capacity_[n] * volts_;
+    equations_.answer_to(rounding_);
+    rounding_measured_ = true;
+    for (double& r : rounding_) r = std::abs(r);
+    error = error_of(pace_.order), off = bend();
+}
 
 /// How far the curve in the step just solved is off half way, of what it may be; it goes through as many points as make that least.
 /// The first step after a corner has no third point to tell.
 double Transient::bend() {
-    constexpr double written = 3;  // times as exact as what is only looked at: straight lines between points err, too
+    constexpr double falling = 3;    // times less, at least, than a degree takes away is what the next one does
+    constexpr double written = 2.5;  // times as exact as what is only looked at: straight lines between points err, too
     curve_ = 0;
     if (curves_.empty()) return 0;
     const auto& next = past_.next();
     std::array<double, Past::most + 1> times{next.t};
     const auto before = past_.times();
     std::copy(before.begin(), before.end(), times.begin() + 1);
-    const auto curve = least_bend(times, past_.seen(), [&](const PastWeights& w, int points) {
+    std::array<const double*, Past::most + 1> x{next.x.data()};
+    for (int k = 0; k < past_.seen(); ++k) x[static_cast<std::size_t>(k) + 1] = past_[k].x.data();
+    auto& may = error_;
+    for (const int u : curves_) may[static_cast<std::size_t>(u)] = may_err_[static_cast<std::size_t>(u)] + noise(u);
+    const auto worst_of = [&](const PastWeights& w, int points) {
         double worst = 0;
         for (const int u : curves_) {
             const auto n = static_cast<std::size_t>(u);
-            double sum = w[0] * next.x[n];
-            for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k) + 1] * past_[k].x[n];
-            worst = std::max(worst, std::abs(sum) / (may_err_[n] + noise(u)));
+            double sum = w[0] * x[0][n];
+            for (std::size_t k = 1; k <= static_cast<std::size_t>(points); ++k) sum += w[k] * x[k][n];
+            worst = std::max(worst, std::abs(sum) / may[n]);
         }
         return worst;
-    });
+    };
+    const auto curve = least_bend(times, past_.seen(), worst_of);
     curve_ = curve.points;
-    return plan_.all_reported ? written * curve.off : curve.off;
+    if (!plan_.all_reported) return curve.off;
+    // That one degree more changes little may be chance: the one after it must change still less.
+    const int more = curve.points + 1;
+    if (more > past_.seen()) return written * curve.off;
+    const auto weights = weights_of_bend(std::span(times).first(static_cast<std::size_t>(more) + 1));
+    return written * std::max(curve.off, falling * worst_of(weights, more) / StepControl::curved);
 }
 
 /// Of the step just solved, had it been of this order, in units of what is allowed. Infinity: too few points to tell.
 double Transient::error_of(int order) {
+    constexpr double far_back = 1.2;  // step lengths a point: a history that reaches further says less of what is new in this step
     const auto& next = past_.next();
     const double h = next.t - past_[0].t;
     if (past_.count() == 1) {
@@ -181,6 +225,7 @@ double Transient::error_of(int order) {
     const int points = std::min(order + 1, past_.count());
     past_.sum(past_.value(next.t, points), points, &Moment::q, error_);
     double per = 1 / (next.t - past_[points - 1].t);
+    if (plan_.all_reported) per = std::max(per, 1 / (far_back * points * h));
     if (trapezoid() && points == 3) per *= h / (next.t - past_[1].t);
     for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = (next.q[n] - error_[n]) * per;
     return worst_error();
@@ -197,9 +242,11 @@ void Transient::choose(double h, double error) {
 
 /// The step was too long, or its equations were not solved (error 0).
 Result<void> Transient::shorten(double h, double error) {
+    constexpr int patient = 3;  // attempts, before a start of order 1, which gives currents poorly
     ++work_.rejected;
     if (error == 0) ++work_.lost;
-    if (pace_.shorten(h, error, past_.count() > 1 ? past_[0].t - past_[1].t : 0)) start_over(false);
+    if (pace_.shorten(h, error, past_.count() > 1 ? past_[0].t - past_[1].t : 0, plan_.all_reported ? patient : 1))
+        start_over(false, plan_.all_reported);
     if (pace_.h >= shortest_part * plan_.stop) return {};
     return too_short(pace_.h);
 }
@@ -245,13 +292,7 @@ bool Transient::open(double t0, double corner, double& t) {
     const double at_once = 1e-8 * std::clamp(1e-5 / plan_.reltol, 1.0, 10.0);
     if (opening_ != Opening::at_once) return false;
     opening_ = Opening::first;
-    // Newton's last step left a little charge over, which in so short a time would be a large current: it is let go
-    Moment now = past_[0];
-    equations_.at(now.t, now.x, rate_, now.q);
-    for (double& r : rate_) r = -r;
-    past_.clear();
-    past_.next() = std::move(now);
-    past_.accept();
+    start_over(true, true);
     t = t0 + at_once * std::min({pace_.h, plan_.longest, corner - t0});
     double error = 0;
     jump_ = true;
@@ -263,7 +304,12 @@ bool Transient::open(double t0, double corner, double& t) {
 
 Result<bool> Transient::step(double until) {
     constexpr double first_part = 1.0 / 256;  // of a step after a corner, the first: nothing tells yet how much bends
-    if (std::exchange(bent_, false)) start_over(true);
+    // An error that stays however short a first step is: it is of the point where it begins, which rounding has put a little aside.
+    constexpr double no_better = 0.9;
+    constexpr int enough = 3;
+    if (std::exchange(bent_, false)) start_over(true, plan_.all_reported);
+    double rejected = 0;  // of the last attempt: its error
+    int alike = 0;        // how many in a row were no better for being shorter
     for (;;) {
         const double t0 = time(), corner = std::min(plan_.stop, system_.next_corner(t0));
         double h = std::min(pace_.h, plan_.longest), soon = 0;
@@ -277,8 +323,13 @@ Result<bool> Transient::step(double until) {
         jump_ = !curves_.empty() && t - t0 <= pace_.jump(plan_.reltol, plan_.longest);
         const bool found = attempt(t, error);
         work_.iterations = equations_.iterations;
-        const double off = found ? bend() : 0, worst = jump_ ? error : std::max(error, off);
-        if (!found || !(worst <= 1)) {
+        double off = found ? bend() : 0;
+        if (found) measure_rounding(error, off);
+        const double worst = jump_ ? error : std::max(error, off);
+        alike =
+            found && arrived_ && plan_.all_reported && past_.count() == 1 && worst > no_better * rejected && rejected > 0 ? alike + 1 : 0;
+        rejected = found ? worst : 0;
+        if (!found || (!(worst <= 1) && alike < enough)) {
             if (auto ok = shorten(t - t0, found ? worst : 0); !ok) return ok.error();
             continue;
         }

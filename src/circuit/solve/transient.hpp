@@ -22,6 +22,7 @@ struct TransientPlan {
     /// Unknowns whose values between steps are used: the curve through the points must hold them as exactly as a step's end.
     std::vector<int> reported = {};
     bool all_reported = false;  ///< every unknown is, at the steps' ends and between them, and a point follows at once after each corner
+    bool steps_only = false;    ///< run() gives the steps' ends alone
 };
 
 /// What was done.
@@ -65,10 +66,12 @@ private:
     bool ordered_ = false;  // the matrix's elimination, once and for all
     bool bent_ = false;     // the last point is a source's corner, or a jump's end: from there it starts over
     bool jump_ = false;     // the step at work is so short that it may hold a jump
-    enum class Opening { none, first, at_once } opening_ = Opening::none;  // after a corner: a point at once, a first step
-    int curve_ = 0;                                                        // points of the curve in the last step; 0: as the rule has it
-    double others_ = 0;                                                    // the error of unknowns without charge in the last step
-    double largest_charge_ = 0;
+    enum class Opening { none, first, at_once } opening_ = Opening::none;     // after a corner: a point at once, a first step
+    int curve_ = 0;                                                           // points of the curve in the last step; 0: as the rule has it
+    double others_ = 0;                                                       // the error of unknowns without charge in the last step
+    double volts_ = 0, largest_charge_ = 0, fastest_charge_ = 0;              // V, C, A: what rounding is measured by
+    bool arrived_ = false, rounding_measured_ = false;                        // of the step at work
+    std::vector<double> capacity_, rounding_;                                 // F, of each node; of each unknown, see noise()
     std::vector<double> scale_, allowed_, may_err_, history_, rate_, error_;  // may_err_: of what is reported
     std::vector<char> charged_;
     std::vector<int> curves_;  // unknowns that are reported and that sources alone do not hold
@@ -91,9 +94,10 @@ private:
     void find_held();
     double held(const Held&, double t) const;
     double noise(int unknown) const;
+    void measure_rounding(double& error, double& off);
     double bend();
     bool open(double t0, double corner, double& t);
-    void start_over(bool forget);
+    void start_over(bool forget, bool exact = false);
     Result<void> settle();
     Error too_short(double h);
     bool attempt(double t, double& error);
