@@ -30,7 +30,8 @@ TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
 
 TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
     const Folder folder;
-    std::filesystem::create_directory_symlink(test::root() + "/circuits", folder / "circuits");
+    for (const std::string name : {"circuits", "process"})
+        std::filesystem::create_directory_symlink(test::root() + "/" + name, folder / name);
     const std::string chip = "circuits/sa1.cir";  // not by its full path, of which the width of the table would depend
     const auto ran = run(folder, "respond press --afferent sa1 --afferent " + chip + " --afferent fa1 --out answer");
     ASSERT_EQ(ran.status, 0) << ran.err;

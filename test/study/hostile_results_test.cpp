@@ -99,7 +99,7 @@ TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
         const Folder folder;
         const auto said = refusal_of(changed_results(folder, c.statements));
         EXPECT_NE(said.find(c.said), std::string::npos) << c.statements << ": " << said;
-        EXPECT_NE(said.find("with --out"), std::string::npos) << said;
+        EXPECT_NE(said.find("another file"), std::string::npos) << said;
     }
 }
 
