@@ -182,7 +182,7 @@ void Transient::measure_rounding(double& error, double& off) {
 /// The first step after a corner has no third point to tell.
 double Transient::bend() {
     constexpr double falling = 3;    // times less, at least, than a degree takes away is what the next one does
-    constexpr double written = 2.5;  // times as exact as what is only looked at: straight lines between points err, too
+    constexpr double written = 2.2;  // times as exact as what is only looked at: straight lines between points err, too
     curve_ = 0;
     if (curves_.empty()) return 0;
     const auto& next = past_.next();
