@@ -174,9 +174,10 @@ TEST(PrintedText, OneDocumentHoldsTheSpikesOfAPopulation) {
     ASSERT_GT(trains.size(), 2U);
     ASSERT_EQ(document["spikes"].size(), trains.size()) << "of units that fired";
     for (const auto& unit : document["spikes"]) {
-        const auto same = std::find_if(trains.begin(), trains.end(), [&](const auto& t) { return t.afferent == unit["afferent"]; });
-        ASSERT_NE(same, trains.end()) << unit["afferent"];
-        EXPECT_EQ(same->channel, unit["channel"]);
+        const auto name = unit["afferent"].get<std::string>();
+        const auto same = std::find_if(trains.begin(), trains.end(), [&](const auto& t) { return t.afferent == name; });
+        ASSERT_NE(same, trains.end()) << name;
+        EXPECT_EQ(same->channel, unit["channel"].get<std::string>());
         ASSERT_EQ(same->times.size(), unit["times_s"].size());
         for (std::size_t k = 0; k < same->times.size(); ++k) EXPECT_NEAR(same->times[k], unit["times_s"][k].get<double>(), 1e-9);
     }
