@@ -137,6 +137,9 @@ class Page(unittest.TestCase):
 
     def setUp(self):
         self.browser.get(self.path.as_uri())
+        # On a busy machine get() was seen to return with an empty page before it.
+        here = "return location.href === arguments[0] && document.readyState === 'complete'"
+        WebDriverWait(self.browser, 30).until(lambda browser: browser.execute_script(here, self.path.as_uri()))
         self.input = self.data["inputs"][0]
         self.end = self.input["t0"] + self.input["samples"] * self.input["T"]
 
