@@ -1,7 +1,10 @@
 // corpuscle sweep as people use it: alone, in shards, interrupted, and on ranks that die.
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "support/child_process.hpp"
 #include "support/places.hpp"
 #include "support/program.hpp"
 
@@ -67,6 +70,26 @@ TEST(SweepProgram, InterruptedKeepsWhatHadEnded) {
     EXPECT_GT(status["missing"], 0);
     EXPECT_FALSE(status.contains("writer"));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.sqlite-wal")) << "one file";
+}
+
+TEST(SweepProgram, TwoSignalsAtOnceAreOne) {
+    const Folder folder;
+    folder.write("a.toml", sweep_of(500'000));
+    const auto pid = test::fork_child();
+    if (pid == 0) {
+        ::setenv("PROGRAM", test::program().c_str(), 1), ::setenv("FOLDER", folder.path().c_str(), 1);
+        ::execl("/bin/sh", "sh", "-c", "cd \"$FOLDER\" && exec \"$PROGRAM\" sweep a.toml --quiet 2>err", nullptr);
+        ::_exit(127);
+    }
+    const auto pause = [](int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); };
+    for (int k = 0; k < 2000 && !std::filesystem::exists(folder / "a.sqlite-wal"); ++k) pause(5);
+    pause(300);
+    for (int k = 0; k < 5; ++k) test::signal_child(pid, SIGINT), pause(5);  // more than one at a time would be heard as one
+    int status = 0;
+    ASSERT_EQ(::waitpid(pid, &status, 0), pid);
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_NE(test::read_file(folder / "err").find("units have ended and are in a.sqlite"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.sqlite-wal"));
 }
 
 struct RanRanks {
