@@ -22,7 +22,7 @@ public:
     Result<void> block(const SkinInput&, const SkinAnswered&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
     bool are_too_many() const { return count_ > most; }
-    /// Of each unit that fired, under the names of spikes.csv: afferent, channel, times_s. null: they are too many.
+    /// A list with afferent, channel and times_s (s) of each unit that fired, named as in spikes.csv. null if there are too many spikes.
     nlohmann::ordered_json document() const;
 };
 

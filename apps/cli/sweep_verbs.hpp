@@ -11,7 +11,7 @@ namespace corpuscle {
 
 /// What every verb has: --json, --quiet.
 void add_common(CLI::App& verb, Common&);
-/// What a verb has that writes files whole: --overwrite.
+/// Adds --overwrite, for verbs that write complete files.
 void add_overwrite(CLI::App& verb, Common&);
 
 class SweepVerbs {

@@ -77,7 +77,7 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// What addresses stand for, as comments of at most 32 kB: readers look for the events in the first 64.
+/// The meaning of the addresses, as comments of at most 32 kB. Readers look for the events within the first 64 kB.
 std::string comments_of(const EventUnits& units) {
     constexpr std::size_t most = std::size_t{1} << 15;
     std::string text;

@@ -71,7 +71,7 @@ struct Chooser {
         return {};
     }
 
-    /// What --channel takes for it: its number, but where that is the name of another, its name.
+    /// The word by which --channel selects it: its name if another column has its number as name, else its number.
     std::string option_of(std::size_t k) const {
         auto number = std::to_string(k + 1);
         const auto other = named(number);

@@ -12,7 +12,7 @@ std::string foreign_format(std::string_view first, const std::string& path);
 /// The same of files that are no text but are read here by another name (HDF5, NumPy ...); what names them is the end of their name.
 std::string misnamed_format(std::string_view first, const std::string& path);
 
-/// What unpacks a file that gzip, bzip2, xz or zstd has packed: to the name without `extension`, or to one beside if it has none.
+/// The command that unpacks a file of gzip, bzip2, xz or zstd. Its output has the name without `extension`, or name-unpacked.
 std::string unpack_command(const std::string& program, std::string_view extension, const std::string& path);
 
 /// A path as a shell takes it, in quotes where it needs them.

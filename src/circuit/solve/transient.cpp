@@ -159,15 +159,15 @@ double Transient::worst_error() {
     return jump_ ? worst : std::max(worst, others_);
 }
 
-/// What rounding of charges and of times leaves in a current, in steps as short as this one; in a voltage, once measured.
+/// Rounding error of a current in a step as short as this one, from its charges and times. Of a voltage: as measured, else 0.
 double Transient::noise(int unknown) const {
     const double measured = rounding_[static_cast<std::size_t>(unknown)];
     if (system_.is_voltage(unknown)) return measured;
     return std::max(measured, std::abs(leading_) * (1e-14 * largest_charge_ + 1e-15 * past_[0].t * fastest_charge_));
 }
 
-/// What the last digits of the charges do to each unknown of the step just solved, before its errors refuse it. The shorter it is, the less
-/// the voltage of nodes that hang together by capacitors is known.
+/// Before a step is refused: the error that rounding of the charges makes in each unknown. It grows as the step gets shorter, most in nodes
+/// that are connected by capacitors alone.
 void Transient::measure_rounding(double& error, double& off) {
     constexpr double digit = 1e-15;
     if (!arrived_ || !plan_.all_reported || std::max(error, off) <= 1) return;
