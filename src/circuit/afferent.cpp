@@ -11,8 +11,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// FNV-1a over whatever makes one circuit differ from another.
-std::uint64_t mark_of(const Circuit& c) {
+/// FNV-1a hash over all that can make two circuits respond differently.
+std::uint64_t fingerprint_of(const Circuit& c) {
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto number = [&](std::uint64_t x) { hash = (hash ^ x) * 0x100000001b3; };
     const auto real = [&](double x) { number(std::bit_cast<std::uint64_t>(x)); };
@@ -45,8 +45,8 @@ std::uint64_t mark_of(const Circuit& c) {
     return hash;
 }
 
-/// Unknowns between whose points something is looked for: spikes, probes, ranges.
-std::vector<int> reported_of(const CircuitDesign& design) {
+/// The unknowns that are interpolated between time points: those of spikes, probes and operating ranges.
+std::vector<int> interpolated_unknowns(const CircuitDesign& design) {
     std::vector<int> out = {design.output.of.plus, design.output.of.minus};
     for (const auto& kept : design.kept) out.push_back(kept.what.of.plus), out.push_back(kept.what.of.minus);
     for (const auto& shown : design.shown) out.push_back(shown.of.plus), out.push_back(shown.of.minus);
@@ -63,7 +63,7 @@ class CircuitAfferent final : public Afferent {
     std::vector<Probe> probes_;
     std::vector<Range> ranges_;
     mutable std::mutex guard_;
-    mutable std::vector<std::unique_ptr<Rig>> idle_;  // as many as were ever at work at once
+    mutable std::vector<std::unique_ptr<Rig>> idle_;  // as many as ever ran at the same time
 
     Result<std::unique_ptr<Rig>> borrow() const {
         {
@@ -81,8 +81,8 @@ class CircuitAfferent final : public Afferent {
         idle_.push_back(std::move(rig));
     }
 
-    Result<void> respond_on(Rig&, std::span<const double> force, State&, Answer&) const;
-    Result<void> go_on(Rig&, std::int64_t from, std::int64_t to, Answer&) const;
+    Result<void> respond_with(Rig&, std::span<const double> force, State&, Answer&) const;
+    Result<void> simulate_samples(Rig&, std::int64_t from, std::int64_t to, Answer&) const;
 
 public:
     CircuitAfferent(std::shared_ptr<const CircuitDesign> design, double dt, bool sampled, std::optional<Draw> chip)
@@ -105,26 +105,26 @@ public:
         if (force.empty()) return {};
         auto rig = borrow();
         if (!rig) return rig.error();
-        auto done = respond_on(**rig, force, state, answer);
+        auto done = respond_with(**rig, force, state, answer);
         give_back(std::move(*rig));
         return done;
     }
 };
 
-Result<void> CircuitAfferent::respond_on(Rig& rig, std::span<const double> force, State& state, Answer& answer) const {
+Result<void> CircuitAfferent::respond_with(Rig& rig, std::span<const double> force, State& state, Answer& answer) const {
     if (state.step == 0) {
         if (auto ok = rig.begin(force); !ok) return ok;
     } else {
         if (!rig.restore(state.values, state.step))
             return bad_input(
-                fmt::format("{}: a saved state is damaged: it holds what this netlist cannot have left", design_->circuit->file));
+                fmt::format("{}: a saved state is damaged: its values are not possible for this netlist", design_->circuit->file));
         rig.hear(force);
     }
     const auto before = rig.work();
-    rig.spent();  // of whoever was at it before
+    rig.spent();  // discard the energy of earlier calls
     const auto from = state.step - delay_;
     state.step += static_cast<std::int64_t>(force.size());
-    auto done = go_on(rig, from, state.step - delay_, answer);
+    auto done = simulate_samples(rig, from, state.step - delay_, answer);
     const auto& work = rig.work();
     answer.spent += rig.spent();
     answer.steps += work.steps - before.steps, answer.rejected += work.rejected - before.rejected;
@@ -134,15 +134,15 @@ Result<void> CircuitAfferent::respond_on(Rig& rig, std::span<const double> force
     return done;
 }
 
-/// Answers samples from ... to - 1.
-Result<void> CircuitAfferent::go_on(Rig& rig, std::int64_t from, std::int64_t to, Answer& answer) const {
-    const auto tell = [&] {
+/// Simulates until samples from ... to - 1 are complete.
+Result<void> CircuitAfferent::simulate_samples(Rig& rig, std::int64_t from, std::int64_t to, Answer& answer) const {
+    const auto report_spike = [&] {
         auto& spike = rig.coming();
         if (!spike || spike->step >= to) return;
         answer.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, answer.unit});
         spike.reset();
     };
-    tell();
+    report_spike();
     for (std::int64_t sample = from;;) {
         for (; sample < to && rig.at(sample); ++sample) {
             for (std::size_t p = 0; p < answer.probes.size(); ++p)
@@ -153,7 +153,7 @@ Result<void> CircuitAfferent::go_on(Rig& rig, std::int64_t from, std::int64_t to
         }
         if (sample == to) return {};
         if (auto ok = rig.step(); !ok) return ok;
-        tell();
+        report_spike();
     }
 }
 
@@ -182,8 +182,8 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     auto kept = within_of((*bench)->system);
     if (!kept) return kept.error();
     if (!(*bench)->system.hear(nullptr))
-        return bad_input("no source carries a force, such as 'iin 0 fin force 60n' (60 nA a newton)", place);
-    if (!*output) return bad_input("nothing says what a spike is: '.spike v(NODE) LEVEL [rise|fall]'", place);
+        return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", place);
+    if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", place);
     auto design = std::make_shared<CircuitDesign>();
     for (const auto& c : circuit->commands) {
         if (c.name == "mc") {
@@ -200,9 +200,9 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     if (shown->empty()) shown->push_back({output->value().text, output->value().of});
     design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown),
     design->kept = std::move(*kept);
-    design->plan.reported = reported_of(*design);
+    design->plan.reported = interpolated_unknowns(*design);
     design->plan.longest = design->times.longest.value_or(longest_step);
-    design->mark = mark_of(*design->circuit);
+    design->mark = fingerprint_of(*design->circuit);
     return std::shared_ptr<const CircuitDesign>(std::move(design));
 }
 

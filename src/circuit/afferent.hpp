@@ -10,12 +10,12 @@
 
 namespace corpuscle::circuit {
 
-/// A netlist read and found fit: it has a source that carries FORCE and a .spike order. Of .tran count LONGEST and uic; other orders are
-/// left alone. Its copies are the chips of its .mc, or of its mismatch if that is set, and alike without either. What is .save'd, else what
-/// spikes are taken from, are its probes.
+/// Makes afferents from a netlist that was read and checked. The netlist must have a source that carries FORCE, and a .spike directive.
+/// Of .tran only LONGEST and uic are used; other analyses are ignored. The copies are the chips of .mc, or of the mismatch override if
+/// that is set; without either all copies are equal. The probes are the quantities that .save names, by default the .spike quantity.
 class CircuitDesign final : public Design, public std::enable_shared_from_this<CircuitDesign> {
 public:
-    static constexpr double longest_step = 5e-3;  ///< s, if .tran does not say
+    static constexpr double longest_step = 5e-3;  ///< s, default of LONGEST of .tran
 
     static Result<std::shared_ptr<const CircuitDesign>> of(const Netlist&);
     static Result<std::shared_ptr<const CircuitDesign>> of(std::shared_ptr<const Circuit>);
@@ -26,7 +26,7 @@ public:
     std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy = 0) const override;
     std::unique_ptr<Afferent> make(double dt, const std::optional<Draw>& chip) const;
 
-    std::optional<Netlist> netlist;  ///< it is of, with what is set of it
+    std::optional<Netlist> netlist;  ///< the source of the circuit, with its overrides
     std::shared_ptr<const Circuit> circuit;
     TransientPlan plan;
     TransientTimes times;
@@ -34,7 +34,7 @@ public:
     std::optional<Chips> chips;
     std::vector<Saved> shown;
     std::vector<Within> kept;
-    std::uint64_t mark = 0;  ///< of all its numbers: another netlist has another
+    std::uint64_t mark = 0;  ///< hash of all numbers of the circuit; identifies the netlist in saved states
 };
 
 }  // namespace corpuscle::circuit

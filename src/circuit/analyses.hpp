@@ -1,5 +1,5 @@
 #pragma once
-// Every analysis, by its word. To add one: its declaration, and its line.
+// All analyses, by directive name. To add one, add its declaration and its line.
 
 #include "circuit/analysis/bench.hpp"
 
@@ -19,15 +19,18 @@ struct Analysis {
 };
 
 inline constexpr Analysis analyses[] = {
-    {"op", ".op [states [RISE]]", "the operating point, every device at it, and in which states else it may rest", analyse_op},
-    {"dc", ".dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP] [updown]", "operating points along a source, a resistor or temp", analyse_dc},
-    {"ac", ".ac dec|oct|lin POINTS FROM TO", "small signals over frequency", analyse_ac},
-    {"noise", ".noise v(OUT[,REF]) SOURCE dec|oct|lin POINTS FROM TO", "noise at a node, and each device's part in it", analyse_noise},
-    {"tran", ".tran STEP STOP [START [LONGEST]] [uic]", "the circuit in time, in steps as long as accuracy allows", analyse_tran},
-    {"tf", ".tf v(OUT[,REF])|i(V) SOURCE", "gain, resistance in and out at 0 Hz", analyse_tf},
-    {"sens", ".sens v(OUT[,REF])|i(V)", "how the output changes with each element's value", analyse_sens},
+    {"op", ".op [states [RISE]]", "the operating point, the state of every device, and other stable states", analyse_op},
+    {"dc", ".dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP] [updown]", "operating points while a source, a resistor or temp is swept",
+     analyse_dc},
+    {"ac", ".ac dec|oct|lin POINTS FROM TO", "small-signal response over frequency", analyse_ac},
+    {"noise", ".noise v(OUT[,REF]) SOURCE dec|oct|lin POINTS FROM TO", "noise at a node, with the contribution of each device",
+     analyse_noise},
+    {"tran", ".tran STEP STOP [START [LONGEST]] [uic]", "the circuit over time, with automatic step size", analyse_tran},
+    {"tf", ".tf v(OUT[,REF])|i(V) SOURCE", "gain, input and output resistance at 0 Hz", analyse_tf},
+    {"sens", ".sens v(OUT[,REF])|i(V)", "sensitivity of the output to each element's value", analyse_sens},
 };
 
+/// The analysis of this name; null if there is none.
 inline const Analysis* analysis_of(std::string_view word) {
     for (const auto& a : analyses)
         if (a.word == word) return &a;

@@ -11,11 +11,11 @@ const Carried* carried_netlist(std::string_view name) {
 }
 
 Result<Netlist> open_netlist(const std::string& name_or_path, const std::string& corner) {
-    const auto* carried = carried_netlist(name_or_path);
-    if (carried == nullptr) return Netlist::read(name_or_path, corner);
-    auto text = carried_text(std::string(carried->file));
+    const auto* embedded = carried_netlist(name_or_path);
+    if (embedded == nullptr) return Netlist::read(name_or_path, corner);
+    auto text = carried_text(std::string(embedded->file));
     if (!text) return text.error();
-    return parse_carried(std::move(*text), std::string(carried->file), corner);
+    return parse_carried(std::move(*text), std::string(embedded->file), corner);
 }
 
 Result<Netlist> parse_carried(std::string text, std::string file, const std::string& corner) {

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::string_view view_names[] = {"", "m", "db", "p", "r", "i"};
 
-/// What the letters between v or i and the parenthesis make of a value.
-std::complex<double> seen_as(std::string_view view, std::complex<double> x) {
+/// Applies the view that is named by the letters between v or i and the parenthesis.
+std::complex<double> view_of(std::string_view view, std::complex<double> x) {
     if (view == "m") return std::abs(x);
     if (view == "db") return 20 * std::log10(std::abs(x));
     if (view == "p") return std::arg(x);
@@ -36,28 +36,28 @@ int CurveNames::index_of(std::string_view name) const {
     return at == at_.end() ? -1 : at->second;
 }
 
-std::complex<double> CurveView::seen(std::complex<double> difference) const { return seen_as(view_, difference); }
+std::complex<double> CurveView::apply_view(std::complex<double> difference) const { return view_of(view_, difference); }
 
-double CurveView::worked_out(const PlotRow& row) const {
-    constexpr std::size_t few = 8;
-    double here[few];
-    std::vector<double> many(inputs_.size() > few ? inputs_.size() : 0);
-    const std::span<double> values = many.empty() ? std::span(here, inputs_.size()) : std::span(many);
+double CurveView::evaluate_expression(const PlotRow& row) const {
+    constexpr std::size_t max_on_stack = 8;
+    double on_stack[max_on_stack];
+    std::vector<double> on_heap(inputs_.size() > max_on_stack ? inputs_.size() : 0);
+    const std::span<double> values = on_heap.empty() ? std::span(on_stack, inputs_.size()) : std::span(on_heap);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = inputs_[k].in(row).real();
     return formula_->value(values);
 }
 
-Result<Formula> par_formula(std::string_view name, const Place& place) {
+Result<Formula> par_formula(std::string_view name, const Place& location) {
     FormulaScope scope;
     scope.inputs = true;
     scope.parameter = [](std::string_view) -> std::optional<double> { return {}; };
     scope.function = [](std::string_view) -> const FormulaScope::Function* { return nullptr; };
     name.remove_prefix(4), name.remove_suffix(name.ends_with(')'));  // par( ... )
     if (name.size() >= 2 && (name[0] == '\'' || name[0] == '{')) name = name.substr(1, name.size() - 2);
-    return Formula::parse(name, place, scope);
+    return Formula::parse(name, location, scope);
 }
 
-std::optional<CurveView> CurveView::par(const Plot& plot, std::string_view name) {
+std::optional<CurveView> CurveView::find_expression(const Plot& plot, std::string_view name) {
     auto formula = par_formula(name, {});
     if (!formula || plot.is_complex) return {};
     CurveView out;
@@ -75,7 +75,7 @@ std::optional<CurveView> CurveView::par(const Plot& plot, std::string_view name)
 }
 
 std::optional<CurveView> CurveView::of(const Plot& plot, std::string_view name, const CurveNames* names) {
-    if (name.starts_with("par(")) return par(plot, name);
+    if (name.starts_with("par(")) return find_expression(plot, name);
     CurveView out;
     const auto open = name.find('(');
     out.plain_ = open <= 1;
@@ -101,7 +101,7 @@ std::vector<std::complex<double>> CurveView::along(const Plot& plot) const {
     std::vector<std::complex<double>> out(plot.points());
     if (!formula_) {
         const auto value = [&](int curve, std::size_t k) { return curve < 0 ? 0 : plot.curves[static_cast<std::size_t>(curve)].values[k]; };
-        for (std::size_t k = 0; k < out.size(); ++k) out[k] = seen(value(plus_, k) - value(minus_, k));
+        for (std::size_t k = 0; k < out.size(); ++k) out[k] = apply_view(value(plus_, k) - value(minus_, k));
         return out;
     }
     std::vector<std::vector<std::complex<double>>> inputs;

@@ -1,5 +1,5 @@
 #pragma once
-// Curves by the names that netlists give them: v(a,b), vdb(out), vp(out), i(v1), par('v(a)*i(v1)').
+// Curves of a plot by their names in netlists: v(a,b), vdb(out), vp(out), i(v1), par('v(a)*i(v1)').
 
 #include <memory>
 #include <optional>
@@ -11,38 +11,40 @@
 
 namespace corpuscle::circuit {
 
-/// Where each curve of a plot stands, for many look-ups. The plot must outlive it.
+/// Index of each curve of a plot by name, for many look-ups. The plot must outlive it.
 class CurveNames {
     std::unordered_map<std::string_view, int> at_;
 
 public:
     explicit CurveNames(const Plot&);
-    int index_of(std::string_view name) const;  ///< -1: none
+    int index_of(std::string_view name) const;  ///< -1 if there is none
 };
 
-/// What a name means in a plot, looked up once: a curve, v(a,b), or a view of a complex one: vm (magnitude), vdb, vp (phase, radians, as
-/// ngspice has it), vr, vi, and the same of currents: im, idb, ip ... Of a real plot also par('FORMULA') of voltages, currents and time.
+/// A name looked up once in a plot: a curve, v(a,b), or a view of a complex curve. The views are vm (magnitude), vdb, vp (phase in
+/// radians, as in ngspice), vr, vi, and the same of currents: im, idb, ip ... A real plot also has par('EXPRESSION') of voltages,
+/// currents and time.
 class CurveView {
     static constexpr int ground = -1;
     int plus_ = ground, minus_ = ground;  // in the plot's curves
-    std::string_view view_{};             // "", or what seen_as() knows
+    std::string_view view_{};             // "" or one of view_names
     bool plain_ = true;                   // v(a), i(x), v(a,b)
     std::shared_ptr<const Formula> formula_{};
-    std::vector<CurveView> inputs_{};  // of the formula
+    std::vector<CurveView> inputs_{};  // of the expression
 
-    std::complex<double> seen(std::complex<double> difference) const;
-    double worked_out(const PlotRow&) const;
-    static std::optional<CurveView> par(const Plot&, std::string_view name);
+    std::complex<double> apply_view(std::complex<double> difference) const;
+    double evaluate_expression(const PlotRow&) const;
+    static std::optional<CurveView> find_expression(const Plot&, std::string_view name);
 
 public:
-    /// Nothing: the plot has no such curve.
+    /// Returns nothing if the plot has no such curve.
     static std::optional<CurveView> of(const Plot&, std::string_view name, const CurveNames* = nullptr);
 
     std::complex<double> in(const PlotRow& row) const {
-        if (formula_) return worked_out(row);
-        return seen((plus_ < 0 ? 0 : row[static_cast<std::size_t>(plus_)]) - (minus_ < 0 ? 0 : row[static_cast<std::size_t>(minus_)]));
+        if (formula_) return evaluate_expression(row);
+        return apply_view((plus_ < 0 ? 0 : row[static_cast<std::size_t>(plus_)]) -
+                          (minus_ < 0 ? 0 : row[static_cast<std::size_t>(minus_)]));
     }
-    /// As it is measured: of a complex curve its magnitude, as ngspice does, unless a view is named.
+    /// The value for .meas. For a complex curve without a view this is the magnitude, as in ngspice.
     double measured(const PlotRow& row) const {
         const auto x = in(row);
         return row.is_complex && plain_ ? std::abs(x) : x.real();
@@ -50,10 +52,10 @@ public:
     std::vector<std::complex<double>> along(const Plot&) const;
 };
 
-/// The formula in "par('...')"; the error is at `place`.
-Result<Formula> par_formula(std::string_view name, const Place& place);
+/// Parses the expression in "par('...')"; an error is reported at `location`.
+Result<Formula> par_formula(std::string_view name, const Place& location);
 
-/// The values along a plot of what is named.
+/// All values of the named curve or view in a plot; nothing if there is no such curve.
 std::optional<std::vector<std::complex<double>>> values_of(const Plot&, std::string_view name);
 
 }  // namespace corpuscle::circuit

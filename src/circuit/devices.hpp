@@ -1,5 +1,5 @@
 #pragma once
-// Every device, by its letter. To add one: its include, and its line.
+// All devices, by letter. To add one, add its include and its line.
 
 #include "circuit/device/diode.hpp"
 #include "circuit/device/passive.hpp"
@@ -12,34 +12,36 @@ struct DeviceKind {
     char letter;
     std::string_view sentence;
     Result<std::unique_ptr<Device>> (*make)(const Element&, Setup&);
-    /// At 0 Hz: whether its current depends on the voltage at its ends, or may; and whether it fixes the voltage between the first two.
+    /// At 0 Hz. conducts: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device fixes the
+    /// voltage between its first two terminals.
     bool conducts, fixes_voltage;
-    /// How devices of this kind are looked at together; null: one by one.
+    /// Makes the batch that evaluates devices of this kind together; null: they are evaluated one by one.
     Result<std::unique_ptr<Bank>> (*bank)() = nullptr;
 };
 
 inline constexpr DeviceKind devices[] = {
     {'r', "resistor", make_resistor, true, false},
-    {'c', "capacitor, linear or by a formula of its charge", make_capacitor, false, false},
+    {'c', "capacitor, linear or with an expression for its charge", make_capacitor, false, false},
     {'l', "inductor", make_inductor, true, true},
     {'v', "voltage source", make_voltage_source, true, true},
     {'i', "current source", make_current_source, false, false},
-    {'e', "voltage by a voltage or a formula", make_controlled_source, true, true},
-    {'f', "current by a current", make_controlled_source, true, false},
-    {'g', "current by a voltage or a formula", make_controlled_source, true, false},
-    {'h', "voltage by a current", make_controlled_source, true, true},
-    {'b', "voltage or current by a formula", make_formula_source, true, false},
+    {'e', "voltage source controlled by a voltage or an expression", make_controlled_source, true, true},
+    {'f', "current source controlled by a current", make_controlled_source, true, false},
+    {'g', "current source controlled by a voltage or an expression", make_controlled_source, true, false},
+    {'h', "voltage source controlled by a current", make_controlled_source, true, true},
+    {'b', "voltage or current source with an expression", make_formula_source, true, false},
     {'d', "junction diode", make_diode, true, false},
     {'m', "MOS transistor, UICM", make_transistor, true, false, make_transistor_bank},
 };
 
+/// The device of this letter; null if there is none.
 inline const DeviceKind* device_of(char letter) {
     for (const auto& d : devices)
         if (d.letter == letter) return &d;
     return nullptr;
 }
 
-/// Whether the current through an element is an unknown of its own.
+/// True if the current through the element is an unknown of the system.
 inline bool has_branch(const Element& e) {
     switch (e.letter) {
         case 'v':

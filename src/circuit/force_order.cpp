@@ -10,32 +10,30 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double most_samples = 1e8;
+constexpr double max_samples = 1e8;
 
-Error wrong(const Command& c, std::size_t word, std::string sentence) {
-    return error_at(c, word, ".force: " + std::move(sentence));
-}
+Error error_in(const Command& c, std::size_t word, std::string message) { return error_at(c, word, ".force: " + std::move(message)); }
 
-/// As the stimulus itself writes it: netlists have small letters.
-std::string own_letters(std::string_view stimulus, std::string_view parameter) {
+/// The parameter's name as the stimulus spells it; netlists are in small letters.
+std::string spelling_of(std::string_view stimulus, std::string_view parameter) {
     for (const auto& card : stimulus_cards())
         for (const auto& row : card.rows)
             if (card.name == stimulus && same_letters(row.name, parameter)) return std::string(row.name);
     return std::string(parameter);
 }
 
-struct Asked {
+struct ForceSpec {
     std::vector<Wish> wishes;
     double rate = 10e3;  // Hz
 };
 
-Result<Asked> asked(const Command& c) {
-    Asked out;
+Result<ForceSpec> parse_force_spec(const Command& c) {
+    ForceSpec out;
     for (std::size_t k = 1; k < c.words.size(); ++k) {
         const std::string_view word = c.words[k];
         const auto equals = std::min(word.find('='), word.size()), dot = word.substr(0, equals).rfind('.');
         const auto value = equals < word.size() ? whole_number(word.substr(equals + 1)) : std::nullopt;
-        if (!value) return wrong(c, k, fmt::format("'{}' must be PARAMETER=VALUE, such as f_max=2", word));
+        if (!value) return error_in(c, k, fmt::format("'{}' must be PARAMETER=VALUE, such as f_max=2", word));
         const auto name = word.substr(0, equals);
         if (name == "rate") {
             out.rate = value->value;
@@ -43,44 +41,44 @@ Result<Asked> asked(const Command& c) {
         }
         const std::string of(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
         out.wishes.push_back(
-            {of, own_letters(of, dot == std::string_view::npos ? name : name.substr(dot + 1)), fmt::format("{}", value->value)});
+            {of, spelling_of(of, dot == std::string_view::npos ? name : name.substr(dot + 1)), fmt::format("{}", value->value)});
     }
     return out;
 }
 
-Result<Trace> trace_of(Source& source, const Command& c) {
+Result<Trace> read_waveform_of(Source& source, const Command& c) {
     Trace trace(source.clock().T());
     double count = 0, last = 0;
     for (Frames block(source.channels().size(), 4096);;) {
         if (auto ok = source.read(block); !ok) return ok.error();
         if (block.count == 0) {
-            trace.append(std::vector<double>(Trace::lag + 1, last));  // it stays there
+            trace.append(std::vector<double>(Trace::lag + 1, last));  // the last force is held
             return trace;
         }
-        if ((count += static_cast<double>(block.count)) > most_samples)
-            return wrong(c, 0, fmt::format("more than {:g} samples; lower the rate, or shorten it", most_samples));
+        if ((count += static_cast<double>(block.count)) > max_samples)
+            return error_in(c, 0, fmt::format("more than {:g} samples; lower the rate or shorten the stimulus", max_samples));
         trace.append(std::span(block.force[0]).first(block.count));
         last = block.force[0][block.count - 1];
     }
 }
 
 Result<std::unique_ptr<Source>> source_of(const Command& c) {
-    if (c.words.empty()) return wrong(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
-    const auto how = asked(c);
-    if (!how) return how.error();
-    auto source = make_stimulus(c.words[0], how->wishes, how->rate, 0);
-    if (!source) return wrong(c, 0, source.error().sentence);
-    for (const auto& wish : how->wishes)
-        if (!wish.used) return wrong(c, 0, fmt::format("{}: no stimulus '{}' takes part", wish.text(), wish.of));
+    if (c.words.empty()) return error_in(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
+    const auto spec = parse_force_spec(c);
+    if (!spec) return spec.error();
+    auto source = make_stimulus(c.words[0], spec->wishes, spec->rate, 0);
+    if (!source) return error_in(c, 0, source.error().sentence);
+    for (const auto& wish : spec->wishes)
+        if (!wish.used) return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", wish.text(), wish.of));
     return source;
 }
 
-/// The line, if there is one.
-Result<const Command*> line_of(const Circuit& circuit) {
+/// The .force line; null if there is none.
+Result<const Command*> find_force_line(const Circuit& circuit) {
     const Command* found = nullptr;
     for (const auto& c : circuit.commands) {
         if (c.name != "force") continue;
-        if (found) return bad_input(fmt::format(".force: there is one already, in line {}", found->place.line), c.place);
+        if (found) return bad_input(fmt::format(".force: only one is allowed; the first is in line {}", found->place.line), c.place);
         found = &c;
     }
     return found;
@@ -89,7 +87,7 @@ Result<const Command*> line_of(const Circuit& circuit) {
 }  // namespace
 
 Result<std::vector<Phase>> force_phases(const Circuit& circuit) {
-    const auto line = line_of(circuit);
+    const auto line = find_force_line(circuit);
     if (!line) return line.error();
     if (!*line) return std::vector<Phase>();
     const auto source = source_of(**line);
@@ -98,12 +96,12 @@ Result<std::vector<Phase>> force_phases(const Circuit& circuit) {
 }
 
 Result<std::optional<Trace>> force_order(const Circuit& circuit) {
-    const auto line = line_of(circuit);
+    const auto line = find_force_line(circuit);
     if (!line) return line.error();
     if (!*line) return std::optional<Trace>();
     auto source = source_of(**line);
     if (!source) return source.error();
-    auto trace = trace_of(**source, **line);
+    auto trace = read_waveform_of(**source, **line);
     if (!trace) return trace.error();
     return std::optional<Trace>(std::move(*trace));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// .force: the force that a netlist is tried under where nobody hands in another.
+// .force: the default force of a netlist, used if the caller provides none.
 
 #include <optional>
 
@@ -9,10 +9,10 @@
 
 namespace corpuscle::circuit {
 
-/// .force STIMULUS [PARAMETER=VALUE ...] [rate=10k], such as ".force press f_max=2": a stimulus by name, or a sum of them, whose parameters
-/// are then written press.f_max. Nothing, if the netlist has no such line.
+/// Reads .force STIMULUS [PARAMETER=VALUE ...] [rate=10k], such as ".force press f_max=2". STIMULUS is the name of a stimulus or a sum
+/// of several; the parameters of a sum are written press.f_max. Returns nothing if the netlist has no .force.
 Result<std::optional<Trace>> force_order(const Circuit&);
-/// The phases of this force, if it has such.
+/// The phases of this force; empty if it has none.
 Result<std::vector<Phase>> force_phases(const Circuit&);
 
 }  // namespace corpuscle::circuit

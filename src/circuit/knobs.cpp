@@ -13,56 +13,56 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::string_view own_words[] = {"corner", "temp", "mismatch"};
+constexpr std::string_view reserved_names[] = {"corner", "temp", "mismatch"};
 
-Error refused(const Knob& knob, std::string_view why) { return bad_input(fmt::format("{}: {}", knob.said, why)); }
+Error error_of(const Knob& setting, std::string_view why) { return bad_input(fmt::format("{}: {}", setting.said, why)); }
 
-/// One number that can be set of an element: w of an M, dtemp of an R; "" is its value.
-struct Number {
+/// A parameter of an element that can be set: w of an M, dtemp of an R; "" is the element's value.
+struct ElementParameter {
     std::string_view name, unit;
     double low, high;
 };
 
-constexpr double any = std::numeric_limits<double>::max();
+constexpr double huge = std::numeric_limits<double>::max();
 
-std::vector<Number> numbers_of(const Element& e) {
+std::vector<ElementParameter> parameters_of(const Element& e) {
     if (e.letter == 'm') {
-        std::vector<Number> out;
+        std::vector<ElementParameter> out;
         for (const auto& f : UicmInstance::fields) out.push_back({f.name, f.unit, f.low, f.high});
         out.push_back({"temp", "", -273, 500}), out.push_back({"dtemp", "", -500, 500});
         return out;
     }
     constexpr double above_zero = std::numeric_limits<double>::min();
-    const Number m{"m", "", above_zero, any}, tc1{"tc1", "", -any, any}, tc2{"tc2", "", -any, any}, temp{"temp", "", -273, 500},
-        dtemp{"dtemp", "", -500, 500};
+    const ElementParameter m{"m", "", above_zero, huge}, tc1{"tc1", "", -huge, huge}, tc2{"tc2", "", -huge, huge},
+        temp{"temp", "", -273, 500}, dtemp{"dtemp", "", -500, 500};
     switch (e.letter) {
         case 'r':
-            return {{"", "ohm", -any, any}, {"r", "ohm", -any, any}, m, tc1, tc2, temp, dtemp};
+            return {{"", "ohm", -huge, huge}, {"r", "ohm", -huge, huge}, m, tc1, tc2, temp, dtemp};
         case 'c':
             if (e.formula) return {m};
-            return {{"", "F", 0, any}, {"c", "F", 0, any}, m, tc1, tc2, temp, dtemp};
+            return {{"", "F", 0, huge}, {"c", "F", 0, huge}, m, tc1, tc2, temp, dtemp};
         case 'l':
-            return {{"", "", 0, any}, {"l", "", 0, any}, m, tc1, tc2, temp, dtemp};
+            return {{"", "", 0, huge}, {"l", "", 0, huge}, m, tc1, tc2, temp, dtemp};
         case 'v':
-            return {{"", "V", -any, any}, {"dc", "V", -any, any}};
+            return {{"", "V", -huge, huge}, {"dc", "V", -huge, huge}};
         case 'i':
-            return {{"", "A", -any, any}, {"dc", "A", -any, any}};
+            return {{"", "A", -huge, huge}, {"dc", "A", -huge, huge}};
         case 'd':
-            return {{"area", "", above_zero, any}, m, temp, dtemp};
+            return {{"area", "", above_zero, huge}, m, temp, dtemp};
         case 'b':
             return {};
         default:
             if (e.formula) return {};
-            return {{"", "", -any, any}};
+            return {{"", "", -huge, huge}};
     }
 }
 
-bool has_number(const Element& e, std::string_view name) {
-    const auto all = numbers_of(e);
-    return std::any_of(all.begin(), all.end(), [&](const Number& n) { return n.name == name; });
+bool has_parameter(const Element& e, std::string_view name) {
+    const auto all = parameters_of(e);
+    return std::any_of(all.begin(), all.end(), [&](const ElementParameter& n) { return n.name == name; });
 }
 
-/// "8x4" as 8 and 4.
+/// Reads "8x4" as 8 columns of 4 units in series.
 std::optional<std::pair<double, double>> array_of(std::string_view text) {
     const auto cross = text.find_first_of("xX");
     if (cross == std::string_view::npos) return {};
@@ -71,154 +71,159 @@ std::optional<std::pair<double, double>> array_of(std::string_view text) {
     return std::pair(*columns, *units);
 }
 
-/// Finds what knobs mean in one circuit, and writes it into changes.
-class Tuning {
+/// Resolves override names in one circuit and adds them to `changes`.
+class OverrideResolver {
     const Circuit& circuit_;
     const std::vector<std::string>& parameters_;
     Changes& changes_;
     std::vector<std::string_view> names_;  // of the elements
 
 public:
-    Tuning(const Circuit& circuit, const std::vector<std::string>& parameters, Changes& changes)
+    OverrideResolver(const Circuit& circuit, const std::vector<std::string>& parameters, Changes& changes)
         : circuit_(circuit), parameters_(parameters), changes_(changes) {
         for (const auto& e : circuit.elements) names_.push_back(e.name);
     }
 
-    Result<void> turn(const Knob& knob) {
-        const auto whole = meant(names_, knob.name, Last::element);
-        if (whole.size() == 1) return device(knob, element(whole[0]), "");
-        const auto dot = knob.name.rfind('.');
+    Result<void> apply(const Knob& setting) {
+        const auto elements = meant(names_, setting.name, Last::element);
+        if (elements.size() == 1) return device(setting, element(elements[0]), "");
+        const auto dot = setting.name.rfind('.');
         if (dot != std::string::npos) {
-            const auto of = meant(names_, std::string_view(knob.name).substr(0, dot), Last::element);
-            if (of.size() == 1) return device(knob, element(of[0]), lower(std::string_view(knob.name).substr(dot + 1)));
-            if (whole.empty() && of.size() > 1) return several(knob, knob.name.substr(0, dot), of);
+            const auto of = meant(names_, std::string_view(setting.name).substr(0, dot), Last::element);
+            if (of.size() == 1) return device(setting, element(of[0]), lower(std::string_view(setting.name).substr(dot + 1)));
+            if (elements.empty() && of.size() > 1) return ambiguous_name(setting, setting.name.substr(0, dot), of);
         }
-        return whole.empty() ? unknown(knob) : several(knob, knob.name, whole);
+        return elements.empty() ? unknown(setting) : ambiguous_name(setting, setting.name, elements);
     }
 
 private:
     const Element& element(std::size_t k) const { return circuit_.elements[k]; }
 
-    Error several(const Knob& knob, std::string_view typed, const std::vector<std::size_t>& found) const {
+    Error ambiguous_name(const Knob& setting, std::string_view typed, const std::vector<std::size_t>& found) const {
         std::vector<std::string_view> names;
         for (const auto k : found) names.push_back(names_[k]);
-        return refused(knob, fmt::format("'{}' may be {}; write more of its path", typed, some_of(names)));
+        return error_of(setting, fmt::format("'{}' is ambiguous: {}; write more of its path", typed, some_of(names)));
     }
 
-    Error unknown(const Knob& knob) const {
-        const auto pieces = pieces_in(knob.name);
-        std::vector<std::string> known(std::begin(own_words), std::end(own_words));
+    Error unknown(const Knob& setting) const {
+        const auto pieces = pieces_in(setting.name);
+        std::vector<std::string> known(std::begin(reserved_names), std::end(reserved_names));
         known.insert(known.end(), parameters_.begin(), parameters_.end());
-        const auto typed = lower(knob.name);
+        const auto typed = lower(setting.name);
         const auto dot = typed.rfind('.');
         for (const auto& e : circuit_.elements) {
             known.push_back(short_name(e.name, pieces, Last::element));
-            if (dot != std::string::npos && has_number(e, std::string_view(typed).substr(dot + 1)))
+            if (dot != std::string::npos && has_parameter(e, std::string_view(typed).substr(dot + 1)))
                 known.push_back(short_name(e.name, pieces - 1, Last::element) + typed.substr(dot));
         }
         const std::vector<std::string_view> views(known.begin(), known.end());
         const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
-        return refused(
-            knob,
+        return error_of(
+            setting,
             fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})", circuit_.file,
-                        knob.name, did_you_mean(typed, views), params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")),
+                        setting.name, did_you_mean(typed, views), params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")),
                         names_.size(), names_.empty() ? "none" : short_name(names_.back(), pieces_in(names_.back()), Last::element)));
     }
 
-    Result<void> device(const Knob& knob, const Element& e, std::string_view number) {
-        if (number.empty() && e.letter == 'm') return array(knob, e);
-        const auto known = numbers_of(e);
-        const auto at = std::find_if(known.begin(), known.end(), [&](const Number& n) { return n.name == number; });
-        if (at == known.end()) return no_such(knob, e, number, known);
+    Result<void> device(const Knob& setting, const Element& e, std::string_view number) {
+        if (number.empty() && e.letter == 'm') return array(setting, e);
+        const auto known = parameters_of(e);
+        const auto at = std::find_if(known.begin(), known.end(), [&](const ElementParameter& n) { return n.name == number; });
+        if (at == known.end()) return no_such(setting, e, number, known);
         if (at->name.empty() || at->name == "dc")
             if (const auto shape = e.waveform.shape; shape != Waveform::Shape::none && shape != Waveform::Shape::force)
-                return refused(knob, fmt::format("{} goes a course in time, which has more than one number", e.name));
-        auto value = parse_quantity(knob.value, at->unit);
-        if (!value) return refused(knob, value.error().sentence);
-        return put(knob, e, *at, *value);
+                return error_of(setting, fmt::format("{} is a source with a time waveform; its value is not a single number", e.name));
+        auto value = parse_quantity(setting.value, at->unit);
+        if (!value) return error_of(setting, value.error().sentence);
+        return put(setting, e, *at, *value);
     }
 
-    Error no_such(const Knob& knob, const Element& e, std::string_view number, const std::vector<Number>& known) const {
+    Error no_such(const Knob& setting, const Element& e, std::string_view number, const std::vector<ElementParameter>& known) const {
         std::vector<std::string_view> names;
         for (const auto& n : known)
             if (!n.name.empty()) names.push_back(n.name);
         if (number.empty() || names.empty())
-            return refused(knob,
-                           fmt::format("{} is {}; no one number is its value", e.name, e.formula ? "a formula" : "not of one number"));
-        return refused(knob,
-                       fmt::format("{} has no '{}'{} (it has {})", e.name, number, did_you_mean(number, names), fmt::join(names, ", ")));
+            return error_of(setting, fmt::format("{} {}; its value is not a single number", e.name,
+                                                 e.formula ? "has an expression" : "has several parameters"));
+        return error_of(setting,
+                        fmt::format("{} has no '{}'{} (it has {})", e.name, number, did_you_mean(number, names), fmt::join(names, ", ")));
     }
 
-    Result<void> array(const Knob& knob, const Element& e) {
-        const auto size = array_of(knob.value);
+    Result<void> array(const Knob& setting, const Element& e) {
+        const auto size = array_of(setting.value);
         if (!size || size->first != std::floor(size->first) || size->second != std::floor(size->second))
-            return refused(knob, fmt::format("'{}' is no array; write columns x units in series, such as 8x4, or set {}.w, {}.l ...",
-                                             knob.value, knob.name, knob.name));
-        for (const auto& n : numbers_of(e)) {
-            if (n.name == "m" && !(size->first >= 1)) return refused(knob, fmt::format("{} columns; there is at least one", size->first));
+            return error_of(
+                setting,
+                fmt::format(
+                    "'{}' is not an array; write COLUMNSxSERIES, such as 8x4 (8 columns of 4 units in series), or set {}.w, {}.l ...",
+                    setting.value, setting.name, setting.name));
+        for (const auto& n : parameters_of(e)) {
+            if (n.name == "m" && !(size->first >= 1))
+                return error_of(setting, fmt::format("{} columns; at least 1 is required", size->first));
             if (n.name == "stack" && !(size->second >= 1))
-                return refused(knob, fmt::format("{} units in series; there is at least one", size->second));
+                return error_of(setting, fmt::format("{} units in series; at least 1 is required", size->second));
             if (n.name != "m" && n.name != "stack") continue;
-            if (auto ok = put(knob, e, n, n.name == "m" ? size->first : size->second); !ok) return ok;
+            if (auto ok = put(setting, e, n, n.name == "m" ? size->first : size->second); !ok) return ok;
         }
         return {};
     }
 
-    /// r of an R is its value, under another name.
-    Result<void> put(const Knob& knob, const Element& e, const Number& number, double value) {
+    /// Adds one value to the changes. r of an R is another name of its value.
+    Result<void> put(const Knob& setting, const Element& e, const ElementParameter& number, double value) {
         const bool own = number.name == "dc" || number.name == std::string_view(&e.letter, 1);
         if (!(value >= number.low && value <= number.high))
-            return refused(
-                knob, number.high == any && number.low >= 0
-                          ? fmt::format("{} must {}", format_quantity(value, number.unit), number.low > 0 ? "be above 0" : "not be below 0")
-                          : fmt::format("{} is outside [{}, {}]", format_quantity(value, number.unit),
-                                        format_quantity(number.low, number.unit), format_quantity(number.high, number.unit)));
-        if (e.letter == 'r' && (own || number.name.empty()) && value == 0) return refused(knob, "a resistor of 0 ohm");
+            return error_of(
+                setting,
+                number.high == huge && number.low >= 0
+                    ? fmt::format("{} must {}", format_quantity(value, number.unit), number.low > 0 ? "be above 0" : "not be below 0")
+                    : fmt::format("{} is outside [{}, {}]", format_quantity(value, number.unit), format_quantity(number.low, number.unit),
+                                  format_quantity(number.high, number.unit)));
+        if (e.letter == 'r' && (own || number.name.empty()) && value == 0) return error_of(setting, "a resistor must not be 0 ohm");
         changes_.numbers[e.name].insert_or_assign(own && e.letter != 'm' ? "" : std::string(number.name), value);
         return {};
     }
 };
 
-Result<double> temperature_of(const Knob& knob) {
-    auto text = trimmed(knob.value);
+Result<double> temperature_of(const Knob& setting) {
+    auto text = trimmed(setting.value);
     for (const std::string_view unit : {"degC", "\u00b0C", "C"})
         if (text.ends_with(unit)) {
             text.remove_suffix(unit.size());
             break;
         }
     const auto value = parse_quantity(text, "");
-    if (!value) return refused(knob, fmt::format("'{}' is no temperature; write degrees Celsius, such as 85", knob.value));
-    if (!(*value > -273.15 && *value <= 500)) return refused(knob, fmt::format("{:g} C is outside (-273.15, 500]", *value));
+    if (!value) return error_of(setting, fmt::format("'{}' is not a temperature; write degrees Celsius, such as 85", setting.value));
+    if (!(*value > -273.15 && *value <= 500)) return error_of(setting, fmt::format("{:g} C is outside (-273.15, 500]", *value));
     return *value;
 }
 
-/// "7", or "7/41": a seed, and the number of the chip, from 0.
-Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const Knob& knob) {
-    const std::string_view text = knob.value;
+/// Reads "7" or "7/41": a seed, and the number of the chip, from 0.
+Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const Knob& setting) {
+    const std::string_view text = setting.value;
     const auto slash = text.find('/');
     std::uint64_t out[2] = {};
     for (std::size_t k = 0; k < (slash == text.npos ? 1u : 2u); ++k) {
         const auto value = parse_quantity(k == 0 ? text.substr(0, slash) : text.substr(slash + 1), "");
         if (!value || !(*value >= 0 && *value < 0x1p53) || *value != std::floor(*value))
-            return refused(knob, fmt::format("'{}' is no seed; write a whole number from 0 to 2^53, or SEED/CHIP", knob.value));
+            return error_of(setting, fmt::format("'{}' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP", setting.value));
         out[k] = static_cast<std::uint64_t>(*value);
     }
     return std::pair(out[0], out[1]);
 }
 
-/// The error of a corner that no library has, under the knob's own name.
-Error of_corner(std::span<const Knob> knobs, const std::string& corner, Error error) {
+/// If the error says that no library has the corner, puts the override's text in front.
+Error with_corner_override(std::span<const Knob> overrides, const std::string& corner, Error error) {
     if (error.sentence.find(fmt::format("no corner '{}'", corner)) == std::string::npos &&
         error.sentence.find(fmt::format("there is no corner '{}'", corner)) == std::string::npos)
         return error;
-    for (const auto& knob : knobs)
-        if (lower(knob.name) == "corner") error.sentence = fmt::format("{}: {}", knob.said, error.sentence);
+    for (const auto& setting : overrides)
+        if (lower(setting.name) == "corner") error.sentence = fmt::format("{}: {}", setting.said, error.sentence);
     return error;
 }
 
-Result<void> set_parameter(const Knob& knob, const std::string& name, Changes& changes) {
-    const auto value = number_with_unit(knob.value);
-    if (!value) return refused(knob, value.error().sentence);
+Result<void> set_parameter(const Knob& setting, const std::string& name, Changes& changes) {
+    const auto value = number_with_unit(setting.value);
+    if (!value) return error_of(setting, value.error().sentence);
     changes.parameters.insert_or_assign(name, value->value);
     return {};
 }
@@ -230,52 +235,52 @@ Result<Measured> number_with_unit(std::string_view text) {
     if (plain) return Measured{*plain, ""};
     for (const std::string_view unit : {"V", "A", "F", "ohm", "s", "Hz", "m", "S", "N"})
         if (const auto value = parse_quantity(text, unit)) return Measured{*value, unit};
-    const auto example = "write a number and a unit of V, A, F, ohm, s, Hz or none, such as 4pF (M is mega, m milli)";
-    return bad_input(fmt::format("'{}' is no number; {}", text, example));
+    const auto example = "write a number and a unit of V, A, F, ohm, s, Hz, m, S, N or none, such as 4pF (M is mega, m is milli)";
+    return bad_input(fmt::format("'{}' is not a number; {}", text, example));
 }
 
-Result<Netlist> tuned(const std::string& name_or_path, std::span<const Knob> knobs) {
-    return tuned([&](const std::string& corner) { return open_netlist(name_or_path, corner); }, name_or_path, knobs);
+Result<Netlist> tuned(const std::string& name_or_path, std::span<const Knob> overrides) {
+    return tuned([&](const std::string& corner) { return open_netlist(name_or_path, corner); }, name_or_path, overrides);
 }
 
-Result<Netlist> tuned(const NetlistOpener& open, const std::string& name, std::span<const Knob> knobs) {
+Result<Netlist> tuned(const NetlistOpener& open, const std::string& name, std::span<const Knob> overrides) {
     Changes changes;
-    for (const auto& knob : knobs)
-        if (lower(knob.name) == "corner") {
-            changes.corner = lower(trimmed(knob.value));
-            if (changes.corner.empty()) return refused(knob, "no corner is named, such as ss");
+    for (const auto& setting : overrides)
+        if (lower(setting.name) == "corner") {
+            changes.corner = lower(trimmed(setting.value));
+            if (changes.corner.empty()) return error_of(setting, "the name of the corner is missing; write one, such as ss");
         }
     const auto netlist = open(changes.corner);
-    if (!netlist) return of_corner(knobs, changes.corner, netlist.error());
+    if (!netlist) return with_corner_override(overrides, changes.corner, netlist.error());
     std::vector<std::string> parameters;
     for (const auto& [own, text] : netlist->parameters()) parameters.push_back(own);
     std::vector<const Knob*> devices;
-    for (const auto& knob : knobs) {
-        const auto what = lower(knob.name);
+    for (const auto& setting : overrides) {
+        const auto what = lower(setting.name);
         if (what == "corner") continue;
         if (what == "temp") {
-            const auto value = temperature_of(knob);
+            const auto value = temperature_of(setting);
             if (!value) return value.error();
             changes.temperature = *value;
         } else if (what == "mismatch") {
-            const auto chip = chip_of(knob);
+            const auto chip = chip_of(setting);
             if (!chip) return chip.error();
             changes.mismatch = chip->first, changes.chip = chip->second;
         } else if (std::find(parameters.begin(), parameters.end(), what) != parameters.end()) {
-            if (auto ok = set_parameter(knob, what, changes); !ok) return ok.error();
-        } else if (knob.parameter_alone) {
+            if (auto ok = set_parameter(setting, what, changes); !ok) return ok.error();
+        } else if (setting.parameter_alone) {
             const std::vector<std::string_view> known(parameters.begin(), parameters.end());
-            return refused(knob, fmt::format("{} has no .param {}{}", name, what, did_you_mean(what, known)));
+            return error_of(setting, fmt::format("{} has no .param {}{}", name, what, did_you_mean(what, known)));
         } else {
-            devices.push_back(&knob);
+            devices.push_back(&setting);
         }
     }
     if (devices.empty()) return netlist->with(std::move(changes));
     const auto circuit = netlist->with(changes).elaborate();
     if (!circuit) return circuit.error();
-    Tuning tuning(*circuit, parameters, changes);
-    for (const auto* knob : devices)
-        if (auto ok = tuning.turn(*knob); !ok) return ok.error();
+    OverrideResolver resolver(*circuit, parameters, changes);
+    for (const auto* setting : devices)
+        if (auto ok = resolver.apply(*setting); !ok) return ok.error();
     return netlist->with(std::move(changes));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What people set of a netlist, by name: its parameters, its devices' numbers, corner, temperature, mismatch; and what they want to see.
+// Overrides of a netlist by name: its parameters, the values of its devices, corner, temperature and mismatch.
 
 #include <span>
 
@@ -7,23 +7,26 @@
 
 namespace corpuscle::circuit {
 
-/// "C_u" is to be "4pF". NAME is `corner`, `temp`, `mismatch`; else a .param of the top level; else a device (an array "8x4": 8 columns of
-/// 4 units; of R C L V I and the gains of E F G H their value); else a device and one of its numbers, "summer.N3B.w". Letters of either
-/// case; of a device's path the end is enough and SPICE's letters may be left out.
+/// Sets "C_u" to "4pF". The name is one of:
+///  - corner, temp, mismatch;
+///  - a .param of the top level;
+///  - a device: of R C L V I and the gains of E F G H the value, of a transistor its array, "8x4" for 8 columns of 4 units in series;
+///  - a device and one of its parameters, "summer.N3B.w".
+/// Letters may be of either case. The end of a device's path is enough, and SPICE's letters may be left out.
 struct Knob {
     std::string name, value;
-    std::string said;              ///< as it was asked for: "--set sa1-circuit.C_u=4pF"
-    bool parameter_alone = false;  ///< not a device: --supply
+    std::string said;              ///< as the user wrote it: "--set sa1-circuit.C_u=4pF"
+    bool parameter_alone = false;  ///< the name is never a device; for --supply
 };
 
-/// The netlist of a name or path with the knobs set; a later one goes before an earlier one.
+/// Opens the netlist of a name or path and applies the overrides; a later one wins over an earlier one.
 Result<Netlist> tuned(const std::string& name_or_path, std::span<const Knob>);
 
-/// The same of a netlist that `open` reads for a corner; `name` is what errors call it.
+/// The same for a netlist that `open` reads for a corner; errors call it `name`.
 using NetlistOpener = std::function<Result<Netlist>(const std::string& corner)>;
 Result<Netlist> tuned(const NetlistOpener& open, const std::string& name, std::span<const Knob>);
 
-/// A number with the unit that people gave it, in SI: "4pF" is {4e-12, "F"}. M is mega here, and m milli.
+/// A number in SI and the unit that was written with it: "4pF" is {4e-12, "F"}. M is mega here, and m is milli.
 struct Measured {
     double value;
     std::string_view unit;

@@ -13,7 +13,7 @@ bool is_formula(const Command& c) { return c.words.size() > 2 && c.words[2].star
 
 using KnownNumbers = std::vector<std::pair<std::string, double>>;
 
-/// param='expression' of earlier measures.
+/// Parses param='EXPRESSION', which may use the results of earlier measurements.
 Result<Formula> formula_of(const Command& c, const KnownNumbers& numbers) {
     FormulaScope scope;
     scope.parameter = [&](std::string_view name) -> std::optional<double> {
@@ -29,30 +29,30 @@ Result<Formula> formula_of(const Command& c, const KnownNumbers& numbers) {
 }
 
 Error without_analysis(const Command& c) { return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.place); }
-Error incomplete_measure(const Command& c) { return bad_input(".meas: it is .meas op|dc|ac|noise|tran NAME WHAT ...", c.place); }
+Error incomplete_measure(const Command& c) { return bad_input(".meas: expected .meas op|dc|ac|noise|tran NAME WHAT ...", c.place); }
 
 }  // namespace
 
 Measures::Measures(const Circuit& circuit) {
     for (const auto& c : circuit.commands)
-        if (c.name == "meas" || c.name == "measure") all_.push_back({&c, nullptr});
+        if (c.name == "meas" || c.name == "measure") entries_.push_back({&c, nullptr});
 }
 
 Result<void> Measures::begin(std::string_view word, const Plot& head) {
-    at_work_.clear();
-    for (auto& one : all_) {
-        const auto& c = *one.command;
-        if (c.words.size() < 3 || c.words[0] != word || is_formula(c) || one.gauge) continue;
+    active_.clear();
+    for (auto& entry : entries_) {
+        const auto& c = *entry.command;
+        if (c.words.size() < 3 || c.words[0] != word || is_formula(c) || entry.gauge) continue;
         auto made = gauge_of(c, head);
         if (!made) return made.error();
-        one.gauge = std::move(*made);
-        at_work_.push_back(one.gauge.get());
+        entry.gauge = std::move(*made);
+        active_.push_back(entry.gauge.get());
     }
     return {};
 }
 
 Result<void> Measures::see(std::string_view word, const Plot& plot) {
-    if (auto ok = begin(word, plot); !ok || at_work_.empty()) return ok;
+    if (auto ok = begin(word, plot); !ok || active_.empty()) return ok;
     std::vector<std::complex<double>> row(plot.curves.size());
     for (std::size_t k = 0; k < plot.points(); ++k) {
         for (std::size_t n = 0; n < row.size(); ++n) row[n] = plot.curves[n].values[k];
@@ -64,7 +64,7 @@ Result<void> Measures::see(std::string_view word, const Plot& plot) {
 Result<void> Measures::check(const std::vector<std::string>& numbers) const {
     KnownNumbers known;
     for (const auto& name : numbers) known.emplace_back(name, 1.0);
-    for (const auto& [command, gauge] : all_) {
+    for (const auto& [command, gauge] : entries_) {
         const auto& c = *command;
         if (c.words.size() < 3) return incomplete_measure(c);
         if (is_formula(c)) {
@@ -77,8 +77,8 @@ Result<void> Measures::check(const std::vector<std::string>& numbers) const {
     return {};
 }
 
-Result<void> Measures::finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& remarks) const {
-    for (const auto& [command, gauge] : all_) {
+Result<void> Measures::finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const {
+    for (const auto& [command, gauge] : entries_) {
         const auto& c = *command;
         if (c.words.size() < 3) return incomplete_measure(c);
         if (is_formula(c)) {
@@ -89,7 +89,7 @@ Result<void> Measures::finish(std::vector<std::pair<std::string, double>>& numbe
         }
         if (!gauge) return without_analysis(c);
         const double value = gauge->value();
-        if (std::isnan(value)) remarks.push_back(bad_input(fmt::format(".meas {}: nothing was found", c.words[1]), c.place));
+        if (std::isnan(value)) warnings.push_back(bad_input(fmt::format(".meas {}: nothing was found", c.words[1]), c.place));
         numbers.emplace_back(c.words[1], value);
     }
     return {};

@@ -1,5 +1,5 @@
 #pragma once
-// .meas: numbers taken from curves, point by point as they come.
+// .meas: numbers measured on curves, point by point while an analysis runs.
 
 #include <memory>
 
@@ -8,30 +8,32 @@
 
 namespace corpuscle::circuit {
 
-/// All .meas of a circuit. Each looks at the first plot of the first analysis of its word.
+/// All .meas lines of a circuit. Each one measures the first plot of the first analysis of the kind that it names.
 class Measures {
-    struct One {
+    struct Entry {
         const Command* command;
-        std::unique_ptr<Gauge> gauge;  // null: its analysis has not come, or it is of no curve
+        std::unique_ptr<Gauge> gauge;  // null: its analysis has not begun, or the line is a param= expression
     };
-    std::vector<One> all_;
-    std::vector<Gauge*> at_work_;
+    std::vector<Entry> entries_;
+    std::vector<Gauge*> active_;
 
 public:
     explicit Measures(const Circuit&);
 
-    /// A plot of an analysis of this word begins. One that is ill-formed, or of a curve that is not there, is an error.
+    /// Begins a plot of the analysis of this name. An ill-formed line or an unknown curve is an error.
     Result<void> begin(std::string_view word, const Plot& head);
-    /// Once every analysis has begun: refuses what finish() would, by names alone. `numbers`: those that analyses may give.
+    /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `numbers` are the names of
+    /// the numbers that the analyses may give.
     Result<void> check(const std::vector<std::string>& numbers) const;
     void point(double x, const PlotRow& row) {
-        for (auto* gauge : at_work_) gauge->point(x, row);
+        for (auto* gauge : active_) gauge->point(x, row);
     }
-    /// A plot that is whole.
+    /// Measures a complete plot.
     Result<void> see(std::string_view word, const Plot&);
 
-    /// In order, once all analyses are done, behind the numbers that these gave. One that found nothing is NaN, with a remark.
-    Result<void> finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& remarks) const;
+    /// Call this after all analyses. Appends the results to `numbers`, in order of the lines. A measurement that found nothing is NaN and
+    /// adds a warning.
+    Result<void> finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const;
 };
 
 }  // namespace corpuscle::circuit

@@ -3,21 +3,21 @@
 namespace corpuscle::circuit {
 namespace {
 
-struct Chosen {
+struct SelectedCurve {
     std::string name;
     CurveView view;
 };
 
-std::vector<Chosen> chosen(const Plot& plot, const std::vector<std::string>& names) {
-    std::vector<Chosen> out;
+std::vector<SelectedCurve> find_selected(const Plot& plot, const std::vector<std::string>& names) {
+    std::vector<SelectedCurve> out;
     const CurveNames known(plot);
     for (const auto& name : names)
         if (const auto view = CurveView::of(plot, name, &known)) out.push_back({name, *view});
     return out;
 }
 
-/// Without values.
-Plot head_of(const Plot& plot, const std::vector<Chosen>& curves) {
+/// The selected curves without values.
+Plot selected_head(const Plot& plot, const std::vector<SelectedCurve>& curves) {
     Plot out{plot.name, plot.is_complex, plot.swept, {}};
     if (plot.swept && !plot.curves.empty()) out.curves.push_back({plot.curves[0].name, plot.curves[0].type, {}});
     for (const auto& c : curves) out.curves.push_back({c.name, c.name[0] == 'v' ? "voltage" : "current", {}});
@@ -27,20 +27,20 @@ Plot head_of(const Plot& plot, const std::vector<Chosen>& curves) {
 }  // namespace
 
 Plot narrowed(const Plot& plot, const std::vector<std::string>& names) {
-    const auto curves = chosen(plot, names);
+    const auto curves = find_selected(plot, names);
     if (curves.empty()) return plot;
-    Plot out = head_of(plot, curves);
+    Plot out = selected_head(plot, curves);
     if (plot.swept) out.curves[0].values = plot.curves[0].values;
     for (std::size_t k = 0; k < curves.size(); ++k) out.curves[k + plot.swept].values = curves[k].view.along(plot);
     return out;
 }
 
 Plot Narrow::begin(const Plot& head, const std::vector<std::string>& names) {
-    const auto curves = chosen(head, names);
+    const auto curves = find_selected(head, names);
     all_ = curves.empty();
     views_.clear();
     for (const auto& c : curves) views_.push_back(c.view);
-    return all_ ? head : head_of(head, curves);
+    return all_ ? head : selected_head(head, curves);
 }
 
 std::span<const double> Narrow::point(std::span<const double> row) {

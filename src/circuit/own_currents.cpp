@@ -4,17 +4,18 @@ namespace corpuscle::circuit {
 
 OwnCurrents::OwnCurrents(const System& system, std::span<const Saved> all) : system_(system) {
     for (const auto& s : all)
-        if (s.device >= 0) of_.push_back(s);
+        if (s.device >= 0) currents_.push_back(s);
 }
 
 void OwnCurrents::add_to(Plot& head) const {
-    for (const auto& s : of_) head.curves.push_back({s.name, "current", {}});
+    for (const auto& s : currents_) head.curves.push_back({s.name, "current", {}});
 }
 
 std::span<const double> OwnCurrents::point(std::span<const double> row) {
-    if (of_.empty()) return row;
+    if (currents_.empty()) return row;
     row_.assign(row.begin(), row.end());
-    for (const auto& s : of_) row_.push_back(s.seen(system_, [&](int u) { return u < 0 ? 0 : row[static_cast<std::size_t>(u) + 1]; }));
+    for (const auto& s : currents_)
+        row_.push_back(s.seen(system_, [&](int u) { return u < 0 ? 0 : row[static_cast<std::size_t>(u) + 1]; }));
     return row_;
 }
 
@@ -28,11 +29,11 @@ bool OwnCurrents::has_all_unknowns(const Plot& plot) const {
 }
 
 bool OwnCurrents::complete(Plot& plot) const {
-    if (of_.empty()) return true;
+    if (currents_.empty()) return true;
     if (!has_all_unknowns(plot)) return false;
     const auto points = plot.points();
     std::vector<Curve> more;
-    for (const auto& s : of_) {
+    for (const auto& s : currents_) {
         Curve curve{s.name, "current", {}};
         for (std::size_t p = 0; p < points; ++p)
             curve.values.emplace_back(

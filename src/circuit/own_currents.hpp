@@ -1,5 +1,5 @@
 #pragma once
-// Devices' own currents as further curves of a plot, for .save and --trace: i(x1.m1).
+// Currents of devices as additional curves of a plot, for .save and --trace: i(x1.m1).
 
 #include "circuit/saved.hpp"
 
@@ -7,19 +7,19 @@ namespace corpuscle::circuit {
 
 class OwnCurrents {
     const System& system_;
-    std::vector<Saved> of_;
+    std::vector<Saved> currents_;
     std::vector<double> row_;
 
     bool has_all_unknowns(const Plot&) const;
 
 public:
     OwnCurrents(const System&, std::span<const Saved>);
-    bool any() const { return !of_.empty(); }
-    /// Curves without values behind those of the head, whose first is what is swept and the others all unknowns.
+    bool any() const { return !currents_.empty(); }
+    /// Appends the curves, without values, to a head. Its first curve must be the swept quantity, followed by all unknowns.
     void add_to(Plot& head) const;
-    /// A point with them.
+    /// Returns the point with the currents appended.
     std::span<const double> point(std::span<const double> row);
-    /// Into a plot that is complete. False: it is of another kind, or of other temperatures.
+    /// Appends the curves to a complete plot. Returns false if it is a plot of another kind, or one over temperature.
     bool complete(Plot&) const;
 };
 

@@ -20,21 +20,21 @@ std::vector<std::string_view> split(std::string_view name) {
     return out;
 }
 
-/// Whether the piece's first letter may be left out.
-bool lettered(std::string_view piece, bool last, Last kind) {
+/// True if the piece's first letter may be left out.
+bool has_optional_letter(std::string_view piece, bool last, Last kind) {
     if (piece.size() < 2) return false;
     return last ? kind == Last::element : piece[0] == 'x';
 }
 
-/// 0: the whole name; 1: the whole name, letters left out; 2, 3: the same of a tail.
-int rank(std::string_view name, std::span<const std::string_view> typed, Last kind) {
+/// How well a name matches. 0: the full path; 1: the full path with letters left out; 2, 3: the same for the end of the path.
+int match_rank(std::string_view name, std::span<const std::string_view> typed, Last kind) {
     const auto pieces = split(name);
     if (typed.size() > pieces.size()) return no_match;
     bool exact = true;
     for (std::size_t k = 0; k < typed.size(); ++k) {
         const auto piece = pieces[pieces.size() - 1 - k], word = typed[typed.size() - 1 - k];
         if (piece == word) continue;
-        if (!lettered(piece, k == 0, kind) || piece.substr(1) != word) return no_match;
+        if (!has_optional_letter(piece, k == 0, kind) || piece.substr(1) != word) return no_match;
         exact = false;
     }
     return (typed.size() == pieces.size() ? 0 : 2) + (exact ? 0 : 1);
@@ -45,14 +45,14 @@ int rank(std::string_view name, std::span<const std::string_view> typed, Last ki
 std::size_t pieces_in(std::string_view name) { return static_cast<std::size_t>(std::count(name.begin(), name.end(), '.')) + 1; }
 
 std::vector<std::size_t> meant(std::span<const std::string_view> names, std::string_view typed, Last kind) {
-    const auto small = lower(typed);
-    const auto words = split(small);
+    const auto lower_case = lower(typed);
+    const auto words = split(lower_case);
     std::vector<std::size_t> out;
     int best = no_match;
     for (std::size_t k = 0; k < names.size(); ++k) {
-        const int r = rank(names[k], words, kind);
-        if (r < best) best = r, out.clear();
-        if (r == best && r < no_match) out.push_back(k);
+        const int rank = match_rank(names[k], words, kind);
+        if (rank < best) best = rank, out.clear();
+        if (rank == best && rank < no_match) out.push_back(k);
     }
     return out;
 }
@@ -62,15 +62,15 @@ std::string short_name(std::string_view name, std::size_t pieces, Last kind) {
     std::string out;
     for (std::size_t k = all.size() - std::min(pieces, all.size()); k < all.size(); ++k) {
         if (!out.empty()) out += '.';
-        out += all[k].substr(lettered(all[k], k + 1 == all.size(), kind) ? 1 : 0);
+        out += all[k].substr(has_optional_letter(all[k], k + 1 == all.size(), kind) ? 1 : 0);
     }
     return out;
 }
 
 std::string some_of(std::span<const std::string_view> names) {
-    constexpr std::size_t most = 6;
-    const auto shown = names.first(std::min(names.size(), most));
-    const auto more = names.size() > most ? fmt::format(" and {} more", names.size() - most) : "";
+    constexpr std::size_t max_shown = 6;
+    const auto shown = names.first(std::min(names.size(), max_shown));
+    const auto more = names.size() > max_shown ? fmt::format(" and {} more", names.size() - max_shown) : "";
     return fmt::format("{}{}", fmt::join(shown, ", "), more);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Names with paths, "xsummer.mn3b", found by what people type of them: "summer.N3B".
+// Finds hierarchical names, such as "xsummer.mn3b", by what a user types: "summer.N3B".
 
 #include <span>
 #include <string>
@@ -8,20 +8,21 @@
 
 namespace corpuscle::circuit {
 
-/// Of which pieces the first letter, which is SPICE's, may be left out: x of subcircuits, and the last piece's own.
+/// What the last piece of a name denotes. The x of a subcircuit may be left out; so may the first letter of an element.
 enum class Last { node, element };
 
-/// The places in `names` of those that are meant by what is typed: in letters of either case, piece by piece from the end, which may be
-/// enough. A whole name goes before a tail, a name in full before one without its letters: only the best of these are given.
+/// Indices of the names that match `typed`. Letters of either case match. Pieces are compared from the end, and the last pieces are
+/// enough. A match of the full path wins over a match of its end, and exact spelling wins over left-out letters; only the best kind of
+/// match is returned.
 std::vector<std::size_t> meant(std::span<const std::string_view> names, std::string_view typed, Last);
 
-/// The name without what may be left out, and no more than its last pieces: "summer.n3b".
+/// The last pieces of a name, without the letters that may be left out: "summer.n3b".
 std::string short_name(std::string_view name, std::size_t pieces, Last);
 
-/// How many pieces it has.
+/// The number of pieces of a name.
 std::size_t pieces_in(std::string_view name);
 
-/// "xa.m1, xb.m1 and 3 more": some of them, for a sentence.
+/// A list for a message: "xa.m1, xb.m1 and 3 more".
 std::string some_of(std::span<const std::string_view> names);
 
 }  // namespace corpuscle::circuit

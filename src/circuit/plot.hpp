@@ -1,5 +1,5 @@
 #pragma once
-// What an analysis finds: columns of numbers with names, as simulators' result files hold them.
+// The result of an analysis: named columns of numbers, as in the result files of SPICE simulators.
 
 #include <complex>
 #include <string>
@@ -10,21 +10,21 @@ namespace corpuscle::circuit {
 
 struct Curve {
     std::string name;  ///< "v(out)", "i(v1)", "frequency"
-    std::string type;  ///< ngspice's word: "voltage", "current", "frequency", "notype" ...
+    std::string type;  ///< as in ngspice: "voltage", "current", "frequency", "notype" ...
     std::vector<std::complex<double>> values;
 };
 
-/// One plot: the first curve is what was swept, if `swept`.
+/// One plot. If `swept` is true, the first curve is the swept quantity.
 struct Plot {
     std::string name;  ///< "DC transfer characteristic"
     bool is_complex = false, swept = true;
     std::vector<Curve> curves;
 
     std::size_t points() const { return curves.empty() ? 0 : curves[0].values.size(); }
-    /// Null: none of this name.
-    const Curve* curve(std::string_view name_) const {
+    /// The curve of this name; null if there is none.
+    const Curve* curve(std::string_view curve_name) const {
         for (const auto& c : curves)
-            if (c.name == name_) return &c;
+            if (c.name == curve_name) return &c;
         return nullptr;
     }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// A plot's points as they come, one after another: for what is too long to be kept.
+// The points of a plot one after another, for plots that are too long to be kept in memory.
 
 #include <span>
 
@@ -8,16 +8,16 @@
 
 namespace corpuscle::circuit {
 
-/// Takes them. An error stops the analysis.
+/// Receives the points. An error stops the analysis.
 class PointSink {
 public:
     virtual ~PointSink() = default;
     virtual Result<void> begin(const Plot& head) = 0;             ///< names and types of the curves, no values yet
-    virtual Result<void> point(std::span<const double> row) = 0;  ///< a value for each curve, what is swept first
-    virtual Result<void> end() = 0;                               ///< also of one that was broken off
+    virtual Result<void> point(std::span<const double> row) = 0;  ///< a value for each curve, the swept one first
+    virtual Result<void> end() = 0;                               ///< also called if the analysis was interrupted
 };
 
-/// Keeps them all.
+/// Stores all points in a plot.
 class KeptPlot final : public PointSink {
 public:
     Plot plot;
@@ -29,11 +29,11 @@ public:
     Result<void> end() override { return {}; }
 };
 
-/// A point, real or complex.
+/// One point, real or complex.
 struct PlotRow {
     std::span<const double> real{};
     std::span<const std::complex<double>> complex{};
-    bool is_complex = false;  ///< what is complex may hold real numbers
+    bool is_complex = false;  ///< a complex plot may be given with real values
 
     PlotRow(std::span<const double> values) : real(values) {}
     PlotRow(std::span<const std::complex<double>> values, bool are_complex) : complex(values), is_complex(are_complex) {}

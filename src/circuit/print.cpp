@@ -10,14 +10,14 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double most_rows = 1e6;
+constexpr double max_rows = 1e6;
 
 struct Column {
     std::string name;
     CurveView view;
 };
 
-/// What a line prints of a plot, what is swept first; none: it is of another analysis.
+/// The columns of a .print line, the swept quantity first; empty if the line is for another analysis.
 std::vector<Column> columns_of(const Command& c, std::string_view word, const Plot& plot) {
     std::vector<Column> out;
     const bool named = !c.words.empty() && analysis_of(c.words[0]) != nullptr;
@@ -33,13 +33,13 @@ std::vector<Column> columns_of(const Command& c, std::string_view word, const Pl
     return out;
 }
 
-std::string head(const std::vector<Column>& columns) {
+std::string column_heads(const std::vector<Column>& columns) {
     std::string out;
     for (const auto& c : columns) fmt::format_to(std::back_inserter(out), "{:>16}", c.name);
     return out + '\n';
 }
 
-void put(std::string& out, std::complex<double> x) {
+void append_number(std::string& out, std::complex<double> x) {
     const auto to = std::back_inserter(out);
     x.imag() == 0 ? fmt::format_to(to, "{:16.7e}", x.real()) : fmt::format_to(to, " {:.7e},{:.7e}", x.real(), x.imag());
 }
@@ -51,11 +51,11 @@ std::string printed(const Circuit& circuit, std::string_view word, const Plot& p
     for (const auto& c : circuit.commands) {
         const auto columns = columns_of(c, word, plot);
         if (columns.empty()) continue;
-        out += head(columns);
+        out += column_heads(columns);
         std::vector<std::vector<std::complex<double>>> values;
         for (const auto& column : columns) values.push_back(column.view.along(plot));
         for (std::size_t point = 0; point < plot.points(); ++point) {
-            for (const auto& v : values) put(out, v[point]);
+            for (const auto& v : values) append_number(out, v[point]);
             out += '\n';
         }
     }
@@ -66,24 +66,25 @@ Result<void> PrintedSteps::begin(const Plot& plot) {
     for (const auto& c : circuit_.commands) {
         const auto columns = columns_of(c, "tran", plot);
         if (columns.empty()) continue;
-        if (const double rows = std::floor((stop_ - start_) / step_) + 1; rows > most_rows)
+        if (const double rows = std::floor((stop_ - start_) / step_) + 1; rows > max_rows)
             return bad_input(
-                fmt::format(".print tran: {:g} rows, one each {:g} s of {:g} s; at most {:g}: a longer STEP of .tran, or --out", rows,
-                            step_, stop_ - start_, most_rows),
+                fmt::format(
+                    ".print tran: {:g} rows (one every {:g} s over {:g} s) exceed the limit of {:g}; use a longer STEP of .tran, or --out",
+                    rows, step_, stop_ - start_, max_rows),
                 c.place);
-        tables_.push_back({&c, {}, head(columns)});
+        tables_.push_back({&c, {}, column_heads(columns)});
         for (const auto& column : columns) tables_.back().views.push_back(column.view);
     }
     return {};
 }
 
-/// The row that is due, between the point before and this one.
-void PrintedSteps::print(std::span<const double> row, double at) {
+/// Prints the row at time t, which is between the previous point and this one.
+void PrintedSteps::print(std::span<const double> row, double t) {
     for (auto& table : tables_) {
         for (const auto& view : table.views) {
-            const double before = view.in(PlotRow(before_)).real(), now = view.in(PlotRow(row)).real();
-            const bool time = &view == &table.views[0];
-            put(table.text, time ? at : Piece{before_[0], before, row[0], now}.at(at));
+            const double before = view.in(PlotRow(previous_)).real(), now = view.in(PlotRow(row)).real();
+            const bool is_time = &view == &table.views[0];
+            append_number(table.text, is_time ? t : Piece{previous_[0], before, row[0], now}.at(t));
         }
         table.text += '\n';
     }
@@ -92,17 +93,17 @@ void PrintedSteps::print(std::span<const double> row, double at) {
 
 void PrintedSteps::point(std::span<const double> row) {
     if (tables_.empty()) return;
-    if (before_.empty()) {
-        before_.assign(row.begin(), row.end());
-        while (due(row[0] - 1e-9 * step_)) ++rows_;  // before the first point there is nothing
+    if (previous_.empty()) {
+        previous_.assign(row.begin(), row.end());
+        while (is_row_due(row[0] - 1e-9 * step_)) ++rows_;  // no rows before the first point
     }
-    while (due(row[0])) print(row, start_ + rows_ * step_);
-    before_.assign(row.begin(), row.end());
+    while (is_row_due(row[0])) print(row, start_ + rows_ * step_);
+    previous_.assign(row.begin(), row.end());
 }
 
-/// The last row may be due at the very end, but for rounding.
+/// Allows for rounding: the last row may be due at the end of the analysis.
 std::string PrintedSteps::end() {
-    if (!before_.empty() && due(before_[0] + 1e-9 * step_)) print(std::vector(before_), start_ + rows_ * step_);
+    if (!previous_.empty() && is_row_due(previous_[0] + 1e-9 * step_)) print(std::vector(previous_), start_ + rows_ * step_);
     std::string out;
     for (auto& table : tables_) out += table.text;
     tables_.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// .print: columns for people.
+// .print: tables of numbers as text.
 
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace corpuscle::circuit {
 
-/// The .print lines of an analysis of this word, over a plot that is whole; "" if there are none.
+/// The tables of all .print lines for the analysis of this name, over a complete plot; "" if there are none.
 std::string printed(const Circuit&, std::string_view word, const Plot&);
 
-/// The .print lines of a .tran: at START and every STEP from there on, on straight lines between its points; nothing before the first of
-/// them. (ngspice's batch mode prints every point, and these with `.options interp`.)
+/// The .print lines of a .tran. Rows are at START and every STEP after it, linearly interpolated between time points; none is before the
+/// first time point. (ngspice's batch mode prints every time point, and these rows with `.options interp`.)
 class PrintedSteps {
     struct Table {
         const Command* command;
@@ -23,11 +23,11 @@ class PrintedSteps {
     const Circuit& circuit_;
     double start_, step_, stop_;
     std::vector<Table> tables_;
-    std::vector<double> before_;  // the point before
-    double rows_ = 0;             // so far
+    std::vector<double> previous_;  // the point before this one
+    double rows_ = 0;               // printed or skipped so far
 
-    void print(std::span<const double> row, double at);
-    bool due(double t) const { return start_ + rows_ * step_ <= t; }
+    void print(std::span<const double> row, double t);
+    bool is_row_due(double t) const { return start_ + rows_ * step_ <= t; }
 
 public:
     PrintedSteps(const Circuit& circuit, double start, double step, double stop)

@@ -66,7 +66,7 @@ std::string raw_text(std::string_view title, std::span<const Plot> plots, bool b
 }
 
 namespace {
-bool two_columns(const Plot& plot, const Curve& c) { return plot.is_complex && c.type != "frequency"; }
+bool has_two_columns(const Plot& plot, const Curve& c) { return plot.is_complex && c.type != "frequency"; }
 }  // namespace
 
 std::string csv_header(const Plot& plot) {
@@ -74,20 +74,20 @@ std::string csv_header(const Plot& plot) {
     for (const auto& c : plot.curves) {
         const auto name = c.name.find(',') == std::string::npos ? c.name : '"' + c.name + '"';
         out += &c == &plot.curves[0] ? "" : ",";
-        out += two_columns(plot, c) ? fmt::format("{}.re,{}.im", name, name) : name;
+        out += has_two_columns(plot, c) ? fmt::format("{}.re,{}.im", name, name) : name;
     }
     return out + '\n';
 }
 
-std::string csv_rows(const Plot& plot, std::string_view before) {
+std::string csv_rows(const Plot& plot, std::string_view prefix) {
     std::string out;
     const auto to = std::back_inserter(out);
     for (std::size_t point = 0; point < plot.points(); ++point) {
-        out += before;
+        out += prefix;
         for (const auto& c : plot.curves) {
             if (&c != &plot.curves[0]) out += ',';
             const auto x = c.values[point];
-            two_columns(plot, c) ? fmt::format_to(to, "{},{}", x.real(), x.imag()) : fmt::format_to(to, "{}", x.real());
+            has_two_columns(plot, c) ? fmt::format_to(to, "{},{}", x.real(), x.imag()) : fmt::format_to(to, "{}", x.real());
         }
         out += '\n';
     }

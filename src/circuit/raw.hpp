@@ -1,5 +1,5 @@
 #pragma once
-// Plots as files: ngspice's .raw, binary or ASCII, and CSV.
+// File formats of plots: ngspice's .raw, binary or ASCII, and CSV.
 
 #include <span>
 #include <string>
@@ -11,20 +11,20 @@ namespace corpuscle::circuit {
 /// All plots one after another, as ngspice's `write` does. Binary numbers are little-endian doubles.
 std::string raw_text(std::string_view title, std::span<const Plot>, bool binary);
 
-/// The same of a plot whose points come one after another: its head, the points, its tail. The head counts none; the count stands in it
-/// as wide as raw_count() is, so that it can be written over.
+/// The same for a plot that comes point by point: header, points, footer. The header contains a point count of 0. The count has a fixed
+/// width, so that raw_count() can overwrite it at the end.
 struct RawHead {
     std::string text;
-    std::size_t count_at;  ///< where the count begins
+    std::size_t count_at;  ///< offset of the count in the text
 };
 RawHead raw_head(std::string_view title, const Plot&, bool binary);
 std::string raw_count(std::size_t points);
 void append_raw_point(std::string&, std::size_t number, const PlotRow&, bool binary);
 std::string_view raw_tail(bool binary);
 
-/// One plot as CSV: a header of names, a row a point; complex curves as two columns, name.re and name.im.
+/// One plot as CSV: a header of names, then one row per point. A complex curve has two columns, name.re and name.im.
 std::string csv_header(const Plot&);
-std::string csv_rows(const Plot&, std::string_view before = {});  ///< `before` stands at the head of each row
+std::string csv_rows(const Plot&, std::string_view prefix = {});  ///< each row begins with `prefix`
 void append_csv_row(std::string&, std::span<const double> row);
 
 }  // namespace corpuscle::circuit

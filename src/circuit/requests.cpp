@@ -11,13 +11,15 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// The curves that an analysis will give, without values.
+/// An analysis and its curves, without values.
 struct Head {
     const Command* command;
     Plot plot;
 };
 
-Plot curves_of(const System& system, const OwnCurrents& currents, const Command& c) {
+/// The curves that the analysis will give, without values.
+
+Plot expected_curves(const System& system, const OwnCurrents& currents, const Command& c) {
     if (c.name == "noise")
         return {"Noise Spectral Density Curves",
                 false,
@@ -60,29 +62,29 @@ Plot curves_of(const System& system, const OwnCurrents& currents, const Command&
     return plot;
 }
 
-class Requests {
+class OutputDirectives {
     const Circuit& circuit_;
     std::vector<Head> heads_;
     std::vector<CurveNames> names_;
-    std::vector<Error>& remarks_;
+    std::vector<Error>& warnings_;
 
 public:
-    Requests(const System& system, const OwnCurrents& currents, std::vector<Error>& remarks)
-        : circuit_(system.circuit()), remarks_(remarks) {
+    OutputDirectives(const System& system, const OwnCurrents& currents, std::vector<Error>& warnings)
+        : circuit_(system.circuit()), warnings_(warnings) {
         for (const auto& c : circuit_.commands)
-            if (analysis_of(c.name) != nullptr) heads_.push_back({&c, curves_of(system, currents, c)});
+            if (analysis_of(c.name) != nullptr) heads_.push_back({&c, expected_curves(system, currents, c)});
         for (const auto& head : heads_) names_.emplace_back(head.plot);
     }
 
     Result<void> check() {
-        if (heads_.empty()) return {};  // the run itself says which there are
+        if (heads_.empty()) return {};  // the run reports that there is no analysis
         for (const auto& c : circuit_.commands)
             if (c.name == "print" || c.name == "plot") {
-                if (auto ok = columns(c); !ok) return ok;
+                if (auto ok = check_columns(c); !ok) return ok;
             } else if (c.name == "probe") {
                 for (std::size_t k = 0; k < c.words.size(); ++k)
                     if (is_left_out(circuit_, c, c.words[k]))
-                        remarks_.push_back(error_at(c, k, fmt::format(".probe: '{}' is not told here and is left out", c.words[k])));
+                        warnings_.push_back(error_at(c, k, fmt::format(".probe: '{}' is not supported and is ignored", c.words[k])));
             }
         Measures measures(circuit_);
         for (const auto& head : heads_)
@@ -96,27 +98,28 @@ public:
     }
 
 private:
-    /// Each word of .print and .plot is a curve of the analysis named first, or else of one of them.
-    Result<void> columns(const Command& c) {
+    /// Each word of .print and .plot must be a curve of the analysis that is named first, or else of any analysis.
+    Result<void> check_columns(const Command& c) {
         if (c.name == "plot")
-            remarks_.push_back(
-                bad_input(".plot draws nothing here; --out x.csv or x.raw writes the curves, .print prints columns", c.place));
+            warnings_.push_back(
+                bad_input(".plot has no effect here; --out x.csv or x.raw writes the curves, .print prints columns", c.place));
         const bool named = !c.words.empty() && analysis_of(c.words[0]) != nullptr;
-        if (c.words.size() == (named ? 1U : 0U)) return bad_input(fmt::format(".{}: it is .{} tran v(NODE) ...", c.name, c.name), c.place);
+        if (c.words.size() == (named ? 1U : 0U))
+            return bad_input(fmt::format(".{}: expected .{} tran v(NODE) ...", c.name, c.name), c.place);
         if (named && std::none_of(heads_.begin(), heads_.end(), [&](const Head& h) { return h.command->name == c.words[0]; })) {
-            remarks_.push_back(bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.place));
+            warnings_.push_back(bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.place));
             return {};
         }
         for (std::size_t k = named ? 1 : 0; k < c.words.size(); ++k)
             if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
-                remarks_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
+                warnings_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
             else if (c.words[k] == "all")
                 continue;
-            else if (auto wrong = missing(c, k, named))
+            else if (auto wrong = check_curve(c, k, named))
                 return *wrong;
         return {};
     }
-    std::optional<Error> missing(const Command& c, std::size_t k, bool named) const {
+    std::optional<Error> check_curve(const Command& c, std::size_t k, bool named) const {
         const auto& word = c.words[k];
         for (std::size_t h = 0; h < heads_.size(); ++h)
             if ((!named || heads_[h].command->name == c.words[0]) && CurveView::of(heads_[h].plot, word, &names_[h])) return {};
@@ -126,17 +129,20 @@ private:
                 for (const auto& curve : head.plot.curves) known.push_back(curve.name);
         if (word.starts_with("par("))
             if (const auto formula = par_formula(word, c.place); !formula) return error_at(c, k, formula.error().sentence);
-        const bool plotted = c.name == "plot" && word.starts_with("(");  // the limits of an axis
-        if (plotted) return {};
-        const bool own = word.starts_with("i(") && circuit_.element(word.size() > 3 ? word.substr(2, word.size() - 3) : "") >= 0;
-        const auto hint = own ? fmt::format("; '.save {}' makes it one, of M, D and R; a source of 0 V in series shows any other", word)
-                              : did_you_mean(word, known);
+        const bool is_axis_limit = c.name == "plot" && word.starts_with("(");
+        if (is_axis_limit) return {};
+        const bool is_device_current =
+            word.starts_with("i(") && circuit_.element(word.size() > 3 ? word.substr(2, word.size() - 3) : "") >= 0;
+        const auto hint =
+            is_device_current
+                ? fmt::format("; '.save {}' records the current of an M, D or R; for any other element, put a 0 V source in series", word)
+                : did_you_mean(word, known);
         return error_at(c, k, fmt::format(".{}: there is no curve '{}'{}", c.name, word, hint));
     }
 
-    /// .expect of what neither a measure nor an analysis is called, and that is no curve.
+    /// An error if the name of an .expect is neither a measurement, a number of an analysis nor a curve.
     std::optional<Error> unknown_expectation(const Command& c, const std::vector<std::string>& given) const {
-        if (c.words.empty()) return {};  // run() says how it is written
+        if (c.words.empty()) return {};  // run() reports the syntax
         const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
         std::vector<std::string_view> known(given.begin(), given.end());
         for (const auto& other : circuit_.commands)
@@ -144,10 +150,10 @@ private:
         if (std::find(known.begin(), known.end(), name) != known.end()) return {};
         for (std::size_t h = 0; h < heads_.size(); ++h)
             if (CurveView::of(heads_[h].plot, name, &names_[h])) return {};
-        return bad_input(fmt::format(".expect: nothing is called '{}'{}", name, did_you_mean(name, known)), c.place);
+        return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", name, did_you_mean(name, known)), c.place);
     }
 
-    /// Names that analyses may give numbers.
+    /// Names of the numbers that the analyses may give.
     std::vector<std::string> numbers() const {
         std::vector<std::string> out;
         for (const auto& head : heads_) {
@@ -167,8 +173,8 @@ private:
 
 }  // namespace
 
-Result<void> check_requests(const System& system, const OwnCurrents& currents, std::vector<Error>& remarks) {
-    return Requests(system, currents, remarks).check();
+Result<void> check_requests(const System& system, const OwnCurrents& currents, std::vector<Error>& warnings) {
+    return OutputDirectives(system, currents, warnings).check();
 }
 
 }  // namespace corpuscle::circuit

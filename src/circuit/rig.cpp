@@ -8,33 +8,34 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double long_ago = 100;                         // s: then the transient's time begins anew, so that it keeps its digits
-constexpr double end_of_time = 1e3, end_of_clock = 1e5;  // s: of a transient; of one whose time cannot begin anew
+constexpr double max_time_before_shift = 100;  // s; then the time origin is shifted, to keep the resolution of the time
+constexpr double stop_time = 1e3;              // s, of a transient whose origin can be shifted
+constexpr double stop_time_unshifted = 1e5;    // s, if sources depend on absolute time
 
-void put(std::vector<double>& out, std::span<const double> x) { out.insert(out.end(), x.begin(), x.end()); }
+void append_values(std::vector<double>& out, std::span<const double> x) { out.insert(out.end(), x.begin(), x.end()); }
 
 }  // namespace
 
 Result<std::unique_ptr<Rig>> Rig::make(const CircuitDesign& design, double T, const std::optional<Draw>& chip) {
     auto bench = TestBench::make(design.circuit);
     if (!bench) return bench.error();
-    std::unique_ptr<Rig> rig(new Rig(design, T));
-    rig->bench_ = std::move(*bench);
-    if (chip) rig->bench_->draw(*chip);
-    auto& system = rig->bench_->system;
+    std::unique_ptr<Rig> out(new Rig(design, T));
+    out->bench_ = std::move(*bench);
+    if (chip) out->bench_->draw(*chip);
+    auto& system = out->bench_->system;
     system.go(design.times.step > 0 ? design.times.step : T, design.times.stop > 0 ? design.times.stop : 1);
-    for (const auto& d : system.devices()) rig->clocked_ |= d->varies();
-    system.hear(&rig->trace_);
-    rig->rest();
+    for (const auto& d : system.devices()) out->is_time_dependent_ |= d->varies();
+    system.hear(&out->trace_);
+    out->solve_rest();
     auto plan = design.plan;
-    plan.stop = rig->clocked_ ? end_of_clock : end_of_time;
-    rig->transient_.emplace(system, rig->bench_->newton, plan);
-    (void)rig->transient_->begin(rig->rest_);  // it is the order of elimination that comes of it
-    return rig;
+    plan.stop = out->is_time_dependent_ ? stop_time_unshifted : stop_time;
+    out->transient_.emplace(system, out->bench_->newton, plan);
+    (void)out->transient_->begin(out->rest_);  // called only to choose the elimination order
+    return out;
 }
 
-/// Where it is at 0 N; if nowhere, as .ic has it.
-void Rig::rest() {
+/// Finds the operating point at 0 N. If there is none, takes the initial condition of .ic.
+void Rig::solve_rest() {
     auto found = beginning(*bench_, design_.times.uic);
     rest_ = found ? std::move(found->x) : beginning(*bench_, true)->x;
     meter_.emplace(bench_->system, rest_, bench_->tolerances.gmin);
@@ -43,33 +44,33 @@ void Rig::rest() {
 void Rig::draw(const Draw& chip) {
     bench_->draw(chip);
     trace_ = Trace(trace_.T());
-    rest();
+    solve_rest();
 }
 
-Result<Beginning> Rig::resting(std::span<const double> force, std::vector<double> from) {
+Result<Beginning> Rig::solve_start(std::span<const double> force, std::vector<double> from) {
     trace_ = Trace(trace_.T());
     trace_.append(force);
     return beginning(*bench_, design_.times.uic, std::move(from));
 }
 
-/// Where the circuit rests under this force, or as far on the way there as it can be led from 0 N.
-std::vector<double> Rig::led_to(double force) {
-    constexpr double shortest = 1.0 / 64;  // of the way
-    auto there = rest_;
-    for (double part = 0, step = 0.25; part < 1 && step >= shortest;) {
-        const double next = std::min(1.0, part + step), steady[] = {next * force, next * force};
-        if (auto x = resting(steady, there))
-            part = next, there = std::move(x->x);
+/// The operating point under this force, found by raising the force in steps from 0 N. If that fails, the last point that was found.
+std::vector<double> Rig::continue_from_rest(double force) {
+    constexpr double min_step = 1.0 / 64;  // as a fraction of the force
+    auto found = rest_;
+    for (double fraction = 0, step = 0.25; fraction < 1 && step >= min_step;) {
+        const double next = std::min(1.0, fraction + step), steady[] = {next * force, next * force};
+        if (auto x = solve_start(steady, found))
+            fraction = next, found = std::move(x->x);
         else
             step /= 2;
     }
-    return there;
+    return found;
 }
 
 Result<void> Rig::begin(std::span<const double> force) {
     origin_ = 0, coming_.reset(), now_.reset();
-    auto x = resting(force, rest_);
-    if (!x) x = resting(force, led_to(force[0]));
+    auto x = solve_start(force, rest_);
+    if (!x) x = solve_start(force, continue_from_rest(force[0]));
     if (!x) {
         auto error = x.error();
         error.sentence = fmt::format("under the first force, {}: {}", format_quantity(force[0], "N"), error.sentence);
@@ -80,16 +81,18 @@ Result<void> Rig::begin(std::span<const double> force) {
 }
 
 Result<void> Rig::step() {
-    if (!clocked_ && transient_->time() > long_ago) shift();
-    if (clocked_ && transient_->time() >= end_of_clock)
-        return bad_input(fmt::format("a netlist with sources that go by time runs for {:g} s at the most", end_of_clock),
+    if (!is_time_dependent_ && transient_->time() > max_time_before_shift) shift_origin();
+    if (is_time_dependent_ && transient_->time() >= stop_time_unshifted)
+        return bad_input(fmt::format("a netlist whose sources depend on time runs for at most {:g} s", stop_time_unshifted),
                          {design_.circuit->file});
     const double from = transient_->time();
     if (!now_) now_ = meter_->delivered(transient_->x(), from);
     const auto stepped = transient_->step(trace_.known());
     if (!stepped) return stepped.error();
-    if (!*stepped) return bad_input("a step depends on force that has not come yet", {design_.circuit->file});  // never, see delay()
-    spend(from);
+    if (!*stepped)
+        return bad_input("a time step needs force samples that were not given yet",
+                         {design_.circuit->file});  // cannot happen: delay() is long enough
+    add_energy(from);
     const auto spike = design_.output.within(*transient_);
     if (!spike) return {};
     const double at = *spike / trace_.T(), before = std::ceil(at) - 1;
@@ -97,15 +100,15 @@ Result<void> Rig::step() {
     return {};
 }
 
-/// What the last step took, as if power went straight.
-void Rig::spend(double from) {
+/// Adds the energy of the last step, with the power interpolated linearly.
+void Rig::add_energy(double from) {
     const double to = transient_->time(), half = (to - from) / 2;
     const auto then = *now_;
     now_ = meter_->delivered(transient_->x(), to);
     spent_ += {to - from, half * (then.supplies + now_->supplies), half * (then.sensor + now_->sensor)};
 }
 
-void Rig::shift() {
+void Rig::shift_origin() {
     const auto samples = static_cast<std::int64_t>(std::floor(transient_->time() / trace_.T()));
     auto state = transient_->save();
     for (auto& point : state.past) point.t -= static_cast<double>(samples) * trace_.T();
@@ -116,91 +119,92 @@ void Rig::shift() {
 
 double Rig::shown(const Saved& saved, std::int64_t sample) const {
     if (sample <= 0) return saved.seen(bench_->system, [&](int u) { return u < 0 ? 0 : start_[static_cast<std::size_t>(u)]; });
-    const double t = place(sample);
+    const double t = time_of(sample);
     return saved.seen(bench_->system, [&](int u) { return transient_->between(t, u); });
 }
 
-/// What save() gave, number by number; once something is missing or impossible, all that follows is 0.
-class Numbers {
-    std::span<const double> left_;
+/// Reads the numbers that save() wrote. After a missing or impossible number, all following values are 0.
+class StateReader {
+    std::span<const double> rest_;
 
 public:
-    bool good = true;
-    explicit Numbers(std::span<const double> in) : left_(in) {}
+    bool is_valid = true;
+    explicit StateReader(std::span<const double> in) : rest_(in) {}
 
     double next() {
-        good &= !left_.empty();
-        if (!good) return 0;
-        const double x = left_.front();
-        left_ = left_.subspan(1);
+        is_valid &= !rest_.empty();
+        if (!is_valid) return 0;
+        const double x = rest_.front();
+        rest_ = rest_.subspan(1);
         return x;
     }
-    std::int64_t whole(double low, double high) {
+    std::int64_t integer(double low, double high) {
         const double x = next();
-        good &= x >= low && x <= high && x == std::floor(x);
-        return good ? static_cast<std::int64_t>(x) : 0;
+        is_valid &= x >= low && x <= high && x == std::floor(x);
+        return is_valid ? static_cast<std::int64_t>(x) : 0;
     }
     std::vector<double> many(std::size_t count) {
-        good &= left_.size() >= count;
-        if (!good) return std::vector<double>(count);
-        std::vector<double> out(left_.begin(), left_.begin() + static_cast<std::ptrdiff_t>(count));
-        left_ = left_.subspan(count);
+        is_valid &= rest_.size() >= count;
+        if (!is_valid) return std::vector<double>(count);
+        std::vector<double> out(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(count));
+        rest_ = rest_.subspan(count);
         return out;
     }
-    std::span<const double> rest() const { return left_; }
+    std::span<const double> rest() const { return rest_; }
 };
 
 void Rig::save(std::vector<double>& out) {
     const auto s = transient_->save();
     trace_.forget(transient_->time());
-    put(out, std::vector<double>{static_cast<double>(origin_), static_cast<double>(coming_.has_value()),
-                                 static_cast<double>(coming_.value_or(Spike{}).step), coming_.value_or(Spike{}).offset});
-    put(out, start_);
-    put(out, std::vector<double>{static_cast<double>(s.past.size()), static_cast<double>(s.order), static_cast<double>(s.since_choice),
-                                 static_cast<double>(s.failures), static_cast<double>(s.calming), static_cast<double>(s.starting),
-                                 static_cast<double>(s.bent), static_cast<double>(s.count), static_cast<double>(s.curve),
-                                 static_cast<double>(s.opening), s.h, s.bend, s.calm, static_cast<double>(s.work.steps),
-                                 static_cast<double>(s.work.rejected), static_cast<double>(s.work.lost),
-                                 static_cast<double>(s.work.iterations)});
-    for (const auto& point : s.past) out.push_back(point.t), put(out, point.x), put(out, point.q);
-    put(out, s.scale), put(out, s.rate), put(out, s.turn), put(out, s.fastest), put(out, s.memory);
-    put(out, std::vector<double>(s.alternations.begin(), s.alternations.end()));
+    append_values(out, std::vector<double>{static_cast<double>(origin_), static_cast<double>(coming_.has_value()),
+                                           static_cast<double>(coming_.value_or(Spike{}).step), coming_.value_or(Spike{}).offset});
+    append_values(out, start_);
+    append_values(out, std::vector<double>{static_cast<double>(s.past.size()), static_cast<double>(s.order),
+                                           static_cast<double>(s.since_choice), static_cast<double>(s.failures),
+                                           static_cast<double>(s.calming), static_cast<double>(s.starting), static_cast<double>(s.bent),
+                                           static_cast<double>(s.count), static_cast<double>(s.curve), static_cast<double>(s.opening), s.h,
+                                           s.bend, s.calm, static_cast<double>(s.work.steps), static_cast<double>(s.work.rejected),
+                                           static_cast<double>(s.work.lost), static_cast<double>(s.work.iterations)});
+    for (const auto& point : s.past) out.push_back(point.t), append_values(out, point.x), append_values(out, point.q);
+    append_values(out, s.scale), append_values(out, s.rate), append_values(out, s.turn), append_values(out, s.fastest),
+        append_values(out, s.memory);
+    append_values(out, std::vector<double>(s.alternations.begin(), s.alternations.end()));
     trace_.save(out);
 }
 
-void Rig::read(Numbers& in, TransientState& s) {
-    constexpr double most = 0x1p53;
+void Rig::read_state(StateReader& in, TransientState& s) {
+    constexpr double max_count = 0x1p53;
     const auto size = start_.size();
-    const auto points = static_cast<std::size_t>(in.whole(1, Past::most));
-    s.order = static_cast<int>(in.whole(1, design_.plan.order));
-    s.since_choice = static_cast<int>(in.whole(0, 1e9)), s.failures = static_cast<int>(in.whole(0, 1e9));
-    s.calming = static_cast<int>(in.whole(0, 2)), s.starting = in.whole(0, 1) != 0, s.bent = in.whole(0, 1) != 0;
-    s.count = static_cast<int>(in.whole(1, static_cast<double>(points)));
-    s.curve = static_cast<int>(in.whole(0, static_cast<double>(points))), s.opening = static_cast<int>(in.whole(0, 2));
+    const auto points = static_cast<std::size_t>(in.integer(1, Past::most));
+    s.order = static_cast<int>(in.integer(1, design_.plan.order));
+    s.since_choice = static_cast<int>(in.integer(0, 1e9)), s.failures = static_cast<int>(in.integer(0, 1e9));
+    s.calming = static_cast<int>(in.integer(0, 2)), s.starting = in.integer(0, 1) != 0, s.bent = in.integer(0, 1) != 0;
+    s.count = static_cast<int>(in.integer(1, static_cast<double>(points)));
+    s.curve = static_cast<int>(in.integer(0, static_cast<double>(points))), s.opening = static_cast<int>(in.integer(0, 2));
     s.h = in.next(), s.bend = in.next(), s.calm = in.next();
-    for (long* n : {&s.work.steps, &s.work.rejected, &s.work.lost, &s.work.iterations}) *n = in.whole(0, most);
+    for (long* n : {&s.work.steps, &s.work.rejected, &s.work.lost, &s.work.iterations}) *n = in.integer(0, max_count);
     for (std::size_t k = 0; k < points; ++k) {
         s.past.push_back({in.next(), in.many(size), in.many(size)});
-        in.good &= std::abs(s.past[k].t) <= end_of_clock && (k == 0 || s.past[k].t < s.past[k - 1].t);
+        in.is_valid &= std::abs(s.past[k].t) <= stop_time_unshifted && (k == 0 || s.past[k].t < s.past[k - 1].t);
     }
     s.scale = in.many(size), s.rate = in.many(size), s.turn = in.many(size), s.fastest = in.many(size),
     s.memory = in.many(bench_->system.fresh_memory().size());
-    for (std::size_t n = 0; n < size; ++n) s.alternations.push_back(static_cast<int>(in.whole(0, 1e9)));
-    in.good &= s.h > 0 && s.bend > 0 && s.calm >= 0;
+    for (std::size_t n = 0; n < size; ++n) s.alternations.push_back(static_cast<int>(in.integer(0, 1e9)));
+    in.is_valid &= s.h > 0 && s.bend > 0 && s.calm >= 0;
 }
 
 bool Rig::restore(std::span<const double> values, std::int64_t samples) {
-    constexpr double most = 0x1p53;
-    Numbers in(values);
-    origin_ = in.whole(0, most);
-    const bool spike = in.whole(0, 1) != 0;
-    const Spike at{in.whole(0, most), in.next(), 0};
+    constexpr double max_count = 0x1p53;
+    StateReader in(values);
+    origin_ = in.integer(0, max_count);
+    const bool spike = in.integer(0, 1) != 0;
+    const Spike at{in.integer(0, max_count), in.next(), 0};
     coming_ = spike ? std::optional(at) : std::nullopt;
     start_ = in.many(static_cast<std::size_t>(bench_->system.size()));
     TransientState s;
     now_.reset(), spent_ = {};
-    read(in, s);
-    if (!in.good || !trace_.restore(in.rest()) || trace_.end() + origin_ != samples) return false;
+    read_state(in, s);
+    if (!in.is_valid || !trace_.restore(in.rest()) || trace_.end() + origin_ != samples) return false;
     if (!transient_->begin(start_)) return false;
     transient_->restore(s);
     return true;

@@ -1,5 +1,5 @@
 #pragma once
-// A circuit on its way through a force that comes block by block.
+// A transient simulation that is driven by a force given block by block.
 
 #include "circuit/afferent.hpp"
 #include "circuit/analysis/beginning.hpp"
@@ -8,50 +8,50 @@
 
 namespace corpuscle::circuit {
 
-class Numbers;
+class StateReader;
 
-/// Bound to its design and sample time. Its matrix's order of elimination is that of the circuit at 0 N, so that what it does depends on
-/// the force alone and not on what was run on it before.
+/// Bound to one netlist and sample time T, s. The elimination order of the matrix is chosen at 0 N, so that the results depend on the
+/// force alone and not on earlier runs.
 class Rig {
     const CircuitDesign& design_;
     std::unique_ptr<TestBench> bench_;
     Trace trace_;
     std::optional<Transient> transient_;
     std::optional<PowerMeter> meter_;
-    std::optional<PowerMeter::Delivered> now_;  // at the last step's end, once it was looked at
+    std::optional<PowerMeter::Delivered> now_;  // power at the end of the last step, once evaluated
     Spent spent_;
-    bool clocked_ = false;         // some other source goes by the time since the beginning
-    std::vector<double> rest_;     // at 0 N
-    std::vector<double> start_;    // at the first force
-    std::int64_t origin_ = 0;      // the sample at which the transient's time is 0
-    std::optional<Spike> coming_;  // found, and beyond what has been answered
+    bool is_time_dependent_ = false;  // a source other than the force depends on absolute time
+    std::vector<double> rest_;        // operating point at 0 N
+    std::vector<double> start_;       // operating point at the first force
+    std::int64_t origin_ = 0;         // the sample at which the time of the transient is 0
+    std::optional<Spike> coming_;     // found, but not yet reported
 
     Rig(const CircuitDesign& design, double T) : design_(design), trace_(T) {}
-    void shift();
-    void rest();
-    Result<Beginning> resting(std::span<const double> force, std::vector<double> from);
-    std::vector<double> led_to(double force);
-    void spend(double from);
+    void shift_origin();
+    void solve_rest();
+    Result<Beginning> solve_start(std::span<const double> force, std::vector<double> from);
+    std::vector<double> continue_from_rest(double force);
+    void add_energy(double from);
 
 public:
     static Result<std::unique_ptr<Rig>> make(const CircuitDesign&, double T, const std::optional<Draw>& chip);
     Rig(const Rig&) = delete;
-    /// Becomes another chip of the same design; its matrix's order of elimination stays.
+    /// Switches to another chip of the same netlist. The elimination order of the matrix does not change.
     void draw(const Draw& chip);
 
-    /// Anew, at rest under the first of these samples.
+    /// Restarts from the operating point under the first of these samples.
     Result<void> begin(std::span<const double> force);
     void hear(std::span<const double> force) { trace_.append(force); }
-    /// One step; the spike in it, if there is one, is `coming`.
+    /// Takes one time step. A spike within the step is stored in `coming`.
     Result<void> step();
     std::optional<Spike>& coming() { return coming_; }
 
-    /// Whether it has come to this sample.
-    bool at(std::int64_t sample) const { return transient_->time() >= place(sample); }
-    /// At a sample in its last step, or at the beginning.
+    /// True if the transient has reached this sample.
+    bool at(std::int64_t sample) const { return transient_->time() >= time_of(sample); }
+    /// The value of a saved quantity at a sample within the last step, or at the start.
     double shown(const Saved&, std::int64_t sample) const;
     const TransientWork& work() const { return transient_->work(); }
-    /// Since this was last asked.
+    /// The energy used since the last call.
     Spent spent() { return std::exchange(spent_, {}); }
 
     TestBench& bench() { return *bench_; }
@@ -60,12 +60,12 @@ public:
     const PowerMeter& meter() const { return *meter_; }
 
     void save(std::vector<double>& out);
-    /// False: this cannot be what save() gave after so many samples.
+    /// Restores the state that save() wrote after so many samples. Returns false if `in` cannot be such a state.
     bool restore(std::span<const double> in, std::int64_t samples);
 
 private:
-    double place(std::int64_t sample) const { return static_cast<double>(sample - origin_) * trace_.T(); }
-    void read(Numbers&, TransientState&);
+    double time_of(std::int64_t sample) const { return static_cast<double>(sample - origin_) * trace_.T(); }
+    void read_state(StateReader&, TransientState&);
 };
 
 }  // namespace corpuscle::circuit

@@ -21,7 +21,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// "0.35 1%" or "0.35 2m" after a name, with or without "=".
+/// Parses "v(out) 0.35 1%" or "v(out)=0.35 2m".
 Result<Expectation> expectation_of(const Command& c) {
     auto words = c.words;
     if (words.size() == 2 && words[0].find('=') != std::string::npos) {  // v(out)=0.35 1%
@@ -29,17 +29,17 @@ Result<Expectation> expectation_of(const Command& c) {
         words.insert(words.begin() + 1, words[0].substr(at + 1));
         words[0].resize(at);
     }
-    if (words.size() != 3) return bad_input(".expect: it is .expect NAME VALUE TOLERANCE, such as '.expect v(out) 0.35 1%'", c.place);
-    const bool share = words[2].ends_with('%');
-    const auto value = whole_number(words[1]), tolerance = whole_number(share ? words[2].substr(0, words[2].size() - 1) : words[2]);
-    if (!value) return bad_input(fmt::format(".expect: '{}' is no number", words[1]), c.place);
+    if (words.size() != 3) return bad_input(".expect: expected .expect NAME VALUE TOLERANCE, such as '.expect v(out) 0.35 1%'", c.place);
+    const bool is_relative = words[2].ends_with('%');
+    const auto value = whole_number(words[1]), tolerance = whole_number(is_relative ? words[2].substr(0, words[2].size() - 1) : words[2]);
+    if (!value) return bad_input(fmt::format(".expect: '{}' is not a number", words[1]), c.place);
     if (!tolerance || !(tolerance->value >= 0))
-        return bad_input(fmt::format(".expect: '{}' is no tolerance, such as 1% or 2m", words[2]), c.place);
-    return Expectation{words[0], value->value, share ? std::abs(value->value) * tolerance->value / 100 : tolerance->value,
+        return bad_input(fmt::format(".expect: '{}' is not a tolerance; write one such as 1% or 2m", words[2]), c.place);
+    return Expectation{words[0], value->value, is_relative ? std::abs(value->value) * tolerance->value / 100 : tolerance->value,
                        0,        false,        c.place};
 }
 
-Result<void> expect(const Circuit& circuit, RunOutcome& out) {
+Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
     for (const auto& c : circuit.commands) {
         if (c.name != "expect") continue;
         auto e = expectation_of(c);
@@ -48,7 +48,8 @@ Result<void> expect(const Circuit& circuit, RunOutcome& out) {
         if (!found) {
             std::vector<std::string_view> known;
             for (const auto& [name, value] : out.numbers) known.push_back(name);
-            return bad_input(fmt::format(".expect: nothing is called '{}'{}", e->what, did_you_mean(e->what, known)), c.place);
+            return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", e->what, did_you_mean(e->what, known)),
+                             c.place);
         }
         e->found = *found, e->held = std::abs(*found - e->expected) <= e->tolerance;
         out.expectations.push_back(std::move(*e));
@@ -56,12 +57,13 @@ Result<void> expect(const Circuit& circuit, RunOutcome& out) {
     return {};
 }
 
-/// .tran STEP STOP [START ...], as the analysis has read it.
-double word_of(const Command& c, std::size_t word) { return number_of(c, word, "a number") ? *number_of(c, word, "a number") : 0; }
+/// A number of .tran STEP STOP [START ...]; 0 if it is missing.
+double tran_number(const Command& c, std::size_t word) { return number_of(c, word, "a number") ? *number_of(c, word, "a number") : 0; }
 
-/// A transient's points on their way: to the measures, to .print, to who takes what is saved, into memory. None of it grows but the last.
-class Passing final : public PointSink {
-    const RunOrders& orders_;
+/// Passes each point of a transient to the measurements, to .print, to the sinks of the options and, if requested, to memory. Only the
+/// last of these grows with the length of the run.
+class PointDispatcher final : public PointSink {
+    const RunOrders& options_;
     RunOutcome& out_;
     Measures& measures_;
     Analysed& analysed_;
@@ -74,12 +76,12 @@ class Passing final : public PointSink {
     bool begun_ = false;
 
 public:
-    Passing(const Circuit& circuit, const RunOrders& orders, RunOutcome& out, Measures& measures, Analysed& analysed,
-            const OwnCurrents& currents)
-        : orders_(orders), out_(out), measures_(measures), analysed_(analysed), currents_(currents) {
+    PointDispatcher(const Circuit& circuit, const RunOrders& options, RunOutcome& out, Measures& measures, Analysed& analysed,
+                    const OwnCurrents& currents)
+        : options_(options), out_(out), measures_(measures), analysed_(analysed), currents_(currents) {
         const auto& c = *analysed.command;
-        if (orders.print && c.name == "tran") printed_.emplace(circuit, word_of(c, 2), word_of(c, 0), word_of(c, 1));
-        if (orders.keep) kept_.emplace();
+        if (options.print && c.name == "tran") printed_.emplace(circuit, tran_number(c, 2), tran_number(c, 0), tran_number(c, 1));
+        if (options.keep) kept_.emplace();
     }
     bool begun() const { return begun_; }
 
@@ -87,7 +89,7 @@ public:
         Plot head = unknowns;
         currents_.add_to(head);
         analysed_.last = head;
-        unknowns_ = analysed_.command->name == "tran" ? orders_.unknowns : nullptr;
+        unknowns_ = analysed_.command->name == "tran" ? options_.unknowns : nullptr;
         if (unknowns_)
             if (auto ok = unknowns_->begin(head); !ok) return ok;
         if (auto ok = measures_.begin(analysed_.command->name, head); !ok) return ok;
@@ -97,7 +99,7 @@ public:
             if (auto ok = kept_->begin(head); !ok) return ok;
         begun_ = true;
         const auto narrow = narrow_.begin(head, out_.saved);
-        return orders_.curves ? orders_.curves->begin(narrow) : Result<void>();
+        return options_.curves ? options_.curves->begin(narrow) : Result<void>();
     }
     Result<void> point(std::span<const double> unknowns) override {
         const auto row = currents_.point(unknowns);
@@ -109,62 +111,62 @@ public:
             if (auto ok = unknowns_->point(row); !ok) return ok;
         if (kept_)
             if (auto ok = kept_->point(row); !ok) return ok;
-        return orders_.curves ? orders_.curves->point(narrow_.point(row)) : Result<void>();
+        return options_.curves ? options_.curves->point(narrow_.point(row)) : Result<void>();
     }
     Result<void> end() override {
         for (std::size_t k = 0; k < last_.size(); ++k) analysed_.last.curves[k].values = {last_[k]};
         if (printed_) analysed_.printed = printed_->end();
-        return orders_.curves ? orders_.curves->end() : Result<void>();
+        return options_.curves ? options_.curves->end() : Result<void>();
     }
-    /// Into what the analysis found.
-    void put_into(Findings& found) {
+    /// Moves the kept points into the result of the analysis.
+    void move_points_to(Findings& found) {
         if (kept_) found.plots.insert(found.plots.begin(), std::move(kept_->plot));
     }
 };
 
-/// One analysis, its plots measured, printed and handed on.
-Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& c, const RunOrders& orders, Measures& measures,
+/// Runs one analysis; measures, prints and passes on its plots.
+Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& c, const RunOrders& options, Measures& measures,
                      const OwnCurrents& currents, RunOutcome& out) {
-    Analysed now{&c, {}, 0, {}, {}};
-    Passing passing(*bench.circuit, orders, out, measures, now, currents);
-    if (orders.stop) bench.stop = [&](double share) { return orders.stop(c.name, share); };
-    bench.points = &passing;
+    Analysed done{&c, {}, 0, {}, {}};
+    PointDispatcher dispatcher(*bench.circuit, options, out, measures, done, currents);
+    if (options.stop) bench.stop = [&](double progress) { return options.stop(c.name, progress); };
+    bench.points = &dispatcher;
     auto found = analysis.run(bench, c);
     bench.points = nullptr, bench.stop = {};
     if (!found) return found.error();
-    now.findings = std::move(*found);
-    for (const auto& number : now.findings.numbers) out.numbers.push_back(number);
-    for (const auto& remark : now.findings.remarks) out.remarks.push_back(remark);
-    if (passing.begun()) {
-        passing.put_into(now.findings);
-    } else if (!now.findings.plots.empty()) {
-        for (auto& plot : now.findings.plots) (void)currents.complete(plot);
-        const auto& plot = now.findings.plots[0];
-        now.points = plot.points();
+    done.findings = std::move(*found);
+    for (const auto& number : done.findings.numbers) out.numbers.push_back(number);
+    for (const auto& remark : done.findings.remarks) out.remarks.push_back(remark);
+    if (dispatcher.begun()) {
+        dispatcher.move_points_to(done.findings);
+    } else if (!done.findings.plots.empty()) {
+        for (auto& plot : done.findings.plots) (void)currents.complete(plot);
+        const auto& plot = done.findings.plots[0];
+        done.points = plot.points();
         if (auto ok = measures.see(c.name, plot); !ok) return ok;
-        if (orders.print) now.printed = printed(*bench.circuit, c.name, plot);
-        if (orders.curves)
-            if (auto ok = orders.curves->whole(out.plots(now)); !ok) return ok;
+        if (options.print) done.printed = printed(*bench.circuit, c.name, plot);
+        if (options.curves)
+            if (auto ok = options.curves->whole(out.plots(done)); !ok) return ok;
     }
-    out.analyses.push_back(std::move(now));
+    out.analyses.push_back(std::move(done));
     return {};
 }
 
 }  // namespace
 
-Result<RunOutcome> run(std::shared_ptr<const Circuit> circuit, const RunOrders& orders) {
+Result<RunOutcome> run(std::shared_ptr<const Circuit> circuit, const RunOrders& options) {
     auto bench = TestBench::make(std::move(circuit));
     if (!bench) return bench.error();
-    return run(**bench, orders);
+    return run(**bench, options);
 }
 
-Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
+Result<RunOutcome> run(TestBench& bench, const RunOrders& options) {
     const Circuit* const circuit = bench.circuit.get();
     RunOutcome out;
     if (!bench.brief) {
         out.remarks = circuit->remarks;
-        for (auto& s : suspicious(*circuit)) out.remarks.push_back(std::move(s));
-        for (auto& s : warnings_of(*circuit)) out.remarks.push_back(std::move(s));
+        for (auto& warning : suspicious(*circuit)) out.remarks.push_back(std::move(warning));
+        for (auto& warning : warnings_of(*circuit)) out.remarks.push_back(std::move(warning));
     }
     const auto saved = saved_of(bench.system);
     if (!saved) return saved.error();
@@ -176,7 +178,7 @@ Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);
         if (analysis == nullptr) continue;
-        if (auto ok = analyse(bench, *analysis, c, orders, measures, currents, out); !ok) {
+        if (auto ok = analyse(bench, *analysis, c, options, measures, currents, out); !ok) {
             auto error = ok.error();
             if (error.place.line == 0 && (error.place.file.empty() || error.place.file == circuit->file)) error.place = c.place;
             return error;
@@ -185,10 +187,10 @@ Result<RunOutcome> run(TestBench& bench, const RunOrders& orders) {
     if (out.analyses.empty()) {
         std::string known;
         for (const auto& a : analyses) known += fmt::format("\n  {}", a.usage);
-        return bad_input("the netlist asks for no analysis; there are" + known, Place{circuit->file});
+        return bad_input("the netlist has no analysis directive; add one of these:" + known, Place{circuit->file});
     }
     if (auto ok = measures.finish(out.numbers, out.remarks); !ok) return ok.error();
-    if (auto ok = expect(*circuit, out); !ok) return ok.error();
+    if (auto ok = check_expectations(*circuit, out); !ok) return ok.error();
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A netlist's own orders, carried out: its analyses, in the order in which they stand, then its measures and what it expects.
+// Runs the directives of a netlist: its analyses in order, then its measurements and expectations.
 
 #include <functional>
 #include <optional>
@@ -8,16 +8,16 @@
 
 namespace corpuscle::circuit {
 
-/// One analysis and what it found.
+/// One analysis and its result.
 struct Analysed {
     const Command* command;  ///< of the circuit
     Findings findings;
-    std::size_t points = 0;  ///< of its first plot
-    std::string printed;     ///< what .print asks of it, as columns for people
-    Plot last;               ///< of a transient, whose points may not have been kept: its last one
+    std::size_t points = 0;  ///< in the first plot
+    std::string printed;     ///< the tables of .print
+    Plot last;               ///< the last point of a transient, whose points may not have been kept
 };
 
-/// One .expect: held or not.
+/// One .expect and whether it is met.
 struct Expectation {
     std::string what;
     double expected, tolerance, found;
@@ -27,32 +27,33 @@ struct Expectation {
 
 struct RunOutcome {
     std::vector<Analysed> analyses;
-    std::vector<std::pair<std::string, double>> numbers;  ///< in order; a measure that found nothing is NaN
+    std::vector<std::pair<std::string, double>> numbers;  ///< in order; a measurement that found nothing is NaN
     std::vector<Expectation> expectations;
     std::vector<Error> remarks;
 
-    std::vector<std::string> saved;  ///< by .save: v(a), v(a,b), i(v1) ...; empty: everything
+    std::vector<std::string> saved;  ///< by .save: v(a), v(a,b), i(v1) ...; empty means all
 
-    /// What a name means once all is done: a measure or a number of an analysis; else a curve, "v(out)", at the last point of the first
-    /// plot that has it.
+    /// The value of a name after the run: a measurement or a number of an analysis. Otherwise the value of a curve, such as "v(out)", at
+    /// the last point of the first plot that has it.
     std::optional<double> number(std::string_view name) const;
-    std::vector<Plot> plots(const Analysed&) const;  ///< with what is swept and what is saved
+    std::vector<Plot> plots(const Analysed&) const;  ///< the swept quantity and the saved curves
     std::vector<Plot> plots() const;                 ///< of all analyses
 };
 
-/// Takes what is saved of each analysis, as it is found: of a transient its points as they come, of others their plots.
+/// Receives the saved curves during the run: a transient point by point, other analyses as complete plots.
 class CurveSink : public PointSink {
 public:
     virtual Result<void> whole(std::span<const Plot>) = 0;
 };
 
-/// How a run is wanted.
+/// Options of run().
 struct RunOrders {
-    std::function<bool(std::string_view word, double share)> stop{};  ///< asked now and then, told what is at work and how far it is
+    std::function<bool(std::string_view analysis, double progress)>
+        stop{};  ///< called now and then with the analysis and its progress (0 to 1); true stops the run
     CurveSink* curves = nullptr;
-    PointSink* unknowns = nullptr;  ///< sees a transient's points, all unknowns of each
-    bool keep = true;               ///< a transient's points stay in memory, as a plot of its findings
-    bool print = true;              ///< columns are made for .print
+    PointSink* unknowns = nullptr;  ///< receives all unknowns at each time point of a transient
+    bool keep = true;               ///< keep the points of a transient in memory, as a plot of its result
+    bool print = true;              ///< make the tables of .print
 };
 Result<RunOutcome> run(TestBench&, const RunOrders& = {});
 Result<RunOutcome> run(std::shared_ptr<const Circuit>, const RunOrders& = {});

@@ -9,15 +9,15 @@
 namespace corpuscle::circuit {
 namespace {
 
-bool asks_to_save(const Command& c) { return c.name == "save" || c.name == "probe"; }
+bool is_save_directive(const Command& c) { return c.name == "save" || c.name == "probe"; }
 
-/// "all", and of .probe also "alli" and "allv".
-bool asks_for_all(const Command& c, const std::string& word) {
+/// True for "all", and for "alli" and "allv" of .probe.
+bool means_all(const Command& c, const std::string& word) {
     return word == "all" || (c.name == "probe" && (word == "alli" || word == "allv"));
 }
 
-/// Of "i(x1.m1)" the element; -1: it is none whose current is told so.
-int device_in(const UnknownNames& names, const Circuit& circuit, std::string_view word) {
+/// The element of "i(x1.m1)"; -1 if the word is not the current of a device.
+int device_of_current(const UnknownNames& names, const Circuit& circuit, std::string_view word) {
     if (!word.starts_with("i(") || !word.ends_with(')') || names.index_of(word) >= 0) return -1;
     const int k = circuit.element(word.substr(2, word.size() - 3));
     return k >= 0 && has_own_current(circuit.elements[static_cast<std::size_t>(k)]) ? k : -1;
@@ -26,7 +26,7 @@ int device_in(const UnknownNames& names, const Circuit& circuit, std::string_vie
 }  // namespace
 
 bool is_left_out(const Circuit& circuit, const Command& c, std::string_view word) {
-    if (c.name != "probe" || asks_for_all(c, std::string(word))) return false;
+    if (c.name != "probe" || means_all(c, std::string(word))) return false;
     const auto open = word.find('(');
     if (open != std::string_view::npos && open != 1) return true;  // vd(r2), p(x1)
     if (!word.starts_with("i(") || !word.ends_with(')')) return false;
@@ -37,34 +37,34 @@ bool is_left_out(const Circuit& circuit, const Command& c, std::string_view word
 
 double Saved::current_into(const Device& d, std::span<const double> v) {
     const auto n = v.size();
-    std::vector<double> room(2 * n + 2 * n * n);
-    const auto all = std::span(room);
+    std::vector<double> stamp(2 * n + 2 * n * n);
+    const auto all = std::span(stamp);
     Instant at;
     at.charges = false;
     d.eval(v, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-    return room[0];
+    return stamp[0];
 }
 
 Result<std::vector<Saved>> saved_of(const System& system) {
     std::vector<Saved> out;
     const auto& commands = system.circuit().commands;
-    if (std::none_of(commands.begin(), commands.end(), asks_to_save)) return out;
+    if (std::none_of(commands.begin(), commands.end(), is_save_directive)) return out;
     const UnknownNames names(system);
     std::unordered_set<std::string> seen;
     bool all = false;
     for (const auto& c : commands) {
-        if (!asks_to_save(c)) continue;
+        if (!is_save_directive(c)) continue;
         all = all || c.words.empty();
         for (std::size_t k = 0; k < c.words.size(); ++k) {
             const auto& word = c.words[k];
-            if (asks_for_all(c, word)) {
+            if (means_all(c, word)) {
                 all = true;
                 continue;
             }
             if (is_left_out(system.circuit(), c, word)) continue;
             const auto name = word.find('(') == std::string::npos ? fmt::format("v({})", word) : word;
             if (!seen.insert(name).second) continue;
-            if (const int device = device_in(names, system.circuit(), name); device >= 0) {
+            if (const int device = device_of_current(names, system.circuit(), name); device >= 0) {
                 out.push_back({name, {}, device});
                 continue;
             }

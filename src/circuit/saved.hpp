@@ -1,19 +1,20 @@
 #pragma once
-// .save: which curves are kept.
+// .save and .probe: the curves to keep.
 
 #include "circuit/analysis/bench.hpp"
 
 namespace corpuscle::circuit {
 
-/// A voltage, or a current: through a voltage source, which is an unknown; or into a device's first terminal (drain, anode), which follows
-/// from the voltages about it: at rest, so without what charges take. Of a transistor that is its channel and its drain's junction.
+/// A voltage or a current. The current through a voltage source is an unknown of the system. The current into the first terminal of a
+/// device (drain, anode) is computed from its terminal voltages without displacement current; for a transistor it is the channel and the
+/// drain junction.
 struct Saved {
     std::string name;  ///< "v(out)", "v(a,b)", "i(v1)", "i(x1.m1)"
     Wanted of = {};
-    int device = -1;  ///< in System::devices(), if it is a device's own current
+    int device = -1;  ///< index in System::devices() if it is the current of a device
 
     bool is_voltage() const { return name[0] == 'v'; }
-    /// `value(unknown)` gives each unknown's; -1 is ground.
+    /// The value of the quantity. `value(u)` must return the value of unknown u; -1 is ground.
     template <class Value>
     double seen(const System& system, Value&& value) const {
         if (device < 0) return value(of.plus) - value(of.minus);
@@ -27,13 +28,13 @@ private:
     static double current_into(const Device&, std::span<const double> v);
 };
 
-/// Whether an element that is no voltage source has a current that its own voltages alone decide.
+/// True if the current of the element is not an unknown but follows from its terminal voltages.
 inline bool has_own_current(const Element& e) { return e.letter == 'm' || e.letter == 'd' || e.letter == 'r'; }
 
-/// What .save names; "out" is v(out). Empty: everything, as it is without .save, or with "all".
+/// The quantities that .save names; "out" means v(out). An empty list means all, which is the default and the meaning of "all".
 Result<std::vector<Saved>> saved_of(const System&);
 
-/// Whether a word of .probe asks for what is not told here: the current of a capacitor, vd(r2), p(x1).
+/// True if a word of .probe is not supported: the current of a capacitor, vd(r2), p(x1).
 bool is_left_out(const Circuit&, const Command& probe, std::string_view word);
 
 }  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-Result<SpikeOutput> read(const System& system, const Command& c) {
+Result<SpikeOutput> parse_spike(const System& system, const Command& c) {
     const auto of = wanted_of(system, c, 0);
     if (!of) return of.error();
     if (c.words.size() < 2)
@@ -17,7 +17,8 @@ Result<SpikeOutput> read(const System& system, const Command& c) {
         if (c.words[2] != "rise" && c.words[2] != "fall") return error_at(c, 2, fmt::format(".spike: '{}' must be rise or fall", c.words[2]));
         out.upwards = c.words[2] == "rise";
     }
-    if (c.words.size() > 3) return error_at(c, 3, fmt::format(".spike: '{}' is too much: it is .spike v(NODE) LEVEL [rise|fall]", c.words[3]));
+    if (c.words.size() > 3)
+        return error_at(c, 3, fmt::format(".spike: unexpected '{}'; expected .spike v(NODE) LEVEL [rise|fall]", c.words[3]));
     return out;
 }
 
@@ -27,8 +28,8 @@ Result<std::optional<SpikeOutput>> spike_output(const System& system) {
     std::optional<SpikeOutput> out;
     for (const auto& c : system.circuit().commands) {
         if (c.name != "spike") continue;
-        if (out) return bad_input(fmt::format(".spike: there is one already, in line {}", out->place.line), c.place);
-        auto one = read(system, c);
+        if (out) return bad_input(fmt::format(".spike: only one is allowed; the first is in line {}", out->place.line), c.place);
+        auto one = parse_spike(system, c);
         if (!one) return one.error();
         out = std::move(*one);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// .spike: which node's crossings are the circuit's spikes.
+// .spike: the level crossings that are the spikes of a circuit.
 
 #include <optional>
 
@@ -8,7 +8,8 @@
 
 namespace corpuscle::circuit {
 
-/// .spike v(NODE[,NODE]) LEVEL [rise|fall]: a spike is where the voltage (or i(V), a current) crosses the level upwards, or downwards.
+/// .spike v(NODE[,NODE]) LEVEL [rise|fall]: a spike occurs where the voltage, or the current i(V), crosses the level upwards (default)
+/// or downwards.
 struct SpikeOutput {
     std::string text;  ///< "v(out)"
     Wanted of;
@@ -16,11 +17,11 @@ struct SpikeOutput {
     bool upwards = true;
     Place place;
 
-    /// The time of a spike within a transient's last step.
+    /// The time of a spike within the last step of the transient, s; nothing if there is none.
     std::optional<double> within(const Transient& t) const { return t.crossing(of.plus, of.minus, level, upwards); }
 };
 
-/// What the netlist says; nothing, if it says nothing. A second one is refused.
+/// Reads the .spike directive; nothing if there is none. A second one is an error.
 Result<std::optional<SpikeOutput>> spike_output(const System&);
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// Force as it comes, for the sources that carry it.
+// The force waveform that drives the force sources of a circuit; samples are appended while the simulation runs.
 
 #include <cstdint>
 #include <span>
@@ -7,24 +7,24 @@
 
 namespace corpuscle::circuit {
 
-/// Straight lines between samples a T apart, the first at 0 s; before it and after the last the force stands still. Samples are appended as
-/// they come and forgotten when time has passed them.
+/// A piecewise linear waveform with samples every T seconds, the first at 0 s. Before the first sample and after the last the force is
+/// constant. Old samples are discarded.
 ///
-/// Its corners are not all its samples, which would cost a circuit a step each, but those that a step must not pass: where the force bends
-/// far sharper than two samples before or after, and where it has left the straight line from the last corner by a part of the largest
-/// force so far. What lies between bends so little that a step's own error tells.
+/// Not every sample is a breakpoint, because each breakpoint costs the circuit a time step. A sample is a breakpoint if the force bends
+/// there much more sharply than two samples before or after. It is also one if the force has left the straight line from the last
+/// breakpoint by a fraction of the largest force so far. Between breakpoints, error control of the step size is sufficient.
 class Trace {
     double T_;
-    std::int64_t first_ = 0;   // number of samples_[0]
-    std::int64_t looked_ = 1;  // the next sample that may prove a corner
+    std::int64_t first_ = 0;          // number of samples_[0]
+    std::int64_t next_to_check_ = 1;  // the next sample that may be a breakpoint
     std::vector<double> samples_;
-    std::vector<std::int64_t> corners_;
-    double line_from_ = 0, line_at_ = 0, line_slope_ = 0;  // sample, N, N a sample: the line from the last corner
-    double largest_ = 0;                                   // N, of all samples looked at
+    std::vector<std::int64_t> breakpoints_;
+    double line_from_ = 0, line_at_ = 0, line_slope_ = 0;  // the line from the last breakpoint: sample, N, N per sample
+    double largest_ = 0;                                   // N, of all samples that were checked
 
     double sample(std::int64_t k) const;
     double bend(std::int64_t k) const { return sample(k - 1) - 2 * sample(k) + sample(k + 1); }
-    void look();
+    void check_next_sample();
 
 public:
     explicit Trace(double T = 1) : T_(T) {}
@@ -32,20 +32,20 @@ public:
 
     void append(std::span<const double> force);
     double at(double t) const;
-    /// The first corner after t, s; infinity: none is known.
+    /// The first breakpoint after t, s; infinity if none is known.
     double next_corner(double t) const;
-    /// s: up to here neither values nor corners depend on what is still to come.
-    double known() const { return static_cast<double>(looked_ - 1) * T_; }
-    /// How many samples before the last, at the most.
+    /// Up to this time, s, neither values nor breakpoints depend on samples that are still to be appended.
+    double known() const { return static_cast<double>(next_to_check_ - 1) * T_; }
+    /// The number of samples after a sample that are needed to decide whether it is a breakpoint.
     static constexpr std::int64_t lag = 3;
-    /// The number of the sample that comes next.
+    /// The number of the sample that will be appended next.
     std::int64_t end() const { return first_ + static_cast<std::int64_t>(samples_.size()); }
-    /// What is before t is not asked for again.
+    /// Discards samples before t, s, which must not be requested again.
     void forget(double t);
-    /// From now on 0 s is where this sample was.
+    /// Moves the origin of time, 0 s, to this sample.
     void shift(std::int64_t samples);
 
-    /// All of it as numbers; and back, false if they cannot be what save() gave.
+    /// Writes the complete state as numbers. restore() reads them; it returns false if they cannot come from save().
     void save(std::vector<double>& out) const;
     bool restore(std::span<const double> in);
 };

@@ -11,32 +11,33 @@
 namespace corpuscle::circuit {
 namespace {
 
-struct Asked {
-    bool current = false;
+struct ProbeText {
+    bool is_current = false;
     std::string_view first, second;  // of v(a,b)
 };
 
-Result<Asked> read(std::string_view word) {
+Result<ProbeText> parse_probe(std::string_view word) {
     const auto text = trimmed(word);
     const auto open = text.find('(');
     if (open == std::string_view::npos && !text.empty() && text.find_first_of(") \t") == std::string_view::npos)
-        return Asked{false, text, ""};
-    const bool formed = open == 1 && text.ends_with(')') && (lower(text[0]) == 'v' || lower(text[0]) == 'i');
-    Asked out;
-    if (formed) {
+        return ProbeText{false, text, ""};
+    const bool is_call = open == 1 && text.ends_with(')') && (lower(text[0]) == 'v' || lower(text[0]) == 'i');
+    ProbeText out;
+    if (is_call) {
         const auto inside = text.substr(2, text.size() - 3);
         const auto comma = inside.find(',');
         out = {lower(text[0]) == 'i', trimmed(inside.substr(0, comma)), comma == inside.npos ? "" : trimmed(inside.substr(comma + 1))};
     }
-    if (out.first.empty() || (out.current && !out.second.empty()) || out.first.find_first_of("() \t") != std::string_view::npos)
+    if (out.first.empty() || (out.is_current && !out.second.empty()) || out.first.find_first_of("() \t") != std::string_view::npos)
         return bad_usage(fmt::format("--trace '{}': write a node, v(NODE), v(NODE,NODE), i(SOURCE) or i(DEVICE)", word));
     return out;
 }
 
-Error several(std::string_view word, const Circuit& c, std::span<const std::string_view> names, const std::vector<std::size_t>& found) {
+Error ambiguous_probe(std::string_view word, const Circuit& c, std::span<const std::string_view> names,
+                      const std::vector<std::size_t>& found) {
     std::vector<std::string_view> some;
     for (const auto k : found) some.push_back(names[k]);
-    return bad_input(fmt::format("--trace {}: of {} that may be {}; write more of its path", word, c.file, some_of(some)));
+    return bad_input(fmt::format("--trace {}: ambiguous in {}: {}; write more of its path", word, c.file, some_of(some)));
 }
 
 std::vector<std::string_view> nodes_of(const Circuit& c) { return {c.nodes.begin() + 1, c.nodes.end()}; }
@@ -46,23 +47,23 @@ std::vector<std::string_view> elements_of(const Circuit& c) {
     return names;
 }
 
-Result<std::optional<std::string>> node(const Circuit& c, std::string_view word, std::string_view name) {
+Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_view word, std::string_view name) {
     if (name == "0" || same_letters(name, "gnd")) return std::optional<std::string>("0");
     const auto names = nodes_of(c);
     const auto found = meant(names, name, Last::node);
-    if (found.size() > 1) return several(word, c, names, found);
+    if (found.size() > 1) return ambiguous_probe(word, c, names, found);
     return found.empty() ? std::optional<std::string>() : std::string(names[found[0]]);
 }
 
-Result<std::optional<std::string>> current(const Circuit& c, std::string_view word, std::string_view name) {
+Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string_view word, std::string_view name) {
     const auto names = elements_of(c);
     const auto found = meant(names, name, Last::element);
-    if (found.size() > 1) return several(word, c, names, found);
+    if (found.size() > 1) return ambiguous_probe(word, c, names, found);
     if (found.empty()) return std::optional<std::string>();
     const auto& e = c.elements[found[0]];
     if (!has_branch(e) && !has_own_current(e))
-        return bad_input(fmt::format("--trace {}: {} is {}; told are the currents of M, D, R and of voltage sources", word, e.name,
-                                     device_of(e.letter)->sentence));
+        return bad_input(
+            fmt::format("--trace {}: the current of {} cannot be recorded; only M, D, R and voltage sources have one", word, e.name));
     return std::optional(fmt::format("i({})", e.name));
 }
 
@@ -82,26 +83,27 @@ std::vector<std::string> trace_words(std::string_view text) {
 }
 
 Result<std::optional<std::string>> traced(const Circuit& c, std::string_view word) {
-    const auto asked = read(word);
-    if (!asked) return asked.error();
-    if (asked->current) return current(c, word, asked->first);
-    const auto first = node(c, word, asked->first);
-    if (!first || !*first || asked->second.empty())
+    const auto probe = parse_probe(word);
+    if (!probe) return probe.error();
+    if (probe->is_current) return resolve_current(c, word, probe->first);
+    const auto first = resolve_node(c, word, probe->first);
+    if (!first || !*first || probe->second.empty())
         return !first || !*first ? first : Result<std::optional<std::string>>(fmt::format("v({})", **first));
-    const auto second = node(c, word, asked->second);
+    const auto second = resolve_node(c, word, probe->second);
     if (!second || !*second) return second;
     return std::optional(fmt::format("v({},{})", **first, **second));
 }
 
 std::string meant_trace(const Circuit& c, std::string_view word) {
-    const auto asked = read(word);
-    if (!asked) return "";
-    const auto kind = asked->current ? Last::element : Last::node;
-    if (!asked->current && meant(elements_of(c), asked->first, Last::element).size() == 1)
-        return fmt::format("; a device's current is i({})", asked->first);
+    const auto probe = parse_probe(word);
+    if (!probe) return "";
+    const auto kind = probe->is_current ? Last::element : Last::node;
+    if (!probe->is_current && meant(elements_of(c), probe->first, Last::element).size() == 1)
+        return fmt::format("; a device's current is i({})", probe->first);
     std::vector<std::string> known;
-    for (const auto name : asked->current ? elements_of(c) : nodes_of(c)) known.push_back(short_name(name, pieces_in(asked->first), kind));
-    return did_you_mean(lower(asked->first), std::vector<std::string_view>(known.begin(), known.end()));
+    for (const auto name : probe->is_current ? elements_of(c) : nodes_of(c))
+        known.push_back(short_name(name, pieces_in(probe->first), kind));
+    return did_you_mean(lower(probe->first), std::vector<std::string_view>(known.begin(), known.end()));
 }
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// What people want to see of a circuit, as .save has it.
+// Resolves the probes that a user names in a circuit to the names that .save uses.
 
 #include <optional>
 
@@ -7,14 +7,15 @@
 
 namespace corpuscle::circuit {
 
-/// "vf,v(a,b),i(N3B)" at the commas outside of parentheses.
+/// Splits "vf,v(a,b),i(N3B)" at the commas outside parentheses.
 std::vector<std::string> trace_words(std::string_view text);
 
-/// "vf", "v(vf)", "v(a,b)", "i(vdd)", "i(N3B)" as .save has it: "i(xsummer.mn3b)". Names as in path_names.hpp. Nothing: the circuit has no
-/// such node or device. Refused: what may be more than one of them, and what has no current to be told.
+/// The name in .save of "vf", "v(vf)", "v(a,b)", "i(vdd)" or "i(N3B)", such as "i(xsummer.mn3b)". Names match as in path_names.hpp.
+/// Returns nothing if the circuit has no such node or device. An ambiguous name and a device whose current cannot be recorded are
+/// errors.
 Result<std::optional<std::string>> traced(const Circuit&, std::string_view word);
 
-/// What it may have meant: "; did you mean 'v(hpb)'?"
+/// A suggestion for an unknown name: "; did you mean 'v(hpb)'?"
 std::string meant_trace(const Circuit&, std::string_view word);
 
 }  // namespace corpuscle::circuit

@@ -11,36 +11,36 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double most_variants = 1e6;
+constexpr double max_variants = 1e6;
 
 Error too_many(const Command& c, double count) {
-    return bad_input(fmt::format(".{}: {:g} values; at most {:g}", c.name, count, most_variants), c.place);
+    return bad_input(fmt::format(".{}: {:g} values exceed the limit of {:g}", c.name, count, max_variants), c.place);
 }
 
-Result<std::vector<double>> evenly(const Command& c, std::size_t word) {
-    const auto from = number_of(c, word, "a value to begin with"), to = number_of(c, word + 1, "a value to end with"),
+Result<std::vector<double>> linear_values(const Command& c, std::size_t word) {
+    const auto from = number_of(c, word, "the first value"), to = number_of(c, word + 1, "the last value"),
                step = number_of(c, word + 2, "a step");
-    for (const auto* part : {&from, &to, &step})
-        if (!*part) return part->error();
+    for (const auto* number : {&from, &to, &step})
+        if (!*number) return number->error();
     const double count = std::floor((*to - *from) / *step + 1e-9);
     if (!(count >= 0)) return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", *step, *from, *to), c.place);
-    if (!(count < most_variants)) return too_many(c, count);
+    if (!(count < max_variants)) return too_many(c, count);
     std::vector<double> out;
     for (double k = 0; k <= count; ++k) out.push_back(*from + k * *step);
     return out;
 }
 
-Result<std::vector<double>> by_powers(const Command& c, std::size_t word, double base) {
-    const auto from = number_of(c, word, "a value to begin with"), to = number_of(c, word + 1, "a value to end with"),
-               points = number_of(c, word + 2, "a number of points");
-    for (const auto* part : {&from, &to, &points})
-        if (!*part) return part->error();
+Result<std::vector<double>> log_values(const Command& c, std::size_t word, double base) {
+    const auto from = number_of(c, word, "the first value"), to = number_of(c, word + 1, "the last value"),
+               points = number_of(c, word + 2, "the number of points");
+    for (const auto* number : {&from, &to, &points})
+        if (!*number) return number->error();
     if (!(*from > 0 && *to >= *from && *points >= 1))
-        return bad_input(
-            fmt::format(".step: {:g} points from {:g} to {:g}; both above 0, the second not below the first", *points, *from, *to),
-            c.place);
+        return bad_input(fmt::format(".step: {:g} points from {:g} to {:g}; POINTS must be at least 1, FROM above 0, and TO not below FROM",
+                                     *points, *from, *to),
+                         c.place);
     const double count = std::floor(std::log(*to / *from) / std::log(base) * *points + 1e-9);
-    if (!(count < most_variants)) return too_many(c, count);
+    if (!(count < max_variants)) return too_many(c, count);
     std::vector<double> out;
     for (double k = 0; k <= count; ++k) out.push_back(*from * std::pow(base, k / *points));
     return out;
@@ -50,7 +50,7 @@ Result<std::vector<double>> by_powers(const Command& c, std::size_t word, double
 
 Result<Chips> chips_of(const Command& c) {
     Chips out;
-    const auto count = number_of(c, 0, "a number of draws");
+    const auto count = number_of(c, 0, "the number of chips");
     if (!count) return count.error();
     out.count = *count;
     for (std::size_t k = 1; k < c.words.size(); ++k) {
@@ -84,20 +84,20 @@ std::optional<Draw> own_draw(const Circuit& c) {
 Result<Variants> Variants::of(const Netlist& netlist) {
     Variants out{};
     out.netlist_ = netlist;
-    auto plain = netlist.elaborate();
-    if (!plain) return plain.error();
-    out.plain_ = std::make_shared<const Circuit>(std::move(*plain));
+    auto nominal = netlist.elaborate();
+    if (!nominal) return nominal.error();
+    out.nominal_ = std::make_shared<const Circuit>(std::move(*nominal));
     double count = 1;
-    for (const auto& c : out.plain_->commands) {
+    for (const auto& c : out.nominal_->commands) {
         if (c.name == "step") {
             std::size_t at = 0;
             const auto word = [&] { return at < c.words.size() ? c.words[at] : std::string(); };
-            const bool powers = word() == "dec" || word() == "oct";
+            const bool is_log = word() == "dec" || word() == "oct";
             const double base = word() == "dec" ? 10 : 2;
-            at += powers;
+            at += is_log;
             at += word() == "param";
             Axis axis{word(), {}};
-            if (axis.name.empty()) return bad_input(".step: what is stepped is missing", c.place);
+            if (axis.name.empty()) return bad_input(".step: the name of the parameter is missing", c.place);
             ++at;
             if (word() == "list") {
                 for (++at; at < c.words.size(); ++at) {
@@ -107,19 +107,19 @@ Result<Variants> Variants::of(const Netlist& netlist) {
                 }
                 if (axis.values.empty()) return bad_input(".step: the list is empty", c.place);
             } else {
-                auto values = powers ? by_powers(c, at, base) : evenly(c, at);
+                auto values = is_log ? log_values(c, at, base) : linear_values(c, at);
                 if (!values) return values.error();
                 axis.values = std::move(*values);
             }
             count *= static_cast<double>(axis.values.size());
-            if (count > most_variants) return too_many(c, count);
+            if (count > max_variants) return too_many(c, count);
             out.axes_.push_back(std::move(axis));
         }
         if (c.name == "mc") {
             const auto chips = chips_of(c);
             if (!chips) return chips.error();
             count *= chips->count;
-            if (!(chips->count >= 1 && count <= most_variants)) return too_many(c, count);
+            if (!(chips->count >= 1 && count <= max_variants)) return too_many(c, count);
             out.chips_ = *chips;
             out.chips_.count = std::floor(chips->count);
         }
@@ -133,10 +133,10 @@ std::size_t Variants::count() const {
     return count;
 }
 
-Result<void> Variants::step(std::size_t number) {
+Result<void> Variants::elaborate_step(std::size_t number) {
     if (last_ && last_->number == number) return {};
     if (axes_.empty()) {
-        last_ = {number, "", plain_};
+        last_ = {number, "", nominal_};
         return {};
     }
     Values parameters;
@@ -158,7 +158,7 @@ Result<void> Variants::step(std::size_t number) {
 
 Result<Variant> Variants::at(std::size_t number) {
     const std::size_t draws = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % draws;
-    if (auto ok = step(number / draws); !ok) return ok.error();
+    if (auto ok = elaborate_step(number / draws); !ok) return ok.error();
     Variant out{last_->label, last_->circuit, {}};
     out.draw = own_draw(*out.circuit);
     if (!this->draws()) return out;

@@ -1,5 +1,5 @@
 #pragma once
-// What .step and .mc make of one netlist: the same circuit with other values, one after another.
+// The variants of a netlist by .step and .mc: the same circuit with other values.
 
 #include <memory>
 #include <optional>
@@ -9,30 +9,32 @@
 namespace corpuscle::circuit {
 
 struct Variant {
-    std::string label;                       ///< "r=1000", "temp=85", "mc=17"; several with blanks between; "" if there is only one
-    std::shared_ptr<const Circuit> circuit;  ///< the same as the last one's, if only the draw differs
+    std::string label;                       ///< "r=1000", "temp=85", "mc=17", separated by blanks; "" if there is only one variant
+    std::shared_ptr<const Circuit> circuit;  ///< shared with the previous variant if only the chip differs
     std::optional<Draw> draw;
 };
 
-/// What a .mc line says of the chips that it asks for.
+/// The chips that a .mc line requests.
 struct Chips {
     double count = 0;
     std::uint64_t seed = 0;
     bool process = true, mismatch = true;
-    std::uint64_t first = 0;  ///< the number of the first
+    std::uint64_t first = 0;  ///< number of the first chip
 
-    Draw draw(std::uint64_t chip) const;  ///< 0: of the first, and so on
+    Draw draw(std::uint64_t chip) const;  ///< `chip` counts from `first`
 };
 Result<Chips> chips_of(const Command&);
-/// The chip that a circuit is, if its mismatch is set.
+/// The sample of the circuit's chip; nothing if the circuit has no mismatch seed.
 std::optional<Draw> own_draw(const Circuit&);
 
-/// .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS; NAME may be temp (without
-/// param). Several .step lines: every value of the first with every of the second. .mc COUNT [seed=S] [process=0] [mismatch=0]: each
-/// transistor draws its own delvto and mulu0, each chip its process, after the card's deviations (avt, ais, svt0, sis).
+/// All combinations of the values of .step with the chips of .mc:
+///     .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS
+///     .mc COUNT [seed=S] [process=0] [mismatch=0]
+/// NAME may be temp, without param. Several .step lines are combined in every way. For each chip, a process shift is sampled, and each
+/// transistor samples its own delvto and mulu0. The deviations are those of the model card (avt, ais, svt0, sis).
 class Variants {
 public:
-    /// What one .step line gives.
+    /// The values of one .step line.
     struct Axis {
         std::string name;
         std::vector<double> values;
@@ -42,23 +44,23 @@ private:
     Netlist netlist_;
     std::vector<Axis> axes_;
     Chips chips_;
-    std::shared_ptr<const Circuit> plain_;
-    struct Stepped {
+    std::shared_ptr<const Circuit> nominal_;
+    struct StepResult {
         std::size_t number;
         std::string label;
         std::shared_ptr<const Circuit> circuit;
     };
-    std::optional<Stepped> last_;
+    std::optional<StepResult> last_;
 
-    Result<void> step(std::size_t number);
+    Result<void> elaborate_step(std::size_t number);
 
 public:
     static Result<Variants> of(const Netlist&);
     std::size_t count() const;
     const std::vector<Axis>& axes() const { return axes_; }
-    const Chips& chips() const { return chips_; }  ///< count 0: no .mc
+    const Chips& chips() const { return chips_; }  ///< count is 0 if there is no .mc
     bool draws() const { return chips_.count > 0; }
-    /// Quick where numbers follow each other: draws run fastest.
+    /// The variant of this number; the chip varies fastest. Consecutive numbers are cheap, since they share the circuit.
     Result<Variant> at(std::size_t number);
 };
 

@@ -11,24 +11,24 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double longest_gate = 1e-3;  // m
+constexpr double max_gate_size = 1e-3;  // m
 
-/// The elements of which something holds, as one warning at the first.
-template <class Holds, class Sentence>
-void warn(std::vector<Error>& out, const Circuit& c, Holds&& holds, Sentence&& sentence) {
+/// One warning for all elements for which holds() is true, located at the first of them.
+template <class Holds, class Message>
+void warn(std::vector<Error>& out, const Circuit& c, Holds&& holds, Message&& message) {
     const Element* first = nullptr;
     std::size_t count = 0;
     for (const auto& e : c.elements)
         if (holds(e) && ++count == 1) first = &e;
     if (first == nullptr) return;
     const auto others = count == 1 ? std::string() : fmt::format(" (and {} other element{})", count - 1, count == 2 ? "" : "s");
-    out.push_back(bad_input(fmt::format("{}: {}{}", first->name, sentence(*first), others), first->place));
+    out.push_back(bad_input(fmt::format("{}: {}{}", first->name, message(*first), others), first->place));
 }
 
-bool says(const Element& e, std::string_view name) { return e.values.contains(name); }
+bool has_value(const Element& e, std::string_view name) { return e.values.contains(name); }
 
-void sizes(std::vector<Error>& out, const Circuit& c) {
-    const auto too_long = [](const Element& e, std::string_view name) { return value_or(e.values, name, 0) > longest_gate; };
+void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
+    const auto too_long = [](const Element& e, std::string_view name) { return value_or(e.values, name, 0) > max_gate_size; };
     warn(
         out, c, [&](const Element& e) { return e.letter == 'm' && (too_long(e, "w") || too_long(e, "l")); },
         [&](const Element& e) {
@@ -39,10 +39,11 @@ void sizes(std::vector<Error>& out, const Circuit& c) {
         });
     for (const std::string_view name : {"w", "l"})
         warn(
-            out, c, [&](const Element& e) { return e.letter == 'm' && !says(e, name); },
+            out, c, [&](const Element& e) { return e.letter == 'm' && !has_value(e, name); },
             [&](const Element&) {
-                const UicmInstance usual;
-                return fmt::format("{}= is not given; it is {}", name, format_quantity(name == "w" ? usual.W : usual.L, "m"));
+                const UicmInstance defaults;
+                return fmt::format("{}= is not given; the default is {}", name,
+                                   format_quantity(name == "w" ? defaults.W : defaults.L, "m"));
             });
 }
 
@@ -50,35 +51,36 @@ bool has_command(const Circuit& c, std::string_view command) {
     return std::any_of(c.commands.begin(), c.commands.end(), [&](const Command& one) { return one.name == command; });
 }
 
-void initial_conditions(std::vector<Error>& out, const Circuit& c) {
+void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
     const bool without_uic = std::any_of(c.commands.begin(), c.commands.end(), [](const Command& one) {
         return one.name == "tran" && (one.words.empty() || one.words.back() != "uic");
     });
     if (without_uic)
         warn(
-            out, c, [](const Element& e) { return says(e, "ic") && e.letter != 'd'; },
+            out, c, [](const Element& e) { return has_value(e, "ic") && e.letter != 'd'; },
             [](const Element&) {
-                return "ic= counts with 'uic' at the end of the .tran line alone; .ic v(node)=... holds a node without it";
+                return "ic= has an effect only with 'uic' at the end of the .tran line; without it, .ic v(node)=... sets the initial "
+                       "voltage of a node";
             });
     warn(
-        out, c, [](const Element& e) { return says(e, "ic") && e.letter == 'd'; },
-        [](const Element&) { return "ic= of a diode is not used; a capacitor across it may have one, or .ic v(node)=... with uic"; });
+        out, c, [](const Element& e) { return has_value(e, "ic") && e.letter == 'd'; },
+        [](const Element&) { return "ic= of a diode has no effect; use ic= of a parallel capacitor, or .ic v(node)=... with uic"; });
     warn(
-        out, c, [](const Element& e) { return says(e, "off"); },
-        [](const Element&) { return "off is not used; .nodeset v(node)=... says where a search begins"; });
+        out, c, [](const Element& e) { return has_value(e, "off"); },
+        [](const Element&) { return "off has no effect; .nodeset v(node)=... sets where the search for the operating point begins"; });
 }
 
-void drives(std::vector<Error>& out, const Circuit& c) {
+void warn_about_missing_ac(std::vector<Error>& out, const Circuit& c) {
     if (std::any_of(c.elements.begin(), c.elements.end(), [](const Element& e) { return e.waveform.ac_magnitude != 0; })) return;
     for (const auto& one : c.commands)
         if (one.name == "ac") {
             out.push_back(
-                bad_input(".ac: no source has an AC value, so every response is 0; one is written 'v1 in 0 dc 0 ac 1'", one.place));
+                bad_input(".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'", one.place));
             return;
         }
 }
 
-void pulses(std::vector<Error>& out, const Circuit& c) {
+void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
     enum { rise = 3, fall = 4, width = 5, period = 6 };
     const auto length = [](const Element& e) { return e.waveform.numbers[rise] + e.waveform.numbers[width] + e.waveform.numbers[fall]; };
     warn(
@@ -89,18 +91,18 @@ void pulses(std::vector<Error>& out, const Circuit& c) {
                    length(e) > w.numbers[period] * (1 + 1e-9);
         },
         [&](const Element& e) {
-            return fmt::format("its pulse (rise, width and fall together {}) is longer than its period, {}",
-                               format_quantity(length(e), "s"), format_quantity(e.waveform.numbers[period], "s"));
+            return fmt::format("the pulse (rise, width and fall take {}) is longer than its period of {}", format_quantity(length(e), "s"),
+                               format_quantity(e.waveform.numbers[period], "s"));
         });
 }
 
-void transient_times_of(std::vector<Error>& out, const Circuit& c) {
+void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
     for (const auto& one : c.commands) {
         if (one.name != "tran" || one.words.size() < 2) continue;
         const auto step = whole_number(one.words[0]), stop = whole_number(one.words[1]);
         if (step && stop && stop->value > 0 && step->value > stop->value)
-            out.push_back(bad_input(fmt::format(".tran: STEP {} is longer than STOP {}; it is .tran STEP STOP", one.words[0], one.words[1]),
-                                    one.place));
+            out.push_back(bad_input(
+                fmt::format(".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP", one.words[0], one.words[1]), one.place));
     }
 }
 
@@ -108,8 +110,8 @@ void transient_times_of(std::vector<Error>& out, const Circuit& c) {
 
 std::vector<Error> warnings_of(const Circuit& c) {
     std::vector<Error> out;
-    sizes(out, c), drives(out, c), pulses(out, c), transient_times_of(out, c);
-    if (has_command(c, "tran")) initial_conditions(out, c);
+    warn_about_sizes(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c), warn_about_tran_times(out, c);
+    if (has_command(c, "tran")) warn_about_initial_conditions(out, c);
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a netlist may say by mistake although it can be solved.
+// Warnings about likely mistakes in a netlist that can be solved.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace corpuscle::circuit {
 
-/// Sizes in metres that look like micrometres, sizes that are not given, initial conditions that are not used, .ac without a source that
-/// drives it, pulses longer than their period. One warning for each kind, at the first place.
+/// Warns about sizes in metres that look like micrometres, missing sizes, unused initial conditions, .ac without an AC source, and
+/// pulses longer than their period. There is one warning of each kind, located at the first element concerned.
 std::vector<Error> warnings_of(const Circuit&);
 
 }  // namespace corpuscle::circuit

@@ -5,8 +5,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-Result<Within> read(const System& system, const Command& c) {
-    constexpr std::string_view shape = ".within v(NODE) LOW HIGH [\"what it means to be outside\"]";
+Result<Within> parse_range(const System& system, const Command& c) {
+    constexpr std::string_view syntax = ".within v(NODE) LOW HIGH [\"MESSAGE\"]";
     const auto of = wanted_of(system, c, 0);
     if (!of) return of.error();
     const auto low = number_of(c, 1, "the lowest value"), high = number_of(c, 2, "the highest value");
@@ -17,10 +17,10 @@ Result<Within> read(const System& system, const Command& c) {
     if (c.words.size() > 3) {
         const std::string_view word = c.words[3];
         if (word.size() < 3 || word.front() != '"' || word.back() != '"')
-            return error_at(c, 3, fmt::format(".within: '{}' is no sentence in double quotes: {}", word, shape));
+            return error_at(c, 3, fmt::format(".within: '{}' must be a message in double quotes: {}", word, syntax));
         out.sentence = word.substr(1, word.size() - 2);
     }
-    if (c.words.size() > 4) return error_at(c, 4, fmt::format(".within: '{}' is too much: it is {}", c.words[4], shape));
+    if (c.words.size() > 4) return error_at(c, 4, fmt::format(".within: unexpected '{}'; expected {}", c.words[4], syntax));
     return out;
 }
 
@@ -30,7 +30,7 @@ Result<std::vector<Within>> within_of(const System& system) {
     std::vector<Within> out;
     for (const auto& c : system.circuit().commands) {
         if (c.name != "within") continue;
-        auto one = read(system, c);
+        auto one = parse_range(system, c);
         if (!one) return one.error();
         out.push_back(std::move(*one));
     }

@@ -1,17 +1,17 @@
 #pragma once
-// .within: where a circuit works as it was designed.
+// .within: the operating range of a circuit.
 
 #include "circuit/saved.hpp"
 #include "signal/afferent.hpp"
 
 namespace corpuscle::circuit {
 
-/// .within v(NODE[,NODE]) LOW HIGH ["what it means to be outside"]: a voltage (or i(V), a current) that stays between two values as long as
-/// the circuit does what it was designed for. What leaves is told; nothing is stopped.
+/// .within v(NODE[,NODE]) LOW HIGH ["MESSAGE"]: the range of a voltage, or of a current i(V), in which the circuit works as designed.
+/// Violations are reported; the simulation continues.
 struct Within {
     Saved what;
     double low, high;
-    std::string sentence;  ///< "", if the netlist says nothing
+    std::string sentence;  ///< explains a violation; may be ""
     Place place;
 
     Range range() const { return {what.name, what.is_voltage() ? "V" : "A", low, high, sentence}; }

@@ -205,15 +205,15 @@ TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
     const auto says = [&](const std::string& text, const std::string& what) {
         EXPECT_NE(afferent_refusal(text).find(what), std::string::npos) << afferent_refusal(text);
     };
-    says("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force, such as 'iin 0 fin force 60n'");
-    says(t, file + ": nothing says what a spike is: '.spike v(NODE) LEVEL [rise|fall]'");
+    says("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force; add one, such as 'iin 0 fin force 60n'");
+    says(t, file + ": no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
     says(t + ".spike v(b) 1\n", file + ":4:8: .spike: there is no v(b); did you mean 'v(a)'?");
-    says(t + ".spike v(a) 1\n.spike v(a) 2\n", file + ":5:1: .spike: there is one already, in line 4");
+    says(t + ".spike v(a) 1\n.spike v(a) 2\n", file + ":5:1: .spike: only one is allowed; the first is in line 4");
     says(t + ".spike v(a)\n", file + ":4:1: .spike: v(a) needs a level to cross");
     says(t + ".spike\n", file + ":4:1: .spike: an output is missing");
     says(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is no number; the level to cross was expected");
     says(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
-    says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: 'now' is too much");
+    says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: unexpected 'now'");
     says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n",
          file + ":2:9: iin: force has 2 numbers; wanted is force, or force and a scale");
     EXPECT_EQ(afferent_refusal(t + ".spike v(a) 1\n"), "");
@@ -278,7 +278,7 @@ TEST(Run, TellsSpikesUnderAForceOfTheNetlistsOwn) {
     EXPECT_NE(refused(".force prees").find(":6:8: .force: "), std::string::npos) << refused(".force prees");
     EXPECT_NE(refused(".force press f_mox=1").find("did you mean 'F_max'?"), std::string::npos) << refused(".force press f_mox=1");
     EXPECT_NE(refused(".force press f_max").find(":6:14: .force: 'f_max' must be PARAMETER=VALUE"), std::string::npos);
-    EXPECT_NE(refused(".force press\n.force step").find("there is one already"), std::string::npos);
+    EXPECT_NE(refused(".force press\n.force step").find("only one is allowed"), std::string::npos);
     EXPECT_NE(refused(".force").find("a stimulus is missing"), std::string::npos) << refused(".force");
 }
 

@@ -91,7 +91,7 @@ TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
          "--trace mod: no netlist that takes part has such a node or device; did you mean 'mid'?");
     says("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
     says("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' takes part");
-    says("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is no seed");
+    says("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
     says("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
     EXPECT_TRUE(folder.names().size() == 2) << "nothing is left behind";
 }

@@ -64,8 +64,8 @@ TEST(Within, WhatIsMissingOrWrongIsToldByItsPlace) {
     EXPECT_NE(refusal(".within v(g) 0 1").find("v(g)"), std::string::npos);
     EXPECT_EQ(refusal(".within v(f) 1 0"), ".within: 1 to 0: the first must be below the second");
     EXPECT_EQ(refusal(".within v(f) 1"), ".within: the highest value is missing");
-    EXPECT_NE(refusal(".within v(f) 0 1 loud").find("'loud' is no sentence in double quotes"), std::string::npos);
-    EXPECT_NE(refusal(".within v(f) 0 1 \"a\" \"b\"").find("is too much"), std::string::npos);
+    EXPECT_NE(refusal(".within v(f) 0 1 loud").find("'loud' must be a message in double quotes"), std::string::npos);
+    EXPECT_NE(refusal(".within v(f) 0 1 \"a\" \"b\"").find("unexpected '\"b\"'"), std::string::npos);
 }
 
 }  // namespace
