@@ -69,16 +69,16 @@ class CircuitAfferent final : public Afferent {
         {
             const std::lock_guard lock(guard_);
             if (!idle_.empty()) {
-                auto rig = std::move(idle_.back());
+                auto transient = std::move(idle_.back());
                 idle_.pop_back();
-                return rig;
+                return transient;
             }
         }
         return Rig::make(*design_, T_, chip_);
     }
-    void give_back(std::unique_ptr<Rig> rig) const {
+    void give_back(std::unique_ptr<Rig> transient) const {
         const std::lock_guard lock(guard_);
-        idle_.push_back(std::move(rig));
+        idle_.push_back(std::move(transient));
     }
 
     Result<void> respond_with(Rig&, std::span<const double> force, State&, Answer&) const;
@@ -99,60 +99,60 @@ public:
     State start(Turn) const override { return {format_, 0, {}}; }
     std::int64_t delay() const override { return delay_; }
 
-    Result<void> respond(std::span<const double> force, State& state, Answer& answer) const override {
+    Result<void> respond(std::span<const double> force, State& state, Answer& response) const override {
         if (auto ok = check_block(design_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
-        for (double* shown : answer.probes) std::fill_n(shown, force.size(), std::numeric_limits<double>::quiet_NaN());
+        for (double* shown : response.probes) std::fill_n(shown, force.size(), std::numeric_limits<double>::quiet_NaN());
         if (force.empty()) return {};
-        auto rig = borrow();
-        if (!rig) return rig.error();
-        auto done = respond_with(**rig, force, state, answer);
-        give_back(std::move(*rig));
+        auto transient = borrow();
+        if (!transient) return transient.error();
+        auto done = respond_with(**transient, force, state, response);
+        give_back(std::move(*transient));
         return done;
     }
 };
 
-Result<void> CircuitAfferent::respond_with(Rig& rig, std::span<const double> force, State& state, Answer& answer) const {
+Result<void> CircuitAfferent::respond_with(Rig& transient, std::span<const double> force, State& state, Answer& response) const {
     if (state.step == 0) {
-        if (auto ok = rig.begin(force); !ok) return ok;
+        if (auto ok = transient.begin(force); !ok) return ok;
     } else {
-        if (!rig.restore(state.values, state.step))
+        if (!transient.restore(state.values, state.step))
             return bad_input(
                 fmt::format("{}: a saved state is damaged: its values are not possible for this netlist", design_->circuit->file));
-        rig.hear(force);
+        transient.hear(force);
     }
-    const auto before = rig.work();
-    rig.spent();  // discard the energy of earlier calls
+    const auto before = transient.work();
+    transient.spent();  // discard the energy of earlier calls
     const auto from = state.step - delay_;
     state.step += static_cast<std::int64_t>(force.size());
-    auto done = simulate_samples(rig, from, state.step - delay_, answer);
-    const auto& work = rig.work();
-    answer.spent += rig.spent();
-    answer.steps += work.steps - before.steps, answer.rejected += work.rejected - before.rejected;
-    answer.iterations += work.iterations - before.iterations;
+    auto done = simulate_samples(transient, from, state.step - delay_, response);
+    const auto& work = transient.work();
+    response.spent += transient.spent();
+    response.steps += work.steps - before.steps, response.rejected += work.rejected - before.rejected;
+    response.iterations += work.iterations - before.iterations;
     state.values.clear();
-    rig.save(state.values);
+    transient.save(state.values);
     return done;
 }
 
 /// Simulates until samples from ... to - 1 are complete.
-Result<void> CircuitAfferent::simulate_samples(Rig& rig, std::int64_t from, std::int64_t to, Answer& answer) const {
+Result<void> CircuitAfferent::simulate_samples(Rig& transient, std::int64_t from, std::int64_t to, Answer& response) const {
     const auto report_spike = [&] {
-        auto& spike = rig.coming();
+        auto& spike = transient.coming();
         if (!spike || spike->step >= to) return;
-        answer.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, answer.unit});
+        response.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, response.unit});
         spike.reset();
     };
     report_spike();
     for (std::int64_t sample = from;;) {
-        for (; sample < to && rig.at(sample); ++sample) {
-            for (std::size_t p = 0; p < answer.probes.size(); ++p)
-                answer.probes[p][static_cast<std::size_t>(sample - from)] = rig.shown(design_->shown[p], sample);
-            for (std::size_t k = 0; sample >= 0 && k < answer.outside.size(); ++k)
-                if (auto& o = answer.outside[k]; !design_->kept[k].holds(rig.shown(design_->kept[k].what, sample)))
+        for (; sample < to && transient.at(sample); ++sample) {
+            for (std::size_t p = 0; p < response.probes.size(); ++p)
+                response.probes[p][static_cast<std::size_t>(sample - from)] = transient.shown(design_->shown[p], sample);
+            for (std::size_t k = 0; sample >= 0 && k < response.outside.size(); ++k)
+                if (auto& o = response.outside[k]; !design_->kept[k].holds(transient.shown(design_->kept[k].what, sample)))
                     o = {o.samples + 1, o.first < 0 ? sample : o.first};
         }
         if (sample == to) return {};
-        if (auto ok = rig.step(); !ok) return ok;
+        if (auto ok = transient.step(); !ok) return ok;
         report_spike();
     }
 }
@@ -170,18 +170,18 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(const Netlist& ne
 }
 
 Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<const Circuit> circuit) {
-    const auto bench = TestBench::make(circuit);
-    if (!bench) return bench.error();
+    const auto context = TestBench::make(circuit);
+    if (!context) return context.error();
     const Place place{circuit->file};
     const auto plan = transient_plan(*circuit);
     if (!plan) return plan.error();
-    const auto output = spike_output((*bench)->system);
+    const auto output = spike_output((*context)->system);
     if (!output) return output.error();
-    auto shown = saved_of((*bench)->system);
+    auto shown = saved_of((*context)->system);
     if (!shown) return shown.error();
-    auto kept = within_of((*bench)->system);
+    auto kept = within_of((*context)->system);
     if (!kept) return kept.error();
-    if (!(*bench)->system.hear(nullptr))
+    if (!(*context)->system.hear(nullptr))
         return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", place);
     if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", place);
     auto design = std::make_shared<CircuitDesign>();

@@ -58,10 +58,10 @@ Result<Formula> par_formula(std::string_view name, const Place& location) {
 }
 
 std::optional<CurveView> CurveView::find_expression(const Plot& plot, std::string_view name) {
-    auto formula = par_formula(name, {});
-    if (!formula || plot.is_complex) return {};
+    auto expression = par_formula(name, {});
+    if (!expression || plot.is_complex) return {};
     CurveView out;
-    for (const auto& input : formula->inputs()) {
+    for (const auto& input : expression->inputs()) {
         const auto found = input.kind == FormulaInput::Kind::time ? of(plot, "time")
                            : input.kind == FormulaInput::Kind::voltage
                                ? of(plot, "v(" + input.name + "," + (input.minus.empty() ? "0" : input.minus) + ")")
@@ -70,7 +70,7 @@ std::optional<CurveView> CurveView::find_expression(const Plot& plot, std::strin
         if (!found) return {};
         out.inputs_.push_back(*found);
     }
-    out.formula_ = std::make_shared<const Formula>(std::move(*formula));
+    out.formula_ = std::make_shared<const Formula>(std::move(*expression));
     return out;
 }
 

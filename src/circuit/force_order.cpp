@@ -47,17 +47,17 @@ Result<ForceSpec> parse_force_spec(const Command& c) {
 }
 
 Result<Trace> read_waveform_of(Source& source, const Command& c) {
-    Trace trace(source.clock().T());
+    Trace waveform(source.clock().T());
     double count = 0, last = 0;
     for (Frames block(source.channels().size(), 4096);;) {
         if (auto ok = source.read(block); !ok) return ok.error();
         if (block.count == 0) {
-            trace.append(std::vector<double>(Trace::lag + 1, last));  // the last force is held
-            return trace;
+            waveform.append(std::vector<double>(Trace::lag + 1, last));  // the last force is held
+            return waveform;
         }
         if ((count += static_cast<double>(block.count)) > max_samples)
             return error_in(c, 0, fmt::format("more than {:g} samples; lower the rate or shorten the stimulus", max_samples));
-        trace.append(std::span(block.force[0]).first(block.count));
+        waveform.append(std::span(block.force[0]).first(block.count));
         last = block.force[0][block.count - 1];
     }
 }
@@ -101,9 +101,9 @@ Result<std::optional<Trace>> force_order(const Circuit& circuit) {
     if (!*line) return std::optional<Trace>();
     auto source = source_of(**line);
     if (!source) return source.error();
-    auto trace = read_waveform_of(**source, **line);
-    if (!trace) return trace.error();
-    return std::optional<Trace>(std::move(*trace));
+    auto waveform = read_waveform_of(**source, **line);
+    if (!waveform) return waveform.error();
+    return std::optional<Trace>(std::move(*waveform));
 }
 
 }  // namespace corpuscle::circuit

@@ -9,12 +9,12 @@
 namespace corpuscle::circuit {
 namespace {
 
-bool is_formula(const Command& c) { return c.words.size() > 2 && c.words[2].starts_with("param="); }
+bool is_expression(const Command& c) { return c.words.size() > 2 && c.words[2].starts_with("param="); }
 
 using KnownNumbers = std::vector<std::pair<std::string, double>>;
 
 /// Parses param='EXPRESSION', which may use the results of earlier measurements.
-Result<Formula> formula_of(const Command& c, const KnownNumbers& numbers) {
+Result<Formula> parse_expression(const Command& c, const KnownNumbers& numbers) {
     FormulaScope scope;
     scope.parameter = [&](std::string_view name) -> std::optional<double> {
         for (const auto& [known, value] : numbers)
@@ -42,7 +42,7 @@ Result<void> Measures::begin(std::string_view word, const Plot& head) {
     active_.clear();
     for (auto& entry : entries_) {
         const auto& c = *entry.command;
-        if (c.words.size() < 3 || c.words[0] != word || is_formula(c) || entry.gauge) continue;
+        if (c.words.size() < 3 || c.words[0] != word || is_expression(c) || entry.gauge) continue;
         auto made = gauge_of(c, head);
         if (!made) return made.error();
         entry.gauge = std::move(*made);
@@ -64,12 +64,12 @@ Result<void> Measures::see(std::string_view word, const Plot& plot) {
 Result<void> Measures::check(const std::vector<std::string>& numbers) const {
     KnownNumbers known;
     for (const auto& name : numbers) known.emplace_back(name, 1.0);
-    for (const auto& [command, gauge] : entries_) {
+    for (const auto& [command, measurement] : entries_) {
         const auto& c = *command;
         if (c.words.size() < 3) return incomplete_measure(c);
-        if (is_formula(c)) {
-            if (const auto formula = formula_of(c, known); !formula) return formula.error();
-        } else if (!gauge) {
+        if (is_expression(c)) {
+            if (const auto expression = parse_expression(c, known); !expression) return expression.error();
+        } else if (!measurement) {
             return without_analysis(c);
         }
         known.emplace_back(c.words[1], 1.0);
@@ -78,17 +78,17 @@ Result<void> Measures::check(const std::vector<std::string>& numbers) const {
 }
 
 Result<void> Measures::finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const {
-    for (const auto& [command, gauge] : entries_) {
+    for (const auto& [command, measurement] : entries_) {
         const auto& c = *command;
         if (c.words.size() < 3) return incomplete_measure(c);
-        if (is_formula(c)) {
-            const auto formula = formula_of(c, numbers);
-            if (!formula) return formula.error();
-            numbers.emplace_back(c.words[1], formula->value());
+        if (is_expression(c)) {
+            const auto expression = parse_expression(c, numbers);
+            if (!expression) return expression.error();
+            numbers.emplace_back(c.words[1], expression->value());
             continue;
         }
-        if (!gauge) return without_analysis(c);
-        const double value = gauge->value();
+        if (!measurement) return without_analysis(c);
+        const double value = measurement->value();
         if (std::isnan(value)) warnings.push_back(bad_input(fmt::format(".meas {}: nothing was found", c.words[1]), c.place));
         numbers.emplace_back(c.words[1], value);
     }

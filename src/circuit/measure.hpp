@@ -26,7 +26,7 @@ public:
     /// the numbers that the analyses may give.
     Result<void> check(const std::vector<std::string>& numbers) const;
     void point(double x, const PlotRow& row) {
-        for (auto* gauge : active_) gauge->point(x, row);
+        for (auto* measurement : active_) measurement->point(x, row);
     }
     /// Measures a complete plot.
     Result<void> see(std::string_view word, const Plot&);

@@ -125,18 +125,18 @@ public:
 };
 
 /// Runs one analysis; measures, prints and passes on its plots.
-Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& c, const RunOrders& options, Measures& measures,
+Result<void> analyse(TestBench& context, const Analysis& analysis, const Command& c, const RunOrders& options, Measures& measures,
                      const OwnCurrents& currents, RunOutcome& out) {
     Analysed done{&c, {}, 0, {}, {}};
-    PointDispatcher dispatcher(*bench.circuit, options, out, measures, done, currents);
-    if (options.stop) bench.stop = [&](double progress) { return options.stop(c.name, progress); };
-    bench.points = &dispatcher;
-    auto found = analysis.run(bench, c);
-    bench.points = nullptr, bench.stop = {};
+    PointDispatcher dispatcher(*context.circuit, options, out, measures, done, currents);
+    if (options.stop) context.stop = [&](double progress) { return options.stop(c.name, progress); };
+    context.points = &dispatcher;
+    auto found = analysis.run(context, c);
+    context.points = nullptr, context.stop = {};
     if (!found) return found.error();
     done.findings = std::move(*found);
     for (const auto& number : done.findings.numbers) out.numbers.push_back(number);
-    for (const auto& remark : done.findings.remarks) out.remarks.push_back(remark);
+    for (const auto& warning : done.findings.remarks) out.remarks.push_back(warning);
     if (dispatcher.begun()) {
         dispatcher.move_points_to(done.findings);
     } else if (!done.findings.plots.empty()) {
@@ -144,7 +144,7 @@ Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& 
         const auto& plot = done.findings.plots[0];
         done.points = plot.points();
         if (auto ok = measures.see(c.name, plot); !ok) return ok;
-        if (options.print) done.printed = printed(*bench.circuit, c.name, plot);
+        if (options.print) done.printed = printed(*context.circuit, c.name, plot);
         if (options.curves)
             if (auto ok = options.curves->whole(out.plots(done)); !ok) return ok;
     }
@@ -155,30 +155,30 @@ Result<void> analyse(TestBench& bench, const Analysis& analysis, const Command& 
 }  // namespace
 
 Result<RunOutcome> run(std::shared_ptr<const Circuit> circuit, const RunOrders& options) {
-    auto bench = TestBench::make(std::move(circuit));
-    if (!bench) return bench.error();
-    return run(**bench, options);
+    auto context = TestBench::make(std::move(circuit));
+    if (!context) return context.error();
+    return run(**context, options);
 }
 
-Result<RunOutcome> run(TestBench& bench, const RunOrders& options) {
-    const Circuit* const circuit = bench.circuit.get();
+Result<RunOutcome> run(TestBench& context, const RunOrders& options) {
+    const Circuit* const circuit = context.circuit.get();
     RunOutcome out;
-    if (!bench.brief) {
+    if (!context.brief) {
         out.remarks = circuit->remarks;
         for (auto& warning : suspicious(*circuit)) out.remarks.push_back(std::move(warning));
         for (auto& warning : warnings_of(*circuit)) out.remarks.push_back(std::move(warning));
     }
-    const auto saved = saved_of(bench.system);
+    const auto saved = saved_of(context.system);
     if (!saved) return saved.error();
     for (const auto& curve : *saved) out.saved.push_back(curve.name);
-    const OwnCurrents currents(bench.system, *saved);
-    if (!std::exchange(bench.requests_checked, true))
-        if (auto ok = check_requests(bench.system, currents, out.remarks); !ok) return ok.error();
+    const OwnCurrents currents(context.system, *saved);
+    if (!std::exchange(context.requests_checked, true))
+        if (auto ok = check_requests(context.system, currents, out.remarks); !ok) return ok.error();
     Measures measures(*circuit);
     for (const auto& c : circuit->commands) {
         const auto* analysis = analysis_of(c.name);
         if (analysis == nullptr) continue;
-        if (auto ok = analyse(bench, *analysis, c, options, measures, currents, out); !ok) {
+        if (auto ok = analyse(context, *analysis, c, options, measures, currents, out); !ok) {
             auto error = ok.error();
             if (error.place.line == 0 && (error.place.file.empty() || error.place.file == circuit->file)) error.place = c.place;
             return error;

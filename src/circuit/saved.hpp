@@ -14,13 +14,13 @@ struct Saved {
     int device = -1;  ///< index in System::devices() if it is the current of a device
 
     bool is_voltage() const { return name[0] == 'v'; }
-    /// The value of the quantity. `value(u)` must return the value of unknown u; -1 is ground.
+    /// The value of the quantity. `value_of(u)` must return the value of unknown u; -1 is ground.
     template <class Value>
-    double seen(const System& system, Value&& value) const {
-        if (device < 0) return value(of.plus) - value(of.minus);
+    double seen(const System& system, Value&& value_of) const {
+        if (device < 0) return value_of(of.plus) - value_of(of.minus);
         const auto& d = *system.devices()[static_cast<std::size_t>(device)];
         std::vector<double> v;
-        for (const int u : d.unknowns) v.push_back(value(u));
+        for (const int u : d.unknowns) v.push_back(value_of(u));
         return current_into(d, v);
     }
 

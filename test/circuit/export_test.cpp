@@ -167,7 +167,7 @@ TEST(ExportedOrders, AreMeasuredByNgspiceAsHere) {
     auto circuit = std::make_shared<Circuit>(*circuit_of(root() + "/circuits/inverter.cir"));
     const auto with_op = ngspice_deck(circuit);
     ASSERT_TRUE(with_op);
-    EXPECT_NE(with_op->text.find("* .meas dc: ngspice measures only what it runs last, here .op"), std::string::npos);
+    EXPECT_NE(with_op->text.find("* .meas dc: ngspice measures only the analysis that it runs last, here .op"), std::string::npos);
     std::erase_if(circuit->commands, [](const Command& c) { return c.name == "op"; });
     const auto log = ngspice(folder.write("deck.cir", exported(circuit)), "");
     const auto mine = run(circuit);
@@ -219,7 +219,7 @@ TEST(ExportedOrders, ThatNgspiceLacksStayAsCommentsAndAreTold) {
     for (const char* line :
          {"* left out: .step param w 1u 2u 0.5u", "* left out: .mc 10", "* left out: .expect half 0.35 1", "* left out: .dc temp 0 50 10",
           "* left out: updown", "\n.dc vin 0 0.7 0.05\n", "\n.print dc v(d) i(vdd)\n", "\n.meas dc half when v(d)=0.35\n",
-          "\nxm_x1_m1 d g 0 0", "* .meas dc: ngspice measures only what it runs last, here .noise",
+          "\nxm_x1_m1 d g 0 0", "* .meas dc: ngspice measures only the analysis that it runs last, here .noise",
           "* the transistors' own noise is not in what ngspice gives"})
         EXPECT_NE(deck->text.find(line), std::string::npos) << line << "\n" << deck->text;
     EXPECT_EQ(deck->left_out.size(), 7U);

@@ -111,14 +111,14 @@ TEST(Measure, SaysWhatIsWrongAndWhere) {
         return text.substr(text.find("test.cir") == std::string::npos ? 0 : text.find("test.cir") + 9);
     };
     EXPECT_EQ(told("find v(b) at=1m"), "5:19: .meas: there is no curve 'v(b)' in 'Transient Analysis'");
-    EXPECT_EQ(told("find v(a) at=soon"), "5:24: .meas: 'at=soon': a number was expected after 'at='");
-    EXPECT_EQ(told("find v(a)"), "5:1: .meas: '': at=VALUE or when CURVE=VALUE was expected");
+    EXPECT_EQ(told("find v(a) at=soon"), "5:24: .meas: 'at=soon': expected a number after 'at='");
+    EXPECT_EQ(told("find v(a)"), "5:1: .meas: '': expected at=VALUE or when CURVE=VALUE");
     EXPECT_EQ(told("when v(a)"), "5:19: .meas: 'v(a)' must be CURVE=VALUE");
     EXPECT_EQ(told("when v(a)=1 rise=0"), "5:26: .meas: 'rise=0' must be 1, 2 ... or last");
-    EXPECT_EQ(told("trig v(a) val=1 rise=1"), "5:1: .meas: targ was expected after trig");
-    EXPECT_EQ(told("max v(a) at=1"), "5:23: .meas: 'at=1' is not known here");
+    EXPECT_EQ(told("trig v(a) val=1 rise=1"), "5:1: .meas: expected targ after trig");
+    EXPECT_EQ(told("max v(a) at=1"), "5:23: .meas: unexpected 'at=1'");
     EXPECT_EQ(told("err v(a) v(a)"),
-              "5:14: .meas: 'err' is not known; there are find, when, deriv, min, max, pp, avg, rms, integ, min_at, "
+              "5:14: .meas: unknown measurement 'err'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, "
               "max_at, trig, count, param=");
     EXPECT_EQ(told("find par('v(a)+q') at=1"), "5:19: .meas: unknown name 'q'");
     EXPECT_EQ(told("find par('v(q)') at=1"), "5:19: .meas: there is no curve 'par('v(q)')' in 'Transient Analysis'");

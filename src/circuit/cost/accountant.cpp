@@ -4,13 +4,13 @@
 
 namespace corpuscle::circuit {
 
-Result<void> Accountant::watch(RunOrders& orders) {
-    const auto rest = bench_.rest();
+Result<void> Accountant::watch(RunOrders& options) {
+    const auto rest = context_.rest();
     if (!rest) return rest.error();
-    auto phases = force_phases(*bench_.circuit);
+    auto phases = force_phases(*context_.circuit);
     if (!phases) return phases.error();
-    meter_.emplace(bench_.system, rest->x, bench_.tolerances.gmin);
-    orders.unknowns = &over_.emplace(*meter_, std::move(*phases));
+    meter_.emplace(context_.system, rest->x, context_.tolerances.gmin);
+    options.unknowns = &over_.emplace(*meter_, std::move(*phases));
     return {};
 }
 

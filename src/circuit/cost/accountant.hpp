@@ -1,5 +1,5 @@
 #pragma once
-// What a run costs: looks on while a netlist's orders are carried out.
+// Computes the cost of a circuit while the directives of its netlist run.
 
 #include "circuit/cost/cost.hpp"
 #include "circuit/run.hpp"
@@ -7,17 +7,17 @@
 namespace corpuscle::circuit {
 
 class Accountant {
-    TestBench& bench_;
+    TestBench& context_;
     std::optional<PowerMeter> meter_;
     std::optional<PowerOverTime> over_;
 
 public:
-    explicit Accountant(TestBench& bench) : bench_(bench) {}
+    explicit Accountant(TestBench& context) : context_(context) {}
     Accountant(const Accountant&) = delete;
-    /// From now on, through these orders, which must not outlive it.
-    Result<void> watch(RunOrders&);
-    /// After the run.
-    Result<Cost> found() const { return cost_of(bench_, over_ ? &*over_ : nullptr); }
+    /// Connects the meter to the options of a run. The options must not outlive this object.
+    Result<void> watch(RunOrders& options);
+    /// The cost; call it after the run.
+    Result<Cost> found() const { return cost_of(context_, over_ ? &*over_ : nullptr); }
 };
 
 }  // namespace corpuscle::circuit

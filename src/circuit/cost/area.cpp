@@ -8,7 +8,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double um = 1e-6, most_rows = 4096;
+constexpr double um = 1e-6, max_rows_of_array = 4096;
 
 }  // namespace
 
@@ -22,11 +22,11 @@ double rectangle_area(double W, double L, double rows, double columns) {
     return (rows * W + (rows - 1) * Rule::between_W + Rule::around_W) * (columns * L + (columns - 1) * Rule::between_L + Rule::around_L);
 }
 
-double array_area(double W, double L, double units) {
-    double least = rectangle_area(W, L, 1, std::ceil(units));
-    for (double rows = 2; rows <= std::min(std::ceil(units), most_rows); ++rows)
-        least = std::min(least, rectangle_area(W, L, rows, std::ceil(units / rows)));
-    return least;
+double array_area(double W, double L, double unit_transistors) {
+    double smallest = rectangle_area(W, L, 1, std::ceil(unit_transistors));
+    for (double rows = 2; rows <= std::min(std::ceil(unit_transistors), max_rows_of_array); ++rows)
+        smallest = std::min(smallest, rectangle_area(W, L, rows, std::ceil(unit_transistors / rows)));
+    return smallest;
 }
 
 Area area_of(const Element& e) {

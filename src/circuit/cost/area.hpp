@@ -1,16 +1,16 @@
 #pragma once
-// How much silicon an element takes.
+// Silicon area of elements.
 
 #include "circuit/netlist/netlist.hpp"
 
 namespace corpuscle::circuit {
 
-/// m^2. Wells, contacts to bulk, wires, guard rings and pads are in none of them.
+/// In m^2, without wells, bulk contacts, wires, guard rings and pads.
 struct Area {
-    double gates = 0;       ///< of channels: m stack W L
-    double arrays = 0;      ///< of transistors, each array in the rectangle that takes least
-    double apart = 0;       ///< of the same, each unit on its own island
-    double capacitors = 0;  ///< of plates; metal above transistors, so that some of it may lie over the arrays
+    double gates = 0;       ///< channel area: m stack W L
+    double arrays = 0;      ///< of transistors, with each array in its smallest rectangle
+    double apart = 0;       ///< of the same transistors, with each unit transistor on its own island
+    double capacitors = 0;  ///< of plates; they are metal above the transistors, so they may overlap the arrays
     double total() const { return arrays + capacitors; }
     Area& operator+=(const Area&);
 };
@@ -18,19 +18,21 @@ struct Area {
 /// MIM capacitors, F/m^2: 20 x 20 um are 0.8 pF, 30 x 30 um 1.8 pF (thesis table 5; errata S4).
 inline constexpr double capacitor_density = 2e-3;
 
-/// Total area of an array of so many equal units of W by L, in rows and columns (along L) of one rectangle. What stands about it, and
-/// between its units, is what the thesis's tables 10 and 13 have in common (0.18 um; inferred):
+/// Total area of an array of equal unit transistors of W by L, in rows and columns (along L) of one rectangle. The margins around the
+/// array and between its units are inferred from the thesis's tables 10 and 13 (0.18 um):
 ///     A_T = (r W + (r - 1) 0.28 um + 0.5 um) (c L + (c - 1) 0.54 um + 0.96 um)
 /// exact for B1, B2, C1, C2, D1, D2 (r by c of 2x1, 2x2, 1x1, 2x2, 1x2, 2x2), E (1x1) and G1 to G3 (1x8); 3.6 % above A.
 struct RectangleRule {
-    static constexpr double around_W = 0.5e-6, around_L = 0.96e-6;     ///< m; of an island beyond its channel
-    static constexpr double between_W = 0.28e-6, between_L = 0.54e-6;  ///< of two units: diffusions apart; a shared one with its contacts
+    static constexpr double around_W = 0.5e-6, around_L = 0.96e-6;  ///< m; margin of an island around its channel
+    static constexpr double between_W = 0.28e-6,
+                            between_L =
+                                0.54e-6;  ///< m; between units along W (separate diffusions) and along L (a shared diffusion with contacts)
 };
 double rectangle_area(double W, double L, double rows, double columns);
-/// The least of the rectangles that hold so many units.
-double array_area(double W, double L, double units);
+/// The area of the smallest rectangle that holds so many unit transistors.
+double array_area(double W, double L, double unit_transistors);
 
-/// Of a transistor or a capacitor; other elements have none that is known. Of a capacitor by formula neither.
+/// The area of a transistor or a linear capacitor. It is 0 for other elements and for a capacitor with an expression.
 Area area_of(const Element&);
 
 }  // namespace corpuscle::circuit

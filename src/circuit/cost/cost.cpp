@@ -9,9 +9,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double worth_telling = 0.1;  // of the smallest bias current
+constexpr double min_reported_leak = 0.1;  // as a fraction of the smallest bias current
 
-bool is_receptor(const Circuit& circuit) {
+bool is_afferent(const Circuit& circuit) {
     const auto& elements = circuit.elements;
     return std::any_of(elements.begin(), elements.end(), [](const auto& e) { return e.waveform.shape == Waveform::Shape::force; }) &&
            std::any_of(circuit.commands.begin(), circuit.commands.end(), [](const auto& c) { return c.name == "spike"; });
@@ -19,7 +19,7 @@ bool is_receptor(const Circuit& circuit) {
 
 bool has_no_size(const Element& e) { return e.letter == 'r' || e.letter == 'l' || e.letter == 'd' || (e.letter == 'c' && e.formula); }
 
-void count(const Circuit& circuit, const Blocks& blocks, Cost& out) {
+void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
     for (const auto& name : blocks.names) out.blocks.push_back({name, 0, 0, {}, {}, ""});
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
@@ -32,19 +32,19 @@ void count(const Circuit& circuit, const Blocks& blocks, Cost& out) {
     }
 }
 
-void leak(const TestBench& bench, std::span<const double> x, const Blocks& blocks, Cost& out) {
-    const auto& circuit = *bench.circuit;
+void add_leakage(const TestBench& context, std::span<const double> x, const Blocks& blocks, Cost& out) {
+    const auto& circuit = *context.circuit;
     out.smallest_bias = smallest_bias(circuit);
-    for (auto& one : leaks_of(bench.system, x, out.supply)) {
-        auto& block = out.blocks[blocks.of[one.element]];
-        if (block.worst_name.empty() || one.current > block.worst.current)
-            block.worst = one, block.worst_name = circuit.elements[one.element].name;
-        if (one.off && out.smallest_bias > 0 && one.current > worth_telling * out.smallest_bias) out.leaks.push_back(std::move(one));
+    for (auto& leak : leaks_of(context.system, x, out.supply)) {
+        auto& block = out.blocks[blocks.of[leak.element]];
+        if (block.worst_name.empty() || leak.current > block.worst.current)
+            block.worst = leak, block.worst_name = circuit.elements[leak.element].name;
+        if (leak.off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias) out.leaks.push_back(std::move(leak));
     }
     std::sort(out.leaks.begin(), out.leaks.end(), [](const Leak& a, const Leak& b) {
         return std::tuple(a.onto.empty(), -a.current, a.element) < std::tuple(b.onto.empty(), -b.current, b.element);
     });
-    for (const auto& one : out.leaks) out.leaking.push_back(circuit.elements[one.element].name);
+    for (const auto& leak : out.leaks) out.leaking.push_back(circuit.elements[leak.element].name);
 }
 
 }  // namespace
@@ -61,18 +61,18 @@ const Powers* Cost::powers(std::string_view of) const {
     return nullptr;
 }
 
-Result<Cost> cost_of(TestBench& bench, const PowerOverTime* over) {
-    const auto rest = bench.rest();
+Result<Cost> cost_of(TestBench& context, const PowerOverTime* over) {
+    const auto rest = context.rest();
     if (!rest) return rest.error();
-    const PowerMeter meter(bench.system, rest->x, bench.tolerances.gmin);
+    const PowerMeter meter(context.system, rest->x, context.tolerances.gmin);
     Cost out;
     out.supply = meter.supply(), out.sources = meter.sources(), out.has_sensor = meter.has_sensor();
-    out.is_receptor = is_receptor(*bench.circuit);
-    count(*bench.circuit, meter.blocks(), out);
-    leak(bench, rest->x, meter.blocks(), out);
+    out.is_receptor = is_afferent(*context.circuit);
+    add_areas(*context.circuit, meter.blocks(), out);
+    add_leakage(context, rest->x, meter.blocks(), out);
     out.power.emplace_back("op", meter.at(rest->x));
     if (over)
-        for (auto& one : over->told()) out.power.push_back(std::move(one));
+        for (auto& named_power : over->told()) out.power.push_back(std::move(named_power));
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a circuit costs: power, area, leakage.
+// The cost of a circuit: power, area, leakage.
 
 #include "circuit/analysis/bench.hpp"
 #include "circuit/cost/area.hpp"
@@ -10,30 +10,31 @@ namespace corpuscle::circuit {
 
 struct BlockCost {
     std::string name;
-    std::size_t transistors = 0, units = 0;  ///< arrays, and what they are made of
+    std::size_t transistors = 0, units = 0;  ///< arrays, and the unit transistors that they consist of
     Area area;
-    Leak worst;              ///< of its transistors, the one that leaks most
+    Leak worst;              ///< of the transistor with the largest leakage current
     std::string worst_name;  ///< "" if it has none
 };
 
 struct Cost {
-    double supply = 0;                                  ///< V: of the source that delivers most at the operating point
-    std::vector<std::string> sources;                   ///< what delivers
-    std::vector<BlockCost> blocks;                      ///< in the netlist's order
-    std::vector<std::pair<std::string, Powers>> power;  ///< "op", then of a transient "mean", "peak" and its force's phases
-    bool has_sensor = false;                            ///< else nothing of its power is the sensor's
-    bool is_receptor = false;                           ///< it takes force and says what a spike is
-    std::size_t unsized = 0;   ///< elements whose area is not known: resistors, inductors, diodes, capacitors by formula
-    double smallest_bias = 0;  ///< A; 0: no ideal source gives one
-    std::vector<Leak> leaks;   ///< of devices that are off, those above a tenth of it: first what leaks onto a capacitor, the worst first
-    std::vector<std::string> leaking;  ///< their names
+    double supply = 0;                                  ///< V, of the source that delivers the most power at the operating point
+    std::vector<std::string> sources;                   ///< the sources that deliver power
+    std::vector<BlockCost> blocks;                      ///< in netlist order
+    std::vector<std::pair<std::string, Powers>> power;  ///< "op"; for a transient also "mean", "peak" and the phases of its force
+    bool has_sensor = false;                            ///< if false, none of the power is the sensor's
+    bool is_receptor = false;                           ///< it has a force input and a spike output
+    std::size_t unsized = 0;   ///< elements of unknown area: resistors, inductors, diodes, capacitors with an expression
+    double smallest_bias = 0;  ///< A; 0 if the circuit has no ideal bias source
+    std::vector<Leak>
+        leaks;  ///< devices that are off and leak more than a tenth of smallest_bias; those at capacitor nodes first, then by current
+    std::vector<std::string> leaking;  ///< names of the devices of `leaks`
 
     Area area() const;
-    const Powers* powers(std::string_view of) const;  ///< null: not known
+    const Powers* powers(std::string_view of) const;  ///< null if there is none of this name
     double per_mm2() const { return 1e-6 / area().total(); }
 };
 
-/// Of a bench's circuit as it is now. Its transient, if it is to be counted, has gone through `over`.
+/// The cost of a circuit in its present state. `over` holds the power over a transient; null omits it.
 Result<Cost> cost_of(TestBench&, const PowerOverTime* over = nullptr);
 
 }  // namespace corpuscle::circuit

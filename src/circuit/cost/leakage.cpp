@@ -13,12 +13,12 @@ namespace {
 
 enum Terminal { D, G, S, B };
 
-/// The nodes of a circuit, those as one that sources of 0 V (by which currents are seen) join.
-class Joined {
+/// Merges nodes that are connected by 0 V sources, which only measure a current.
+class MergedNodes {
     std::vector<int> of_;
 
 public:
-    explicit Joined(const Circuit& circuit) : of_(circuit.nodes.size()) {
+    explicit MergedNodes(const Circuit& circuit) : of_(circuit.nodes.size()) {
         std::iota(of_.begin(), of_.end(), 0);
         for (const auto& e : circuit.elements) {
             if (!is_wire(e)) continue;
@@ -32,20 +32,20 @@ public:
     int of(int node) const { return of_[static_cast<std::size_t>(node)]; }
 };
 
-/// Nodes that some capacitor keeps and no voltage source holds: by which of the joined ones each is, the capacitor's own node.
-std::map<int, int> kept_nodes(const Circuit& circuit, const Joined& joined) {
+/// Nodes whose voltage is held by a capacitor and not by a voltage source. Maps each merged node to the capacitor's node.
+std::map<int, int> capacitor_nodes(const Circuit& circuit, const MergedNodes& merged) {
     std::map<int, int> out;
     for (const auto& e : circuit.elements)
         if (e.letter == 'c')
-            for (int k = 0; k < 2; ++k) out.emplace(joined.of(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
+            for (int k = 0; k < 2; ++k) out.emplace(merged.of(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
     out.erase(0);
     for (const auto& e : circuit.elements)
-        if (e.letter == 'v' && !Joined::is_wire(e))
-            for (const int node : e.nodes) out.erase(joined.of(node));
+        if (e.letter == 'v' && !MergedNodes::is_wire(e))
+            for (const int node : e.nodes) out.erase(merged.of(node));
     return out;
 }
 
-/// The drain's current, gate at source: as of an NMOS, `forward` of the bulk above the source.
+/// The drain current with the gate at the source. `forward` is the forward bias of the bulk against the source, with the signs of an NMOS.
 double drain_current(const Device& d, double polarity, double supply, double forward) {
     const double v[4] = {polarity * supply, 0, 0, polarity * forward};
     double f[4] = {}, q[4] = {}, df[16] = {}, dq[16] = {};
@@ -60,8 +60,8 @@ double drain_current(const Device& d, double polarity, double supply, double for
 std::vector<Leak> leaks_of(const System& system, std::span<const double> x, double supply) {
     std::vector<Leak> out;
     const auto& circuit = system.circuit();
-    const Joined joined(circuit);
-    const auto kept = kept_nodes(circuit, joined);
+    const MergedNodes merged(circuit);
+    const auto held = capacitor_nodes(circuit, merged);
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
         if (e.letter != 'm') continue;
@@ -72,7 +72,7 @@ std::vector<Leak> leaks_of(const System& system, std::span<const double> x, doub
         Leak leak{k, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source, false, ""};
         leak.off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
         for (const auto end : {D, S})
-            if (const auto node = kept.find(joined.of(e.nodes[end])); leak.onto.empty() && node != kept.end())
+            if (const auto node = held.find(merged.of(e.nodes[end])); leak.onto.empty() && node != held.end())
                 leak.onto = circuit.nodes[static_cast<std::size_t>(node->second)];
         out.push_back(std::move(leak));
     }
@@ -80,13 +80,13 @@ std::vector<Leak> leaks_of(const System& system, std::span<const double> x, doub
 }
 
 double smallest_bias(const Circuit& circuit) {
-    double least = 0;
+    double smallest = 0;
     for (const auto& e : circuit.elements) {
         if (e.letter != 'i' || e.waveform.shape == Waveform::Shape::force) continue;
         const double i = std::abs(e.waveform.dc * value_or(e.values, "m", 1));
-        if (i > 0 && (least == 0 || i < least)) least = i;
+        if (i > 0 && (smallest == 0 || i < smallest)) smallest = i;
     }
-    return least;
+    return smallest;
 }
 
 }  // namespace corpuscle::circuit

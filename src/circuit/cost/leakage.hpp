@@ -1,5 +1,5 @@
 #pragma once
-// What transistors let through when they are off, held against the smallest current that the circuit works with.
+// Leakage currents of transistors that are off, compared with the smallest bias current of the circuit.
 
 #include <string>
 #include <vector>
@@ -8,20 +8,20 @@
 
 namespace corpuscle::circuit {
 
-/// Of one transistor: its drain's current, A, junction and all, with gate at source and a supply's voltage between drain and source. Its
-/// bulk is at its source, or as far forward of it as at the operating point.
+/// Leakage of one transistor: the drain current, junction included, with the gate at the source and the supply voltage between drain
+/// and source. The bulk is at the source, or as far forward-biased as at the operating point.
 struct Leak {
     std::size_t element = 0;  ///< in Circuit::elements
-    double current = 0;
-    double V_GS = 0;   ///< V, at the operating point, towards its own polarity, against the end that is its source there
-    bool off = false;  ///< V_GS below phi_t: it carries less than e times what it leaks
-    std::string onto;  ///< the node at its source or drain that a capacitor keeps, "u"; "" if none does
+    double current = 0;       ///< A
+    double V_GS = 0;   ///< V at the operating point, positive towards conduction; the source is the terminal that acts as source there
+    bool off = false;  ///< V_GS is below phi_t: the transistor carries less than e times its leakage
+    std::string onto;  ///< the node at source or drain whose voltage a capacitor holds, such as "u"; "" if there is none
 };
 
-/// Every transistor, at an operating point.
+/// The leakage of every transistor at the operating point x.
 std::vector<Leak> leaks_of(const System&, std::span<const double> x, double supply);
 
-/// A: the smallest of the ideal current sources that carry no force; 0: there is none.
+/// The smallest current of the ideal current sources that carry no force, A; 0 if there is none.
 double smallest_bias(const Circuit&);
 
 }  // namespace corpuscle::circuit

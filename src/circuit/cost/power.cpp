@@ -15,7 +15,7 @@ std::string block_of(const Element& e) {
 bool carries_force(const Element& e) { return e.waveform.shape == Waveform::Shape::force; }
 bool is_independent(const Element& e) { return e.letter == 'v' || e.letter == 'i'; }
 
-/// Unknowns of nodes that stand for force.
+/// Unknowns of the nodes of voltage sources that carry force.
 std::vector<int> force_nodes(const System& system) {
     std::vector<int> out;
     const auto& elements = system.circuit().elements;
@@ -26,16 +26,16 @@ std::vector<int> force_nodes(const System& system) {
     return out;
 }
 
-/// A current by a formula that reads one of these nodes.
+/// True for a current source with an expression that reads one of these nodes.
 bool is_sensor(const Element& e, const Device& d, std::span<const int> force) {
     if (!e.formula || e.formula_is_voltage || (e.letter != 'b' && e.letter != 'g')) return false;
     return std::any_of(d.unknowns.begin() + 2, d.unknowns.end(),
                        [&](int u) { return std::find(force.begin(), force.end(), u) != force.end(); });
 }
 
-/// f(a, b) for every number of two.
+/// Calls f(a, b) for each pair of numbers.
 template <class F>
-void each(Powers& a, const Powers& b, F f) {
+void for_each_power(Powers& a, const Powers& b, F f) {
     f(a.supplies, b.supplies), f(a.sensor, b.sensor), f(a.own, b.own);
     a.sources.resize(b.sources.size()), a.blocks.resize(b.blocks.size());
     for (std::size_t k = 0; k < b.sources.size(); ++k) f(a.sources[k], b.sources[k]);
@@ -57,7 +57,7 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
     : system_(system), gmin_(gmin), blocks_(system.circuit()) {
     const auto& elements = system.circuit().elements;
     const auto force = force_nodes(system);
-    double most = -INFINITY;
+    double max_delivered = -INFINITY;
     for (std::size_t k = 0; k < elements.size(); ++k) {
         const auto& e = elements[k];
         role_.push_back(-1 - static_cast<int>(blocks_.of[k]));
@@ -68,21 +68,21 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
         if (e.letter == 'i' && !carries_force(e) && heat >= 0) continue;
         role_.back() = static_cast<int>(sources_.size());
         sources_.push_back(k);
-        if (e.letter != 'v' || carries_force(e) || -heat <= most) continue;
-        most = -heat;
+        if (e.letter != 'v' || carries_force(e) || -heat <= max_delivered) continue;
+        max_delivered = -heat;
         const auto v = system.terminals(*system.devices()[k], x);
         supply_ = std::abs(v[0] - v[1]);
     }
 }
 
-/// Into the device's first node; and v times i over all its nodes, W.
+/// The current into the first node of the device; `power` receives the sum of v i over all its nodes, W.
 double PowerMeter::current(std::size_t k, std::span<const double> x, double t, double& power) const {
     const auto& d = *system_.devices()[k];
     const auto n = d.unknowns.size();
     v_.resize(n);
     for (std::size_t u = 0; u < n; ++u) v_[u] = d.unknowns[u] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[u])];
-    for (auto* of_each : {&f_, &q_}) of_each->assign(n, 0);
-    for (auto* slopes : {&df_, &dq_}) slopes->assign(n * n, 0);
+    for (auto* currents : {&f_, &q_}) currents->assign(n, 0);
+    for (auto* derivatives : {&df_, &dq_}) derivatives->assign(n * n, 0);
     Instant at;
     at.time = t, at.gmin = gmin_, at.charges = false;
     d.eval(v_, at, {f_, q_, df_, dq_});
@@ -97,7 +97,7 @@ Powers PowerMeter::at(std::span<const double> x, double t) const {
     out.sources.resize(sources_.size()), out.blocks.resize(blocks_.names.size());
     double power = 0;
     for (std::size_t k = 0; k < role_.size(); ++k) {
-        if (system_.circuit().elements[k].letter == 'l') continue;  // it keeps what it takes
+        if (system_.circuit().elements[k].letter == 'l') continue;  // inductors store energy, they do not dissipate it
         current(k, x, t, power);
         if (role_[k] >= 0)
             out.sources[static_cast<std::size_t>(role_[k])] = -power;
@@ -116,7 +116,7 @@ PowerMeter::Delivered PowerMeter::delivered(std::span<const double> x, double t)
     const auto at = [&](int unknown) { return unknown < 0 ? 0 : x[static_cast<std::size_t>(unknown)]; };
     for (const auto k : sources_) {
         const auto& u = system_.devices()[k]->unknowns;
-        if (u.size() == 3)  // a voltage source, whose current is an unknown
+        if (u.size() == 3)  // a voltage source; its current is an unknown
             power = (at(u[0]) - at(u[1])) * at(u[2]);
         else
             current(k, x, t, power);
@@ -135,25 +135,25 @@ std::vector<std::string> PowerMeter::sources() const {
 Result<void> PowerOverTime::begin(const Plot&) {
     sums_.assign(phases_.size() + 1, {});
     times_.assign(phases_.size() + 1, 0);
-    peak_ = {}, begun_ = false;
+    peak_ = {}, has_points_ = false;
     return {};
 }
 
 Result<void> PowerOverTime::point(std::span<const double> row) {
     const double t = row[0];
     auto now = meter_.at(row.subspan(1), t);
-    if (!std::exchange(begun_, true)) {
+    if (!std::exchange(has_points_, true)) {
         peak_ = now;
     } else {
         for (std::size_t p = 0; p < sums_.size(); ++p) {
             const double from = p == 0 ? t_ : std::max(t_, phases_[p - 1].from), to = p == 0 ? t : std::min(t, phases_[p - 1].to);
             if (!(to > from)) continue;
-            const double share = ((from + to) / 2 - t_) / (t - t_);  // straight between two points: its middle is its mean
-            each(sums_[p], before_, [&](double& sum, double b) { sum += (to - from) * (1 - share) * b; });
-            each(sums_[p], now, [&](double& sum, double n) { sum += (to - from) * share * n; });
+            const double fraction = ((from + to) / 2 - t_) / (t - t_);  // linear between two points, so the middle is the mean
+            for_each_power(sums_[p], before_, [&](double& sum, double b) { sum += (to - from) * (1 - fraction) * b; });
+            for_each_power(sums_[p], now, [&](double& sum, double n) { sum += (to - from) * fraction * n; });
             times_[p] += to - from;
         }
-        each(peak_, now, [](double& most, double n) { most = std::max(most, n); });
+        for_each_power(peak_, now, [](double& peak, double n) { peak = std::max(peak, n); });
     }
     before_ = std::move(now), t_ = t;
     return {};
@@ -161,11 +161,11 @@ Result<void> PowerOverTime::point(std::span<const double> row) {
 
 std::vector<std::pair<std::string, Powers>> PowerOverTime::told() const {
     std::vector<std::pair<std::string, Powers>> out;
-    if (!begun_) return out;
+    if (!has_points_) return out;
     for (std::size_t p = 0; p < sums_.size(); ++p) {
         if (!(times_[p] > 0)) continue;
         Powers mean;
-        each(mean, sums_[p], [&](double& m, double sum) { m = sum / times_[p]; });
+        for_each_power(mean, sums_[p], [&](double& m, double sum) { m = sum / times_[p]; });
         out.emplace_back(p == 0 ? "mean" : phases_[p - 1].name, std::move(mean));
         if (p == 0) out.emplace_back("peak", peak_);
     }

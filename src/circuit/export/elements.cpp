@@ -23,7 +23,7 @@ public:
     }
 
     Result<std::string> text() const {
-        if (e_.formula) return by_formula();
+        if (e_.formula) return with_expression();
         switch (e_.letter) {
             case 'r':
             case 'c':
@@ -34,45 +34,46 @@ public:
                 return source();
             case 'e':
             case 'g':
-                return fmt::format("{} {}\n", head_, e_.value * (e_.letter == 'g' ? said("m", 1) : 1));
+                return fmt::format("{} {}\n", head_, e_.value * (e_.letter == 'g' ? value("m", 1) : 1));
             case 'f':
             case 'h':
-                return fmt::format("{} {} {}\n", head_, names_.element(e_.control), e_.value * (e_.letter == 'f' ? said("m", 1) : 1));
+                return fmt::format("{} {} {}\n", head_, names_.element(e_.control), e_.value * (e_.letter == 'f' ? value("m", 1) : 1));
             case 'd':
-                return fmt::format("{} {} area={}{}\n", head_, names_.model(e_.model), said("area", 1) * said("m", 1), temperature());
+                return fmt::format("{} {} area={}{}\n", head_, names_.model(e_.model), value("area", 1) * value("m", 1), temperature());
             case 'm':
                 return transistor();
             default:
-                return bad_input(fmt::format("{}: an element of letter '{}' cannot be exported", e_.name, e_.letter), e_.place);
+                return bad_input(fmt::format("{}: elements with the letter '{}' cannot be exported", e_.name, e_.letter), e_.place);
         }
     }
 
 private:
-    double said(std::string_view name, double otherwise) const { return value_or(e_.values, name, otherwise); }
+    double value(std::string_view name, double default_value) const { return value_or(e_.values, name, default_value); }
     const Model* model() const { return e_.model < 0 ? nullptr : &circuit_.models[static_cast<std::size_t>(e_.model)]; }
-    /// By the element, or else by its model.
-    double said_or_of_model(std::string_view name, double otherwise) const {
-        return said(name, model() ? value_or(model()->values, name, otherwise) : otherwise);
+    /// The value of the element, or else of its model.
+    double value_or_of_model(std::string_view name, double default_value) const {
+        return value(name, model() ? value_or(model()->values, name, default_value) : default_value);
     }
-    double celsius() const { return said("temp", circuit_.temperature + said("dtemp", 0)); }
+    double celsius() const { return value("temp", circuit_.temperature + value("dtemp", 0)); }
     std::string temperature() const {
-        if (e_.values.contains("temp")) return fmt::format(" temp={}", said("temp", 0));
-        return e_.values.contains("dtemp") ? fmt::format(" dtemp={}", said("dtemp", 0)) : "";
+        if (e_.values.contains("temp")) return fmt::format(" temp={}", value("temp", 0));
+        return e_.values.contains("dtemp") ? fmt::format(" dtemp={}", value("dtemp", 0)) : "";
     }
 
-    /// Several in parallel as one. What a .dc sweeps stands as worked out: ngspice would apply the temperature to each value of the sweep.
+    /// Parallel elements are merged into one. An element that .dc sweeps is written with its value at temperature, because ngspice would
+    /// apply the temperature coefficients to each value of the sweep.
     std::string passive() const {
-        const double m = said("m", 1), scaled = e_.value * said("scale", 1), value = e_.letter == 'c' ? scaled * m : scaled / m;
-        const double tc1 = said_or_of_model("tc1", 0), tc2 = said_or_of_model("tc2", 0),
-                     dT = celsius() - said_or_of_model("tnom", value_or(circuit_.options, "tnom", 27));
-        if (swept()) return fmt::format("{} {}{}\n", head_, value * (1 + tc1 * dT + tc2 * dT * dT), temperature());
-        std::string out = fmt::format("{} {}", head_, value);
+        const double m = value("m", 1), scaled = e_.value * value("scale", 1), total = e_.letter == 'c' ? scaled * m : scaled / m;
+        const double tc1 = value_or_of_model("tc1", 0), tc2 = value_or_of_model("tc2", 0),
+                     dT = celsius() - value_or_of_model("tnom", value_or(circuit_.options, "tnom", 27));
+        if (is_swept()) return fmt::format("{} {}{}\n", head_, total * (1 + tc1 * dT + tc2 * dT * dT), temperature());
+        std::string out = fmt::format("{} {}", head_, total);
         if (model() && model()->values.contains("tnom")) out += ' ' + names_.model(e_.model);
         if (tc1 != 0 || tc2 != 0) out += fmt::format(" tc1={} tc2={}", tc1, tc2);
-        if (e_.values.contains("ic")) out += fmt::format(" ic={}", said("ic", 0));
+        if (e_.values.contains("ic")) out += fmt::format(" ic={}", value("ic", 0));
         return out + temperature() + '\n';
     }
-    bool swept() const {
+    bool is_swept() const {
         return std::any_of(circuit_.commands.begin(), circuit_.commands.end(), [this](const Command& c) {
             return c.name == "dc" && std::find(c.words.begin(), c.words.end(), e_.name) != c.words.end();
         });
@@ -80,19 +81,19 @@ private:
 
     Result<std::string> source() const {
         const Waveform& w = e_.waveform;
-        const bool force = w.shape == Waveform::Shape::force, shaped = w.shape != Waveform::Shape::none && !force;
-        // A sine begins with its phase there, here with its offset.
-        const bool phase = w.shape == Waveform::Shape::sine && w.numbers.size() > 5;
+        const bool force = w.shape == Waveform::Shape::force, has_shape = w.shape != Waveform::Shape::none && !force;
+        // The DC value of a sine with a phase depends on the phase in ngspice; here it is the offset, so it is written out.
+        const bool has_phase = w.shape == Waveform::Shape::sine && w.numbers.size() > 5;
         std::string out = head_;
-        if (w.has_dc || !shaped || phase) out += fmt::format(" dc {}", w.has_dc || !phase ? w.dc : w.numbers[0]);
+        if (w.has_dc || !has_shape || has_phase) out += fmt::format(" dc {}", w.has_dc || !has_phase ? w.dc : w.numbers[0]);
         if (w.ac_magnitude != 0 || w.ac_phase != 0) out += fmt::format(" ac {} {}", w.ac_magnitude, w.ac_phase);
-        if (shaped) out += fmt::format(" {}({:})", shape_name(w.shape), fmt::join(w.numbers, " "));
-        if (e_.letter == 'i' && said("m", 1) != 1) out += fmt::format(" m={}", said("m", 1));
+        if (has_shape) out += fmt::format(" {}({:})", shape_name(w.shape), fmt::join(w.numbers, " "));
+        if (e_.letter == 'i' && value("m", 1) != 1) out += fmt::format(" m={}", value("m", 1));
         if (!force) return out + '\n';
         const auto points = force_points(circuit_, w.numbers.empty() ? 1 : w.numbers[0]);
         if (!points) return points.error();
-        if (points->empty()) return fmt::format("* {} hands in a force in Corpuscle; here it rests\n{}\n", e_.name, out);
-        return fmt::format("* {}: the force of .force, in straight lines\n{} {}\n", e_.name, out, *points);
+        if (points->empty()) return fmt::format("* {} carries a force in Corpuscle; here it is constant\n{}\n", e_.name, out);
+        return fmt::format("* {}: the force of .force, piecewise linear\n{} {}\n", e_.name, out, *points);
     }
     static std::string_view shape_name(Waveform::Shape shape) {
         switch (shape) {
@@ -107,11 +108,11 @@ private:
         }
     }
 
-    Result<std::string> by_formula() const {
+    Result<std::string> with_expression() const {
         auto text = e_.formula->text([this](const FormulaInput& in) { return input(in); });
         if (!text) return bad_input(fmt::format("{}: {}", e_.name, text.error().sentence), e_.place);
-        const bool voltage = e_.formula_is_voltage;
-        if (const double m = said("m", 1); m != 1 && !voltage) *text = fmt::format("{}*({})", m, *text);
+        const bool is_voltage = e_.formula_is_voltage;
+        if (const double m = value("m", 1); m != 1 && !is_voltage) *text = fmt::format("{}*({})", m, *text);
         switch (e_.letter) {
             case 'c':
                 return fmt::format("{} q='{}'\n", head_, *text);
@@ -120,7 +121,7 @@ private:
             case 'g':
                 return fmt::format("{} cur='{}'\n", head_, *text);
             default:
-                return fmt::format("{} {}={}\n", head_, voltage ? 'v' : 'i', *text);
+                return fmt::format("{} {}={}\n", head_, is_voltage ? 'v' : 'i', *text);
         }
     }
 
@@ -135,7 +136,7 @@ private:
                 return "time";
             case FormulaInput::Kind::temperature:
                 if (e_.values.contains("temp")) return fmt::format("{}", celsius());
-                return e_.values.contains("dtemp") ? fmt::format("(temper+{})", said("dtemp", 0)) : "temper";
+                return e_.values.contains("dtemp") ? fmt::format("(temper+{})", value("dtemp", 0)) : "temper";
         }
         return "0";
     }
@@ -144,7 +145,7 @@ private:
         const auto card = card_from<UicmCard>(UicmCard::fields, *model(), {"level"});
         if (!card) return card.error();
         UicmInstance size;
-        for (const auto& f : UicmInstance::fields) size.*f.at = said(f.name, size.*f.at);
+        for (const auto& f : UicmInstance::fields) size.*f.at = value(f.name, size.*f.at);
         const bool pmos = model()->type == "pmos";
         return fmt::format("{} {} {}", head_, pmos ? "uicm_p" : "uicm_n", uicm_parameters(*card, size, celsius(), pmos));
     }
@@ -165,9 +166,9 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
     if (m.type != "d") return "";
     std::string out = fmt::format(".model {} d(", names.model(static_cast<int>(k)));
     for (const auto& [name, value] : m.values) {
-        const bool absent = name == "level" || name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" ||
-                            (name == "bv" && value == 0) || (name == "cjo" && m.values.contains("cj0"));
-        if (!absent) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
+        const bool is_unknown = name == "level" || name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" ||
+                                (name == "bv" && value == 0) || (name == "cjo" && m.values.contains("cj0"));
+        if (!is_unknown) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
     }
     return out + ")\n";
 }

@@ -1,14 +1,14 @@
 #pragma once
-// One element, or one model, of the flat circuit as a line of an ngspice deck.
+// Elements and models of the flat circuit as lines of an ngspice netlist.
 
 #include "circuit/export/names.hpp"
 
 namespace corpuscle::circuit {
 
-/// Ends with a newline; may be several lines.
+/// The text of an element; ends with a newline and may have several lines.
 Result<std::string> element_text(const Circuit&, std::size_t element, const ExportNames&);
 
-/// A diode's, or the temperature at which an R, C or L was measured; "" where all numbers are in the elements' lines.
+/// The model of a diode, or the nominal temperature of an R, C or L; "" if the elements' lines contain all numbers.
 std::string model_text(const Circuit&, std::size_t model, const ExportNames&);
 
 }  // namespace corpuscle::circuit

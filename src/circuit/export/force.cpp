@@ -11,22 +11,23 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double within = 1e-4;  // of the largest force
-constexpr int in_a_line = 6;     // points
+constexpr double max_error = 1e-4;  // as a fraction of the largest force
+constexpr int points_per_line = 6;
 
-/// The samples at which straight lines bend that stay within `allowed` of all others: each line is as long as it can be.
-std::vector<std::int64_t> bends(const Trace& trace, std::int64_t last, double allowed) {
-    const auto at = [&](std::int64_t k) { return trace.at(static_cast<double>(k) * trace.T()); };
+/// Samples to keep for a piecewise linear curve that stays within `tolerance` of all samples. Each line is as long as possible.
+std::vector<std::int64_t> select_breakpoints(const Trace& waveform, std::int64_t last, double tolerance) {
+    const auto at = [&](std::int64_t k) { return waveform.at(static_cast<double>(k) * waveform.T()); };
     std::vector<std::int64_t> out{0};
     for (std::int64_t from = 0; from < last;) {
-        double least = -std::numeric_limits<double>::infinity(), most = -least;
+        double min_slope = -std::numeric_limits<double>::infinity(), max_slope = -min_slope;
         std::int64_t to = from + 1;
         for (std::int64_t k = from + 1; k <= last; ++k) {
             const auto length = static_cast<double>(k - from);
             const double slope = (at(k) - at(from)) / length;
-            if (slope < least || slope > most) break;  // a line to here would pass another sample too far away
+            if (slope < min_slope || slope > max_slope)
+                break;  // a line to this sample would miss an earlier one by more than the tolerance
             to = k;
-            least = std::max(least, slope - allowed / length), most = std::min(most, slope + allowed / length);
+            min_slope = std::max(min_slope, slope - tolerance / length), max_slope = std::min(max_slope, slope + tolerance / length);
         }
         out.push_back(from = to);
     }
@@ -39,15 +40,15 @@ Result<std::string> force_points(const Circuit& circuit, double scale) {
     const auto force = force_order(circuit);
     if (!force) return force.error();
     if (!*force) return std::string();
-    const Trace& trace = **force;
-    const std::int64_t last = trace.end() - 1 - (Trace::lag + 1);  // behind it the force stands still
+    const Trace& waveform = **force;
+    const std::int64_t last = waveform.end() - 1 - (Trace::lag + 1);  // after it the force is constant
     double largest = 0;
-    for (std::int64_t k = 0; k <= last; ++k) largest = std::max(largest, std::abs(trace.at(static_cast<double>(k) * trace.T())));
+    for (std::int64_t k = 0; k <= last; ++k) largest = std::max(largest, std::abs(waveform.at(static_cast<double>(k) * waveform.T())));
     std::string out = "pwl(";
     int count = 0;
-    for (const auto k : bends(trace, last, within * largest)) {
-        const double t = static_cast<double>(k) * trace.T();
-        out += fmt::format("{}{:.9g} {:.9g}", count == 0 ? "" : count % in_a_line == 0 ? "\n+ " : " ", t, scale * trace.at(t));
+    for (const auto k : select_breakpoints(waveform, last, max_error * largest)) {
+        const double t = static_cast<double>(k) * waveform.T();
+        out += fmt::format("{}{:.9g} {:.9g}", count == 0 ? "" : count % points_per_line == 0 ? "\n+ " : " ", t, scale * waveform.at(t));
         ++count;
     }
     return out + ')';

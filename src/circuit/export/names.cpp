@@ -10,20 +10,21 @@ namespace {
 
 bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 
-std::string legal(std::string_view name, std::string_view also) {
+/// The name with all but letters, digits and `allowed` replaced by _.
+std::string legal(std::string_view name, std::string_view allowed) {
     std::string out;
-    for (const char c : name) out += is_letter_or_digit(lower(c)) || also.find(c) != std::string_view::npos ? lower(c) : '_';
+    for (const char c : name) out += is_letter_or_digit(lower(c)) || allowed.find(c) != std::string_view::npos ? lower(c) : '_';
     return out;
 }
 
-/// A name each: first for those that may keep theirs.
-std::vector<std::string> given(const std::vector<std::string>& wanted, std::string_view also) {
+/// Makes the names legal and unique. Names that are legal already are kept.
+std::vector<std::string> unique_names(const std::vector<std::string>& wanted, std::string_view allowed) {
     std::set<std::string, std::less<>> taken;
     std::vector<std::string> out(wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
-        if (legal(wanted[k], also) == wanted[k] && taken.insert(wanted[k]).second) out[k] = wanted[k];
+        if (legal(wanted[k], allowed) == wanted[k] && taken.insert(wanted[k]).second) out[k] = wanted[k];
     for (std::size_t k = 0; k < wanted.size(); ++k) {
-        const auto plain = legal(wanted[k], also);
+        const auto plain = legal(wanted[k], allowed);
         for (int n = 1; out[k].empty(); ++n)
             if (auto name = n == 1 ? plain : fmt::format("{}_{}", plain, n); taken.insert(name).second) out[k] = std::move(name);
     }
@@ -36,16 +37,16 @@ std::string letter_first(const Element& e) {
     return e.letter == 'm' ? "x" + e.name : e.name;
 }
 
-bool in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' || c == '#' || c == '@'; }
+bool is_in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' || c == '#' || c == '@'; }
 
 }  // namespace
 
 ExportNames::ExportNames(const Circuit& circuit) : circuit_(circuit) {
-    nodes_ = given(circuit.nodes, "_.#");
+    nodes_ = unique_names(circuit.nodes, "_.#");
     std::vector<std::string> elements, models;
     for (const auto& e : circuit.elements) elements.push_back(legal(letter_first(e), "_"));
     for (const auto& m : circuit.models) models.push_back(legal(m.name, "_"));
-    elements_ = given(elements, "_"), models_ = given(models, "_");
+    elements_ = unique_names(elements, "_"), models_ = unique_names(models, "_");
 }
 
 std::string ExportNames::node(std::string_view name) const {
@@ -64,7 +65,7 @@ std::string ExportNames::word(std::string_view text) const {
         const auto open = text.find('(', at), close = text.find(')', std::min(open, text.size()));
         if (close == std::string_view::npos) return out + std::string(text.substr(at));
         std::size_t name = open;
-        while (name > at && in_name(text[name - 1])) --name;
+        while (name > at && is_in_name(text[name - 1])) --name;
         out += text.substr(at, open + 1 - at);
         at = open + 1;
         const char kind = name < open ? text[name] : ' ';
@@ -72,9 +73,9 @@ std::string ExportNames::word(std::string_view text) const {
         auto inside = text.substr(at, close - at);
         for (bool first = true; first || !inside.empty(); first = false) {
             const auto comma = std::min(inside.find(','), inside.size());
-            const auto said = inside.substr(0, comma);
-            const auto known = kind == 'v' ? node(said) : element(said);
-            out += fmt::format("{}{}", first ? "" : ",", known.empty() ? std::string(said) : known);
+            const auto name_here = inside.substr(0, comma);
+            const auto known = kind == 'v' ? node(name_here) : element(name_here);
+            out += fmt::format("{}{}", first ? "" : ",", known.empty() ? std::string(name_here) : known);
             inside.remove_prefix(std::min(comma + 1, inside.size()));
         }
         at = close;

@@ -1,5 +1,5 @@
 #pragma once
-// A netlist as a deck that ngspice runs and that gives what ours gives: for a second opinion, or for people who have ngspice.
+// Exports a netlist as an ngspice deck that gives the same results, to check or to continue work in ngspice.
 
 #include <memory>
 #include <string>
@@ -11,10 +11,11 @@ namespace corpuscle::circuit {
 
 struct NgspiceDeck {
     std::string text;
-    std::vector<Error> left_out;  ///< what ngspice cannot be asked, by the netlist's lines; the deck's comments say so, too
+    std::vector<Error>
+        left_out;  ///< directives that ngspice does not have, at their lines of the netlist; comments of the deck list them too
 };
 
-/// The flat circuit, all parameters worked out, its transistors as subcircuits of formulas. Refuses what run() would refuse.
+/// The flat circuit with all parameters evaluated and transistors as subcircuits of expressions. Fails where run() would fail.
 Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit>);
 
 }  // namespace corpuscle::circuit

@@ -7,39 +7,39 @@
 namespace corpuscle::circuit {
 namespace {
 
-class Orders {
+class DirectiveExporter {
     const Circuit& circuit_;
     const ExportNames& names_;
     std::vector<Error>& left_out_;
 
 public:
-    Orders(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out)
+    DirectiveExporter(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out)
         : circuit_(circuit), names_(names), left_out_(left_out) {}
 
     std::string text(const Command& c) const {
         if (c.name == "dc") return dc(c);
         if (c.name == "noise") return noise(c);
         if (c.name == "print") return print(c);
-        if (c.name == "force") return "";  // it stands in the sources
+        if (c.name == "force") return "";  // the sources contain it
         for (const std::string_view own : {"expect", "step", "mc", "spike", "within", "probe"})
             if (c.name == own)
-                return left_out(
-                    c, own == "step" || own == "mc" ? "ngspice has no such line; here are the plain values" : "ngspice has no such line");
+                return comment_out(c, own == "step" || own == "mc" ? "ngspice has no such directive; the nominal values are exported"
+                                                                   : "ngspice has no such directive");
         return line(c.name, renamed(c));
     }
 
 private:
-    bool any(char letter) const {
+    bool has_element(char letter) const {
         return std::any_of(circuit_.elements.begin(), circuit_.elements.end(), [&](const Element& e) { return e.letter == letter; });
     }
     static std::string line(std::string_view name, const std::vector<std::string>& words) {
         return fmt::format(".{}{}{}\n", name, words.empty() ? "" : " ", fmt::join(words, " "));
     }
-    std::string left_out(const Command& c, std::string_view why) const {
-        auto said = line(c.name, c.words);
-        said.pop_back();
-        left_out_.push_back(bad_input(fmt::format("left out: {} ({})", said, why), c.place));
-        return fmt::format("* left out: {} ({})\n", said, why);
+    std::string comment_out(const Command& c, std::string_view why) const {
+        auto text = line(c.name, c.words);
+        text.pop_back();
+        left_out_.push_back(bad_input(fmt::format("left out: {} ({})", text, why), c.place));
+        return fmt::format("* left out: {} ({})\n", text, why);
     }
     std::vector<std::string> renamed(const Command& c) const {
         std::vector<std::string> out;
@@ -47,7 +47,7 @@ private:
         if (c.name == "tf" && out.size() > 1) out[1] = element(out[1]);
         return out;
     }
-    /// An element by its name, or what else stands there.
+    /// The exported name of an element; any other word is returned as it is.
     std::string element(const std::string& name) const {
         const auto known = names_.element(name);
         return known.empty() ? name : known;
@@ -55,18 +55,18 @@ private:
 
     std::string dc(const Command& c) const {
         auto words = c.words;
-        const bool both = !words.empty() && words.back() == "updown";
-        if (both) words.pop_back();
+        const bool is_updown = !words.empty() && words.back() == "updown";
+        if (is_updown) words.pop_back();
         for (std::size_t k = 0; k < words.size(); k += 4) {
             if (words[k] == "temp") {
-                if (any('m')) return left_out(c, "the transistors' numbers below are those of one temperature");
+                if (has_element('m')) return comment_out(c, "the parameters of the transistors below are valid at one temperature only");
                 continue;
             }
-            if (words[k].find_first_of("vir") != 0) return left_out(c, "ngspice sweeps sources, resistors and temp alone");
+            if (words[k].find_first_of("vir") != 0) return comment_out(c, "ngspice sweeps only sources, resistors and temp");
             words[k] = element(words[k]);
         }
-        std::string out = both ? "* left out: updown; ngspice sweeps one way\n" : "";
-        if (both) left_out_.push_back(bad_input("left out: updown of a .dc (ngspice sweeps one way)", c.place));
+        std::string out = is_updown ? "* left out: updown; ngspice sweeps in one direction only\n" : "";
+        if (is_updown) left_out_.push_back(bad_input("left out: updown of .dc (ngspice sweeps in one direction only)", c.place));
         return out + line("dc", words);
     }
 
@@ -74,13 +74,13 @@ private:
         auto words = c.words;
         if (!words.empty()) words[0] = names_.word(words[0]);
         if (words.size() > 1) words[1] = element(words[1]);
-        if (!any('m')) return line("noise", words);
-        const std::string why = "the transistors' own noise is not in what ngspice gives: its formulas are silent";
+        if (!has_element('m')) return line("noise", words);
+        const std::string why = "ngspice's result lacks the noise of the transistors, because its expressions have none";
         left_out_.push_back(bad_input(".noise: " + why, c.place));
         return fmt::format("* {}\n{}", why, line("noise", words));
     }
 
-    /// ngspice wants to know of which analysis: without a word, of each.
+    /// ngspice requires the name of an analysis; a .print without one is written for each analysis.
     std::string print(const Command& c) const {
         constexpr std::string_view printed[] = {"op", "dc", "ac", "noise", "tran"};
         const auto is_kind = [&](const std::string& w) {
@@ -91,10 +91,10 @@ private:
         words.insert(words.begin(), "");
         std::string out;
         for (const auto kind : printed) {
-            const bool asked =
+            const bool has_analysis =
                 std::any_of(circuit_.commands.begin(), circuit_.commands.end(), [&](const Command& other) { return other.name == kind; });
             words[0] = kind;
-            if (asked) out += line("print", words);
+            if (has_analysis) out += line("print", words);
         }
         return out;
     }
@@ -104,30 +104,32 @@ private:
 
 namespace {
 
-/// In the order in which ngspice runs them, whatever that of their lines; of one kind, the last line first.
-constexpr std::string_view kinds[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
-std::ptrdiff_t rank(std::string_view kind) { return std::find(std::begin(kinds), std::end(kinds), kind) - std::begin(kinds); }
-bool is_analysis(const Command& c) { return rank(c.name) < std::ssize(kinds); }
+/// The order in which ngspice runs analyses, whatever the order of their lines. Of one kind, it runs the last line first.
+constexpr std::string_view run_order[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
+std::ptrdiff_t run_rank(std::string_view kind) {
+    return std::find(std::begin(run_order), std::end(run_order), kind) - std::begin(run_order);
+}
+bool is_analysis(const Command& c) { return run_rank(c.name) < std::ssize(run_order); }
 
 }  // namespace
 
 std::string orders_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out) {
-    const Orders orders(circuit, names, left_out);
+    const DirectiveExporter exporter(circuit, names, left_out);
     std::string analyses, others;
-    std::string_view last = kinds[0];
+    std::string_view last = run_order[0];
     for (const auto& c : circuit.commands)
-        if (is_analysis(c) && rank(c.name) > rank(last)) last = c.name;
+        if (is_analysis(c) && run_rank(c.name) > run_rank(last)) last = c.name;
     for (const auto& c : circuit.commands) {
         if (is_analysis(c)) {
-            analyses.insert(0, orders.text(c));
+            analyses.insert(0, exporter.text(c));
             continue;
         }
         if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last) {
-            const auto why = fmt::format(".meas {}: ngspice measures only what it runs last, here .{}", c.words[0], last);
+            const auto why = fmt::format(".meas {}: ngspice measures only the analysis that it runs last, here .{}", c.words[0], last);
             left_out.push_back(bad_input(why, c.place));
             others += fmt::format("* {}\n", why);
         }
-        others += orders.text(c);
+        others += exporter.text(c);
     }
     return analyses + others;
 }

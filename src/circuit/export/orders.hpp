@@ -1,5 +1,5 @@
 #pragma once
-// What a netlist asks for, as ngspice wants it asked; what cannot be asked there, and why.
+// Directives of a netlist in ngspice's syntax.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace corpuscle::circuit {
 
-/// All commands as lines; those that ngspice has no word for as comments, which stand in `left_out`, too.
+/// All directives as lines. Those that ngspice does not have become comments and are appended to `left_out`.
 std::string orders_text(const Circuit&, const ExportNames&, std::vector<Error>& left_out);
 
 }  // namespace corpuscle::circuit

@@ -5,11 +5,12 @@
 namespace corpuscle::circuit {
 namespace {
 
-// g is q as a function of z, such that q + ln q is nearly a straight line over z: Newton's steps cannot go astray there, and q never is
-// below 0. With p and q the charges at the two ends, h and l the higher and the lower of them (channel.hpp):
-//     d = q_S - q_D once velocity saturation has had its say;   y = q_S + q_D of these = p + q + |p - q| - |d|
-//     t = y + 2 - zeta |i| = (y + 2) / (1 + zeta |d|);           i = d t
-// and an end's charge from d, as that end sees it, y and t. None of these has a kink at V_DS = 0, where ngspice gives |x| no slope.
+// g is q as a function of z, chosen so that q + ln q is nearly linear in z. Newton's method then converges, and q is never below 0.
+// With p and q the charges at the two ends, h the larger and l the smaller of them (mos_channel.hpp):
+//     d = q_S - q_D with velocity saturation;            y = q_S + q_D of these = p + q + |p - q| - |d|
+//     t = y + 2 - zeta |i| = (y + 2) / (1 + zeta |d|);   i = d t
+// The charge of an end follows from y, t and d with the sign for that end. None of these has a kink at V_DS = 0, where ngspice's
+// derivative of |x| is 0.
 constexpr std::string_view functions = R"(.func uicm_g(z) {z > 300 ? z+0.6931471805599453 : asinh(exp(min(z,300)))}
 .func uicm_ln_g(z) {z < -30 ? z : ln(uicm_g(max(z,-30)))}
 .func uicm_root(h,k) {sqrt((1+k)*(1+k)+2*k*h)}
@@ -18,8 +19,9 @@ constexpr std::string_view functions = R"(.func uicm_g(z) {z > 300 ? z+0.6931471
 .func uicm_charge(d,y,t) {y/4+d/12+d*d/(12*t)-d*d*d/(60*t*t)}
 )";
 
-// {1} {2} {3} {4}: voltages from gate, source and drain to bulk, and from drain to source, in the transistor's own polarity; {5} {6}: the
-// ends between which it carries current; {7}: which way charges count; {8} {9} {10} {11}: a junction's ends at source and at drain.
+// {1} {2} {3} {4}: voltages from gate, source and drain to bulk and from drain to source, with the signs of the polarity. {5} {6}: the
+// terminals between which the channel current flows. {7}: the sign of charges. {8} {9} {10} {11}: the terminals of the source and drain
+// junctions.
 constexpr std::string_view subcircuit = R"(.subckt {0} d g s b vt=0.5 slope=1.3 phit=0.02587 sigma=0 zeta=0 is=0 va=1e6
 + cox=0 cgs=0 cgd=0 cgb=0 iss=0 isd=0 tops=0 topd=0 njphit=0.02587 cjs=0 cjd=0 pb=0.8 mj=0.4 fc=0.5
 * q + ln q = x at source and drain
@@ -27,11 +29,11 @@ bzs zs 0 i=uicm_g(v(zs))+uicm_ln_g(v(zs))-1-(({1}-vt+sigma*({2}+{3}))/slope-{2})
 bzd zd 0 i=uicm_g(v(zd))+uicm_ln_g(v(zd))-1-(({1}-vt+sigma*({2}+{3}))/slope-{3})/phit
 bqs qs 0 i=v(qs)-uicm_g(v(zs))
 bqd qd 0 i=v(qd)-uicm_g(v(zd))
-* the channel's current
+* channel current
 bd d1 0 i=v(d1)-uicm_d(v(qs)-v(qd),max(max(v(qs),v(qd)),1e-90),max(min(v(qs),v(qd)),0),zeta)
 by y 0 i=v(y)-max(v(qs)+v(qd)+abs(v(qs)-v(qd))-abs(v(d1)),0)
 bi {5} i=is*v(d1)*uicm_t(v(d1),max(v(y),0),zeta)*(1+(sqrt(v(d,s)*v(d,s)+16*phit*phit)-4*phit)/va)
-* its charges: each end's on a capacitor of its own, whose other side a voltage holds; the depletion's share comes back from the bulk
+* channel charges: one capacitor for each end, with a voltage source at its other side; the bulk supplies the depletion charge
 cqd d cd {{slope*cox}}
 bqdg cd g v=v(d,g){7}phit*uicm_charge(-v(d1),max(v(y),0),uicm_t(v(d1),max(v(y),0),zeta))
 cqs s cs {{slope*cox}}
@@ -40,7 +42,7 @@ bqb g b i=(1-1/slope)*(i(bqdg)+i(bqsg))
 cgd g d {{cgd}}
 cgs g s {{cgs}}
 cgb g b {{cgb+cox*(slope-1)/slope}}
-* junctions: their currents, then their charges and gmin
+* junctions: currents, then charges and gmin
 bjs {8} {9} i=iss*(exp(min(v({8},{9})/njphit,tops))*(1+max(v({8},{9})/njphit-tops,0))-1)
 bjd {10} {11} i=isd*(exp(min(v({10},{11})/njphit,topd))*(1+max(v({10},{11})/njphit-topd,0))-1)
 djs {8} {9} js temp=27

@@ -1,5 +1,5 @@
 #pragma once
-// The UICM transistor as an ngspice subcircuit of formulas, and one device's numbers for it.
+// The UICM transistor as an ngspice subcircuit of expressions, and the parameters of one device for it.
 
 #include <string>
 
@@ -10,10 +10,10 @@ namespace corpuscle::circuit {
 /// Functions that both subcircuits use.
 std::string uicm_functions();
 
-/// ".subckt uicm_n d g s b ..." or uicm_p.
+/// The subcircuit ".subckt uicm_n d g s b ..." or uicm_p.
 std::string uicm_subcircuit(bool pmos);
 
-/// "vt=0.4606 slope=1.27 ...": the parameters of one transistor at its temperature, C.
+/// The parameters of one transistor at its temperature, C: "vt=0.4606 slope=1.27 ...".
 std::string uicm_parameters(const UicmCard&, const UicmInstance&, double temperature, bool pmos);
 
 }  // namespace corpuscle::circuit

@@ -4,37 +4,37 @@ namespace corpuscle::circuit {
 
 bool Crossings::point(double x, const PlotRow& row) {
     if (!traced_.point(x, row)) return false;
-    const auto& piece = *traced_.piece();
-    if (!((piece.rises() && edges_.kind != Edges::Kind::fall) || (piece.falls() && edges_.kind != Edges::Kind::rise))) return false;
-    const double where = piece.zero();
-    if (!edges_.within.holds(where)) return false;
+    const auto& segment = *traced_.piece();
+    if (!((segment.rises() && edges_.kind != Edges::Kind::fall) || (segment.falls() && edges_.kind != Edges::Kind::rise))) return false;
+    const double position = segment.zero();
+    if (!edges_.within.holds(position)) return false;
     ++count_;
     if (edges_.which != 0 && count_ != edges_.which) return false;
-    found_ = where;
+    found_ = position;
     return true;
 }
 
 void Found::point(double x, const PlotRow& row) {
-    const bool later = curve_.point(x, row), came = spot_.point(x, row);
-    if (!later) return;
-    const auto& piece = *curve_.piece();
-    if (!first_) first_ = piece;
-    const bool here = spot_.crossing ? came : std::isnan(value_) && piece.holds(spot_.at);
-    if (here) value_ = of(piece, spot_.found());
+    const bool has_segment = curve_.point(x, row), is_crossing = spot_.point(x, row);
+    if (!has_segment) return;
+    const auto& segment = *curve_.piece();
+    if (!first_) first_ = segment;
+    const bool is_here = spot_.crossing ? is_crossing : std::isnan(value_) && segment.holds(spot_.at);
+    if (is_here) value_ = of(segment, spot_.found());
 }
 
-/// A place that rounding put beyond the ends is meant as the end.
+/// A position that lies beyond an end only by rounding counts as the end.
 double Found::value() const {
     if (!std::isnan(value_) || spot_.crossing || !curve_.piece()) return value_;
     const auto& last = *curve_.piece();
     const auto& first = first_ ? *first_ : last;
-    const double slack = 1e-9 * std::abs(last.x1 - first.x0);
-    if (std::abs(spot_.at - last.x1) <= slack) return of(last, last.x1);
-    if (std::abs(spot_.at - first.x0) <= slack) return of(first, first.x0);
+    const double tolerance = 1e-9 * std::abs(last.x1 - first.x0);
+    if (std::abs(spot_.at - last.x1) <= tolerance) return of(last, last.x1);
+    if (std::abs(spot_.at - first.x0) <= tolerance) return of(first, first.x0);
     return nothing;
 }
 
-void Summary::see(double x, double y) {
+void Summary::update_extremes(double x, double y) {
     if (!any_ || y < low_) low_ = y, low_at_ = x;
     if (!any_ || y > high_) high_ = y, high_at_ = x;
     any_ = true;
@@ -42,13 +42,14 @@ void Summary::see(double x, double y) {
 
 void Summary::point(double x, const PlotRow& row) {
     curve_.point(x, row);
-    auto piece = *curve_.piece();  // of the first point: the point alone
-    if (!piece.cut(stretch_.from, stretch_.to)) return;
-    if (!any_) only_ = piece.y0;
-    see(piece.x0, piece.y0);
-    see(piece.x1, piece.y1);
-    const double part = piece.integral();
-    length_ += piece.length(), integral_ += part, area_ += piece.x1 < piece.x0 ? -part : part, squares_ += piece.squares();
+    auto segment = *curve_.piece();  // at the first point a segment of length 0
+    if (!segment.cut(stretch_.from, stretch_.to)) return;
+    if (!any_) only_ = segment.y0;
+    update_extremes(segment.x0, segment.y0);
+    update_extremes(segment.x1, segment.y1);
+    const double integral = segment.integral();
+    length_ += segment.length(), integral_ += integral, area_ += segment.x1 < segment.x0 ? -integral : integral,
+        squares_ += segment.squares();
 }
 
 double Summary::value() const {

@@ -1,5 +1,5 @@
 #pragma once
-// What takes one number from a curve as its points come, in memory that does not grow.
+// Measurements for .meas: each takes one number from a curve point by point, in constant memory.
 
 #include <limits>
 #include <optional>
@@ -16,21 +16,22 @@ class Gauge {
 public:
     virtual ~Gauge() = default;
     virtual void point(double x, const PlotRow&) = 0;
-    /// Once all points have come; NaN: nothing was found.
+    /// The result after the last point; NaN if nothing was found.
     virtual double value() const = 0;
 };
 
+/// An interval of the swept quantity.
 struct Stretch {
     double from = -endless, to = endless;
     bool holds(double x) const { return from <= x && x <= to; }
 };
 
-/// A curve less another one or a level, from point to point.
+/// A curve minus another curve or a level, followed point by point.
 class Traced {
     CurveView curve_;
     std::optional<CurveView> other_;
     double level_ = 0;
-    std::optional<Piece> piece_;  // the newest; of the first point a piece without length
+    std::optional<Piece> piece_;  // the newest segment; after the first point a segment of length 0
 
 public:
     explicit Traced(CurveView curve) : curve_(curve) {}
@@ -38,7 +39,7 @@ public:
     Traced(CurveView curve, CurveView other) : curve_(curve), other_(other) {}
 
     const std::optional<Piece>& piece() const { return piece_; }
-    /// False: this was the first point, and there is no piece yet.
+    /// Returns false at the first point, which does not complete a segment.
     bool point(double x, const PlotRow& row) {
         const double y = curve_.measured(row) - (other_ ? other_->measured(row) : level_);
         const bool first = !piece_;
@@ -47,14 +48,14 @@ public:
     }
 };
 
-/// Which of a curve's zeros are meant.
+/// Selects some zero crossings of a curve.
 struct Edges {
     enum class Kind { rise, fall, cross } kind = Kind::cross;
-    double which = 1;  ///< the first is 1; 0: the last
-    Stretch within;    ///< only those in here count
+    double which = 1;  ///< 1 is the first crossing; 0 is the last
+    Stretch within;    ///< only crossings in this interval count
 };
 
-/// Zeros of a curve, counted. With `which` the one that is meant is kept.
+/// Counts the zero crossings of a curve and keeps the position of the selected one.
 class Crossings {
     Traced traced_;
     Edges edges_;
@@ -62,22 +63,22 @@ class Crossings {
 
 public:
     Crossings(Traced traced, Edges edges) : traced_(std::move(traced)), edges_(edges) {}
-    /// True: the one that is meant, or might be if none follows it, has come with this point.
+    /// Returns true if the newest segment has the selected crossing. For the last crossing, true at every crossing so far.
     bool point(double x, const PlotRow&);
     double count() const { return count_; }
-    double found() const { return found_; }  ///< NaN: it has not come
+    double found() const { return found_; }  ///< NaN if it was not found yet
 };
 
-/// at=X, or where a crossing is.
+/// A position: at=X, or the position of a crossing.
 struct Spot {
     double at = nothing;
-    std::optional<Crossings> crossing;  ///< set: this is meant
+    std::optional<Crossings> crossing;  ///< if set, replaces `at`
 
     bool point(double x, const PlotRow& row) { return crossing && crossing->point(x, row); }
     double found() const { return crossing ? crossing->found() : at; }
 };
 
-/// when ...: where it is.
+/// when ...: the position of a crossing.
 class Where final : public Gauge {
     Spot spot_;
 
@@ -87,7 +88,7 @@ public:
     double value() const override { return spot_.found(); }
 };
 
-/// trig ... targ ...: how far the second is behind the first.
+/// trig ... targ ...: the distance from the first position to the second.
 class Between final : public Gauge {
     Spot trigger_, target_;
 
@@ -97,7 +98,7 @@ public:
     double value() const override { return target_.found() - trigger_.found(); }
 };
 
-/// count ...: how many there are.
+/// count ...: the number of crossings.
 class Count final : public Gauge {
     Crossings crossings_;
 
@@ -107,7 +108,7 @@ public:
     double value() const override { return crossings_.count(); }
 };
 
-/// find and deriv: a curve's value, or its slope, at a spot.
+/// find and deriv: the value or the slope of a curve at a position.
 class Found final : public Gauge {
     Traced curve_;
     bool slope_;
@@ -123,7 +124,7 @@ public:
     double value() const override;
 };
 
-/// min max pp avg rms integ min_at max_at, between two places.
+/// min max pp avg rms integ min_at max_at over an interval.
 class Summary final : public Gauge {
 public:
     enum class Of { min, max, pp, min_at, max_at, avg, rms, integ };
@@ -136,7 +137,7 @@ private:
     double low_ = 0, high_ = 0, low_at_ = 0, high_at_ = 0;
     double length_ = 0, area_ = 0, integral_ = 0, squares_ = 0, only_ = 0;
 
-    void see(double x, double y);
+    void update_extremes(double x, double y);
 
 public:
     Summary(Of of, Traced curve, Stretch stretch) : of_(of), curve_(std::move(curve)), stretch_(stretch) {}
@@ -144,7 +145,7 @@ public:
     double value() const override;
 };
 
-/// Of an operating point, which is not swept: a curve's one value.
+/// The value of a curve at an operating point, which has no sweep.
 class AtRest final : public Gauge {
     CurveView curve_;
     double value_ = nothing;

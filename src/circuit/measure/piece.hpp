@@ -1,6 +1,6 @@
 #pragma once
-// A curve between two points that follow each other. All that is said of what lies between them is said here: a straight line. A finer
-// curve between them (an integrator's own) comes in here.
+// A curve between two consecutive points. All interpolation of measurements is done here, and it is linear; a finer interpolation, such
+// as the integrator's own, would be added here.
 
 #include <algorithm>
 #include <cmath>
@@ -17,19 +17,19 @@ struct Piece {
 
     bool rises() const { return y0 < 0 && y1 >= 0; }
     bool falls() const { return y0 > 0 && y1 <= 0; }
-    /// Where it is 0, if it rises or falls.
+    /// The position of the zero, if the segment rises or falls through 0.
     double zero() const { return x0 + (x1 - x0) * (y0 / (y0 - y1)); }
 
     double integral() const { return 0.5 * (y0 + y1) * (x1 - x0); }
-    /// Of the square, exactly.
+    /// The integral of the square, exact.
     double squares() const { return (y0 * y0 + y0 * y1 + y1 * y1) / 3 * length(); }
 
-    /// The part between two places; whether there is one.
+    /// Cuts the segment to the interval. Returns false if nothing of it lies inside.
     bool cut(double from, double to) {
         const double low = std::max(from, std::min(x0, x1)), high = std::min(to, std::max(x0, x1));
         if (!(low <= high)) return false;
-        const bool back = x1 < x0;
-        const double a = back ? high : low, b = back ? low : high;
+        const bool is_backward = x1 < x0;
+        const double a = is_backward ? high : low, b = is_backward ? low : high;
         *this = {a, a == x0 ? y0 : at(a), b, at(b)};
         return true;
     }

@@ -21,128 +21,131 @@ struct EdgeWord {
 };
 constexpr EdgeWord edge_words[] = {{"rise", Edges::Kind::rise}, {"fall", Edges::Kind::fall}, {"cross", Edges::Kind::cross}};
 
-/// Of CURVE=VALUE; not one inside par('...').
+/// The position of '=' in CURVE=VALUE, ignoring those inside par('...').
 std::size_t equals_in(const std::string& word) {
-    const bool formula = word.starts_with("par('");
-    return word.find('=', formula ? word.find('\'', 5) : 0);
+    const bool is_expression = word.starts_with("par('");
+    return word.find('=', is_expression ? word.find('\'', 5) : 0);
 }
 
-class Reader {
+class MeasurementParser {
     const Command& command_;
     const Plot& head_;
-    std::size_t at_ = 2;  // behind "tran NAME"
+    std::size_t at_ = 2;  // after "tran NAME"
 
 public:
-    Reader(const Command& command, const Plot& head) : command_(command), head_(head) {}
+    MeasurementParser(const Command& command, const Plot& head) : command_(command), head_(head) {}
 
-    Result<std::unique_ptr<Gauge>> gauge() {
-        auto out = head_.swept ? swept() : at_rest();
-        if (out && !done()) return wrong(fmt::format("'{}' is not known here", look()));
+    Result<std::unique_ptr<Gauge>> parse() {
+        auto out = head_.swept ? swept() : operating_point();
+        if (out && !done()) return error_here(fmt::format("unexpected '{}'", peek()));
         return out;
     }
 
 private:
-    using Made = Result<std::unique_ptr<Gauge>>;
+    using ParseResult = Result<std::unique_ptr<Gauge>>;
 
     bool done() const { return at_ >= command_.words.size(); }
-    std::string look() const { return done() ? "" : command_.words[at_]; }
+    std::string peek() const { return done() ? "" : command_.words[at_]; }
     std::string next() { return done() ? "" : command_.words[at_++]; }
-    Error wrong(std::string_view what) const {
-        auto place = command_.place;
-        if (at_ < command_.columns.size()) place.column = command_.columns[at_];
-        return bad_input(fmt::format(".meas: {}", what), place);
+    Error error_here(std::string_view message) const {
+        auto location = command_.place;
+        if (at_ < command_.columns.size()) location.column = command_.columns[at_];
+        return bad_input(fmt::format(".meas: {}", message), location);
     }
 
-    Made swept() {
-        const auto what = look();
+    ParseResult swept() {
+        const auto what = peek();
         for (const auto& s : summaries)
             if (what == s.word) return ++at_, summary(s.of);
-        if (what == "find" || what == "deriv") return ++at_, found(what == "deriv");
+        if (what == "find" || what == "deriv") return ++at_, find_or_deriv(what == "deriv");
         if (what == "trig") return ++at_, between();
         if (what == "when" || what == "count") {
             ++at_;
             auto crossings = edge(what == "count");
             if (!crossings) return crossings.error();
-            if (what == "count") return Made(std::make_unique<Count>(std::move(*crossings)));
-            return Made(std::make_unique<Where>(Spot{nothing, std::move(*crossings)}));
+            if (what == "count") return ParseResult(std::make_unique<Count>(std::move(*crossings)));
+            return ParseResult(std::make_unique<Where>(Spot{nothing, std::move(*crossings)}));
         }
-        return wrong(fmt::format(
-            "'{}' is not known; there are find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, count, param=", what));
+        return error_here(
+            fmt::format("unknown measurement '{}'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, "
+                        "count, param=",
+                        what));
     }
 
-    Made at_rest() {
-        if (look() != "find") return wrong("of an operating point: find v(node), v(a,b) or i(source)");
+    ParseResult operating_point() {
+        if (peek() != "find") return error_here("a measurement of .op must be find v(node), find v(a,b) or find i(source)");
         ++at_;
-        const auto name = look();
+        const auto name = peek();
         const auto view = CurveView::of(head_, name);
-        if (!view) return wrong(fmt::format("there is no {}", name));
+        if (!view) return error_here(fmt::format("there is no curve {}", name));
         ++at_;
-        return Made(std::make_unique<AtRest>(*view));
+        return ParseResult(std::make_unique<AtRest>(*view));
     }
 
     Result<CurveView> curve(std::string_view name) const {
         if (const auto view = CurveView::of(head_, name)) return *view;
-        if (name.starts_with("par(") && head_.is_complex) return wrong("par() is of real curves, not of .ac; say param=");
+        if (name.starts_with("par(") && head_.is_complex)
+            return error_here("par() does not work on the complex curves of .ac; use param= instead");
         if (name.starts_with("par("))
-            if (const auto formula = par_formula(name, command_.place); !formula) return wrong(formula.error().sentence);
-        return wrong(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
+            if (const auto expression = par_formula(name, command_.place); !expression) return error_here(expression.error().sentence);
+        return error_here(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
     }
 
-    /// The word here, as a curve.
+    /// Reads the next word as a curve.
     Result<CurveView> curve() {
-        auto out = curve(look());
+        auto out = curve(peek());
         if (out) ++at_;
         return out;
     }
 
-    /// The number behind "name=", if the word here begins so.
+    /// Reads the number of "name=NUMBER", if the next word is that.
     Result<std::optional<double>> option(std::string_view name) {
-        const auto word = look();
+        const auto word = peek();
         if (!word.starts_with(name) || word.size() <= name.size() || word[name.size()] != '=') return std::optional<double>();
         const auto number = whole_number(std::string_view(word).substr(name.size() + 1));
-        if (!number) return wrong(fmt::format("'{}': a number was expected after '{}='", word, name));
-        if (const auto why = ambiguous(*number, std::string_view(word).substr(name.size() + 1))) return wrong(*why);
+        if (!number) return error_here(fmt::format("'{}': expected a number after '{}='", word, name));
+        if (const auto why = ambiguous(*number, std::string_view(word).substr(name.size() + 1))) return error_here(*why);
         ++at_;
         return std::optional<double>(number->value);
     }
 
-    /// from= and to=, if one of them is here.
-    Result<bool> bound(Stretch& stretch) {
+    /// Reads from= and to=; true if there was one of them.
+    Result<bool> bounds(Stretch& interval) {
         const auto from = option("from");
         if (!from) return from.error();
-        if (*from) stretch.from = **from;
+        if (*from) interval.from = **from;
         const auto to = option("to");
         if (!to) return to.error();
-        if (*to) stretch.to = **to;
+        if (*to) interval.to = **to;
         return *from || *to;
     }
 
-    /// rise=, fall= or cross=, if one of them is here.
+    /// Reads rise=, fall= or cross=; true if there was one of them.
     Result<bool> which(Edges& edges) {
         for (const auto& e : edge_words) {
-            const bool last = look() == fmt::format("{}=last", e.word);
+            const bool last = peek() == fmt::format("{}=last", e.word);
             if (last) ++at_;
             const auto number = last ? Result<std::optional<double>>(0.0) : option(e.word);
             if (!number) return number.error();
             if (!*number) continue;
             if (!last && !(**number >= 1 && **number == std::floor(**number)))
-                return --at_, wrong(fmt::format("'{}' must be 1, 2 ... or last", look()));
+                return --at_, error_here(fmt::format("'{}' must be 1, 2 ... or last", peek()));
             edges.kind = e.kind, edges.which = **number;
             return true;
         }
         return false;
     }
 
-    /// rise= fall= cross= td= from= to=, in any order; before them, of a count, what is counted.
-    Result<Edges> edges(bool counted, std::optional<double>* level = nullptr) {
+    /// Reads rise= fall= cross= td= from= to= in any order. For count, the words rise, fall and cross select the edges.
+    Result<Edges> edges(bool is_count, std::optional<double>* level = nullptr) {
         Edges out;
         for (bool more = true; more;) {
             more = false;
             for (const auto& e : edge_words)
-                if (counted && look() == e.word) out.kind = e.kind, more = true, ++at_;
-            const auto chosen = counted ? Result<bool>(false) : which(out);
+                if (is_count && peek() == e.word) out.kind = e.kind, more = true, ++at_;
+            const auto chosen = is_count ? Result<bool>(false) : which(out);
             if (!chosen) return chosen.error();
-            const auto bounded = bound(out.within);
+            const auto bounded = bounds(out.within);
             if (!bounded) return bounded.error();
             const auto delay = option("td");
             if (!delay) return delay.error();
@@ -155,11 +158,11 @@ private:
         return out;
     }
 
-    /// CURVE=VALUE or CURVE=CURVE, and which.
-    Result<Crossings> edge(bool counted = false) {
-        const auto word = look();
+    /// Reads CURVE=VALUE or CURVE=CURVE and the selection of edges.
+    Result<Crossings> edge(bool is_count = false) {
+        const auto word = peek();
         const auto equals = equals_in(word);
-        if (equals == std::string::npos) return wrong(fmt::format("'{}' must be CURVE=VALUE", word));
+        if (equals == std::string::npos) return error_here(fmt::format("'{}' must be CURVE=VALUE", word));
         const auto left = curve(std::string_view(word).substr(0, equals));
         if (!left) return left.error();
         const auto right = std::string_view(word).substr(equals + 1);
@@ -167,52 +170,52 @@ private:
         const auto other = level ? left : curve(right);
         if (!other) return other.error();
         ++at_;
-        const auto which = edges(counted);
+        const auto which = edges(is_count);
         if (!which) return which.error();
         return Crossings(level ? Traced(*left, level->value) : Traced(*left, *other), *which);
     }
 
-    Made summary(Summary::Of of) {
+    ParseResult summary(Summary::Of of) {
         const auto view = curve();
         if (!view) return view.error();
-        Stretch stretch;
+        Stretch interval;
         for (bool more = true; more;) {
-            const auto bounded = bound(stretch);
+            const auto bounded = bounds(interval);
             if (!bounded) return bounded.error();
             more = *bounded;
         }
-        return Made(std::make_unique<Summary>(of, Traced(*view), stretch));
+        return ParseResult(std::make_unique<Summary>(of, Traced(*view), interval));
     }
 
-    Made found(bool slope) {
+    ParseResult find_or_deriv(bool slope) {
         const auto view = curve();
         if (!view) return view.error();
         const auto at = option("at");
         if (!at) return at.error();
-        if (*at) return Made(std::make_unique<Found>(Traced(*view), slope, Spot{**at, {}}));
-        if (look() != "when") return wrong(fmt::format("'{}': at=VALUE or when CURVE=VALUE was expected", look()));
+        if (*at) return ParseResult(std::make_unique<Found>(Traced(*view), slope, Spot{**at, {}}));
+        if (peek() != "when") return error_here(fmt::format("'{}': expected at=VALUE or when CURVE=VALUE", peek()));
         ++at_;
         auto crossings = edge();
         if (!crossings) return crossings.error();
-        return Made(std::make_unique<Found>(Traced(*view), slope, Spot{nothing, std::move(*crossings)}));
+        return ParseResult(std::make_unique<Found>(Traced(*view), slope, Spot{nothing, std::move(*crossings)}));
     }
 
-    Made between() {
-        auto trigger = spot();
+    ParseResult between() {
+        auto trigger = position();
         if (!trigger) return trigger.error();
-        if (look() != "targ") return wrong("targ was expected after trig");
+        if (peek() != "targ") return error_here("expected targ after trig");
         ++at_;
-        auto target = spot();
+        auto target = position();
         if (!target) return target.error();
-        return Made(std::make_unique<Between>(std::move(*trigger), std::move(*target)));
+        return ParseResult(std::make_unique<Between>(std::move(*trigger), std::move(*target)));
     }
 
-    /// After trig or targ: at=X, or CURVE val=LEVEL and which; or as after when.
-    Result<Spot> spot() {
+    /// Reads the position after trig or targ: at=X, CURVE val=LEVEL with a selection of edges, or CURVE=VALUE as after when.
+    Result<Spot> position() {
         const auto at = option("at");
         if (!at) return at.error();
         if (*at) return Spot{**at, {}};
-        const auto name = look();
+        const auto name = peek();
         if (equals_in(name) != std::string::npos) {
             auto crossings = edge();
             if (!crossings) return crossings.error();
@@ -223,13 +226,13 @@ private:
         std::optional<double> level;
         const auto which = edges(false, &level);
         if (!which) return which.error();
-        if (!level) return wrong(fmt::format("val= was expected after '{}'", name));
+        if (!level) return error_here(fmt::format("expected val= after '{}'", name));
         return Spot{nothing, Crossings(Traced(*view, *level), *which)};
     }
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Gauge>> gauge_of(const Command& c, const Plot& head) { return Reader(c, head).gauge(); }
+Result<std::unique_ptr<Gauge>> gauge_of(const Command& c, const Plot& head) { return MeasurementParser(c, head).parse(); }
 
 }  // namespace corpuscle::circuit
