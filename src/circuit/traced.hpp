@@ -10,7 +10,7 @@ namespace corpuscle::circuit {
 /// Splits "vf,v(a,b),i(N3B)" at the commas outside parentheses.
 std::vector<std::string> trace_words(std::string_view text);
 
-/// The name in .save of "vf", "v(vf)", "v(a,b)", "i(vdd)" or "i(N3B)", such as "i(xsummer.mn3b)". Names match as in path_names.hpp.
+/// The name in .save of "vf", "v(vf)", "v(a,b)", "i(vdd)" or "i(N3B)", such as "i(xsummer.mn3b)". Names match as in hierarchical_names.hpp.
 /// Returns nothing if the circuit has no such node or device. An ambiguous name and a device whose current cannot be recorded are
 /// errors.
 Result<std::optional<std::string>> traced(const Circuit&, std::string_view word);

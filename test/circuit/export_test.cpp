@@ -220,7 +220,7 @@ TEST(ExportedOrders, ThatNgspiceLacksStayAsCommentsAndAreTold) {
          {"* left out: .step param w 1u 2u 0.5u", "* left out: .mc 10", "* left out: .expect half 0.35 1", "* left out: .dc temp 0 50 10",
           "* left out: updown", "\n.dc vin 0 0.7 0.05\n", "\n.print dc v(d) i(vdd)\n", "\n.meas dc half when v(d)=0.35\n",
           "\nxm_x1_m1 d g 0 0", "* .meas dc: ngspice measures only the analysis that it runs last, here .noise",
-          "* the transistors' own noise is not in what ngspice gives"})
+          "* ngspice's result lacks the noise of the transistors"})
         EXPECT_NE(deck->text.find(line), std::string::npos) << line << "\n" << deck->text;
     EXPECT_EQ(deck->left_out.size(), 7U);
     for (const auto& e : deck->left_out) EXPECT_GT(e.place.line, 10) << e.text();

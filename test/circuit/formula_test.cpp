@@ -164,26 +164,26 @@ TEST(Formula, SaysWhereAndWhatIsWrong) {
         {"1 + sinn(2)", "f.cir:3:9: unknown function 'sinn'; did you mean 'sin'?"},
         {"max(1)", "f.cir:3:5: max() takes 2 arguments, not 1"},
         {"limit(1)", "f.cir:3:5: limit() takes 2 or 3 arguments, not 1"},
-        {"1k5", "f.cir:3:5: '1k5' is no number"},
+        {"1k5", "f.cir:3:5: '1k5' is not a number"},
         {"(2", "f.cir:3:5: this '(' is not closed"},
         {"max(1,2", "f.cir:3:8: this '(' is not closed"},
-        {"2 3", "f.cir:3:7: '3' where an operation such as + or the end of the formula was expected"},
-        {"2)", "f.cir:3:6: ')' where an operation such as + or the end of the formula was expected"},
-        {"2+", "f.cir:3:7: the formula ends where a number, a name or '(' was expected"},
-        {"", "f.cir:3:5: the formula ends where a number, a name or '(' was expected"},
+        {"2 3", "f.cir:3:7: expected an operator such as + or the end of the expression, not '3'"},
+        {"2)", "f.cir:3:6: expected an operator such as + or the end of the expression, not ')'"},
+        {"2+", "f.cir:3:7: expected a number, a name or '(', not the end"},
+        {"", "f.cir:3:5: expected a number, a name or '(', not the end"},
         {"a=3", "f.cir:3:5: unknown name 'a'"},
-        {"2=3", "f.cir:3:6: '=' gives a value; two values are compared by '=='"},
-        {"1?2", "f.cir:3:8: the formula ends where ':' was expected, as in c ? a : b"},
-        {"v(a,b,c)", "f.cir:3:5: 'v(a,b,c)' is no voltage; write v(node) or v(node,node)"},
-        {"i(a,b)", "f.cir:3:5: 'i(a,b)' is no current; write i(element)"},
-        {"v()", "f.cir:3:5: 'v()' is no voltage; write v(node) or v(node,node)"},
+        {"2=3", "f.cir:3:6: '=' is an assignment; compare two values with '=='"},
+        {"1?2", "f.cir:3:8: expected ':', as in c ? a : b, not the end"},
+        {"v(a,b,c)", "f.cir:3:5: 'v(a,b,c)' is not a voltage; write v(node) or v(node,node)"},
+        {"i(a,b)", "f.cir:3:5: 'i(a,b)' is not a current; write i(element)"},
+        {"v()", "f.cir:3:5: 'v()' is not a voltage; write v(node) or v(node,node)"},
         {"v(a", "f.cir:3:6: this '(' is not closed"},
-        {"ddt(v(a))", "f.cir:3:5: ddt() is not worked out; a charge is said by a capacitor's q='...'"},
-        {"hertz", "f.cir:3:5: a formula may not depend on the frequency (hertz)"},
+        {"ddt(v(a))", "f.cir:3:5: ddt() is not supported; for a charge, use a capacitor with q='...'"},
+        {"hertz", "f.cir:3:5: an expression must not depend on the frequency (hertz)"},
         {"1+f(2)", "f.cir:3:7: in f(): unknown name 'vddd'; did you mean 'vdd'?"},
         {"f(1,2)", "f.cir:3:5: f() takes 1 argument, not 2"},
         {"2*g(1)", "f.cir:3:7: in h(): g() calls itself"},
-        {"2 # 3", "f.cir:3:7: '# 3' where an operation such as + or the end of the formula was expected"},
+        {"2 # 3", "f.cir:3:7: expected an operator such as + or the end of the expression, not '# 3'"},
     };
     for (const auto& c : cases) {
         const auto read_it = read(c.text, s);
@@ -192,7 +192,7 @@ TEST(Formula, SaysWhereAndWhatIsWrong) {
     }
     const auto in_parameter = read("1+v(a)", FormulaScope{});
     ASSERT_FALSE(in_parameter);
-    EXPECT_EQ(in_parameter.error().text(), "f.cir:3:7: v(...) is known only while a circuit is solved, not in a parameter");
+    EXPECT_EQ(in_parameter.error().text(), "f.cir:3:7: v(...) is not available in a parameter, only in an expression of the circuit");
 }
 
 TEST(Formula, RefusesWhatIsNestedTooDeepInsteadOfCrashing) {
@@ -203,7 +203,7 @@ TEST(Formula, RefusesWhatIsNestedTooDeepInsteadOfCrashing) {
          {std::string(n, '('), std::string(n, '(') + "1" + std::string(n, ')'), std::string(n, '{'), ternary + "1", calls}) {
         const auto f = read(text);
         ASSERT_FALSE(f);
-        EXPECT_EQ(f.error().sentence, "the formula is nested more than 200 deep");
+        EXPECT_EQ(f.error().sentence, "the expression is nested deeper than the limit of 200");
     }
     EXPECT_EQ(value(std::string(n, '-') + "1"), 1) << "signs are not nested";
     EXPECT_EQ(value(powers), 1);
@@ -221,7 +221,7 @@ TEST(Formula, RefusesFunctionsThatMultiplyWithoutEnd) {
     };
     const auto f = read("f59(1)", s);
     ASSERT_FALSE(f);
-    EXPECT_EQ(f.error().sentence.substr(f.error().sentence.find("the ")), "the formula has more than 1000000 steps");
+    EXPECT_EQ(f.error().sentence.substr(f.error().sentence.find("the ")), "the expression has more than 1000000 steps");
     EXPECT_EQ(value("f8(3)", s), 3);
 }
 

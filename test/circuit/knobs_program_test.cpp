@@ -83,7 +83,7 @@ TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
     says("--afferent sa1 --trace vf -o out", 2, "--trace vf: no netlist takes part");
     says("--afferent a.cir --trace mid", 2, "--trace mid needs --out DIR or --report");
     says("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
-    says("--afferent a.cir --corner ss", 1, "--corner ss: no line .lib 'file' section");
+    says("--afferent a.cir --corner ss", 1, "--corner ss: there is no corner 'ss': the netlist has no line .lib 'file' section");
     says("--afferent sa1-circuit --corner slow", 1,
          "--corner slow: no corner 'slow': library '../../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
     says("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
@@ -121,7 +121,7 @@ TEST(KnobsProgram, RunTakesTheSameAndSavesTracesBesideItsOwn) {
     EXPECT_EQ(run(folder, "run a.cir").status, 0);
     const auto ran = run(folder, "run a.cir --supply 2V --set DIV.top=3k --trace 'vdd,i(div.rtop),mid' --json");
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_TRUE(has(ran.err, "it is not as it is written, so what it expects is left out")) << ran.err;
+    EXPECT_TRUE(has(ran.err, "values of the netlist are overridden, so .expect is ignored")) << ran.err;
     const auto curves = Json::parse(ran.out)["plots"][0]["curves"];
     EXPECT_EQ(curves.size(), 3U);
     EXPECT_NEAR(curves["v(mid)"][0].get<double>(), 0.5, 1e-6);

@@ -136,7 +136,7 @@ TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
     says("temp=-300", "-300 C is outside");
     says("mismatch=-1", "'-1' is not a seed");
     says("mismatch=7/half", "'7/half' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP");
-    says("corner=ss", "no line .lib 'file' section, so there is no corner 'ss' to be had");
+    says("corner=ss", "there is no corner 'ss': the netlist has no line .lib 'file' section");
 }
 
 constexpr const char* cards =

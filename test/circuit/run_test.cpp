@@ -136,8 +136,8 @@ TEST(Run, LinesOfTenMegabytesAreReadOrRefused) {
     for (int k = 0; wave.size() < many; ++k) wave += fmt::format("{:08d} 1 ", k);
     refused("r1 a 0 " + std::string(many, '1'), "x.cir:3:8: '1111");
     refused("r1 a 0 " + std::string(many, '('), "x.cir:3:");
-    refused("b1 b 0 v=" + std::string(many, '(') + "1" + std::string(many, ')'), "nested more than");
-    refused(sum, "the formula has more than");
+    refused("b1 b 0 v=" + std::string(many, '(') + "1" + std::string(many, ')'), "nested deeper than");
+    refused(sum, "the expression has more than");
     refused(nodes + " sub", "unknown subcircuit 'sub'");
     folder.write("x.cir", "t\nv1 a 0 1\nr1 a 0 1\n* " + std::string(many, 'x') + "\n" + wave + ")\nr2 b 0 1\n.op\n");
     EXPECT_EQ(run(folder, "run x.cir").status, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// What was read of a netlist before any parameter has a value. Inside circuit/netlist only.
+// A parsed netlist before any parameter has a value. Used inside circuit/netlist only.
 
 #include <deque>
 #include <map>
@@ -16,9 +16,9 @@
 namespace corpuscle::circuit {
 
 inline constexpr std::size_t most_elements = 2000000;  // and statements
-inline constexpr std::size_t most_text = std::size_t{256} << 20;
+inline constexpr std::size_t most_text = std::size_t{256} << 20;  // bytes
 
-/// A word of a statement: a value not yet worked out.
+/// A word of a statement whose value is not yet evaluated.
 struct Text {
     const Statement* in = nullptr;
     Word word;
@@ -32,8 +32,8 @@ using ByName = std::map<std::string, T, std::less<>>;
 /// The top level of a netlist, or a subcircuit.
 struct Body {
     std::string name;
-    const Statement* head = nullptr;  ///< its .subckt line; null: the top level
-    Body* outer = nullptr;            ///< in which it is defined
+    const Statement* head = nullptr;  ///< its .subckt line; null for the top level
+    Body* outer = nullptr;            ///< the definition that contains this one
     std::vector<std::string> ports;
     ByName<Text> defaults;  ///< of the .subckt line
     ByName<Text> parameters;
@@ -49,16 +49,16 @@ struct ParsedNetlist {
     Body top;
     std::vector<const Statement*> commands, options, temperatures;
     std::set<std::string, std::less<>> globals;
-    std::set<std::string, std::less<>> libraries;  ///< files of which sections were read
+    std::set<std::string, std::less<>> libraries;  ///< files whose sections were read by .lib
     std::vector<Error> remarks;
 };
 
-/// Reads the text and all it includes; `corner` as in Netlist::parse.
+/// Reads the text and all files that it includes; `corner` as in Netlist::parse.
 Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener&, const std::string& corner,
                           ParsedNetlist&);
 
-/// Remarks on numbers that SPICE reads otherwise than they look: 1F, 5M.
-void remark_on_units(const Statement& element, std::vector<Error>& remarks);
+/// Warns about numbers whose meaning in SPICE differs from their appearance: 1F, 5M.
+void remark_on_units(const Statement& element, std::vector<Error>& warnings);
 
 inline bool is_ground(std::string_view node) { return node == "0" || node == "gnd"; }
 

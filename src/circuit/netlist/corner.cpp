@@ -10,7 +10,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// The sections that a library's text has, but for those that only others of it read.
+/// The names of the sections that the text of a library defines.
 std::vector<std::string> sections_in(std::string_view text) {
     std::vector<std::string> out;
     Lines lines(text, std::make_shared<const std::string>());
@@ -26,19 +26,19 @@ std::vector<std::string> sections_in(std::string_view text) {
 }  // namespace
 
 std::string Corner::in_place_of(const std::string& section, std::string_view library, std::string_view text) {
-    if (wanted_.empty()) return section;
+    if (corner_.empty()) return section;
     const auto known = sections_in(text);
-    if (std::find(known.begin(), known.end(), wanted_) != known.end()) return found_ = true, wanted_;
+    if (std::find(known.begin(), known.end(), corner_) != known.end()) return is_found_ = true, corner_;
     const std::vector<std::string_view> names(known.begin(), known.end());
-    libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(wanted_, names)));
+    libraries_.push_back(fmt::format("'{}' has {}{}", library, fmt::join(known, ", "), did_you_mean(corner_, names)));
     return section;
 }
 
 Result<void> Corner::found(const std::string& netlist) const {
-    if (wanted_.empty() || found_) return {};
+    if (corner_.empty() || is_found_) return {};
     if (libraries_.empty())
-        return bad_input(fmt::format("no line .lib 'file' section, so there is no corner '{}' to be had", wanted_), {netlist});
-    return bad_input(fmt::format("no corner '{}': library {}", wanted_, fmt::join(libraries_, "; ")), {netlist});
+        return bad_input(fmt::format("there is no corner '{}': the netlist has no line .lib 'file' section", corner_), {netlist});
+    return bad_input(fmt::format("no corner '{}': library {}", corner_, fmt::join(libraries_, "; ")), {netlist});
 }
 
 }  // namespace corpuscle::circuit

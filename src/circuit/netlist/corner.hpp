@@ -1,5 +1,6 @@
 #pragma once
-// The corner that a netlist is read for: its libraries' section of this name in place of the one that stands there. Inside circuit/netlist.
+// Selects a process corner: libraries are read with the section of this name instead of the one in the netlist. Inside circuit/netlist
+// only.
 
 #include <string>
 #include <string_view>
@@ -10,16 +11,16 @@
 namespace corpuscle::circuit {
 
 class Corner {
-    std::string wanted_;                  // "": none is asked for
-    bool found_ = false;                  // some library has it
-    std::vector<std::string> libraries_;  // those that have it not: "'card.lib' has tt, ss"
+    std::string corner_;                  // "" if no corner is requested
+    bool is_found_ = false;               // at least one library has the corner
+    std::vector<std::string> libraries_;  // libraries without the corner: "'card.lib' has tt, ss"
 
 public:
-    explicit Corner(std::string wanted) : wanted_(std::move(wanted)) {}
+    explicit Corner(std::string corner) : corner_(std::move(corner)) {}
 
-    /// The section to read of a library, by its name and its text, where the netlist asks for `section`.
+    /// The section to read from a library, given by name and text, where the netlist requests `section`.
     std::string in_place_of(const std::string& section, std::string_view library, std::string_view text);
-    /// Once all is read: whether some library had it.
+    /// Call this after all files are read. Fails if no library had the requested corner.
     Result<void> found(const std::string& netlist) const;
 };
 

@@ -1,4 +1,4 @@
-// From bodies to the flat circuit: subcircuits put in place, dot lines worked out.
+// Elaborates a parsed netlist into the flat circuit: expands subcircuits and evaluates directives.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,23 +13,25 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int deepest = 200;  // subcircuits within each other
+constexpr int max_subcircuit_depth = 200;
 
-class Elaboration {
+class CircuitElaborator {
     const ParsedNetlist& parsed_;
     Flat flat_;
     Frame top_;
 
-    struct Start {  // of .ic, .nodeset
+    struct NodeVoltage {  // of .ic and .nodeset
         std::string node;
         double value;
         Place place;
-        bool ic;
+        bool is_ic;
     };
-    std::vector<Start> starts_;
+    std::vector<NodeVoltage> node_voltages_;
 
 public:
-    Elaboration(const ParsedNetlist& parsed, const Changes& changes) : parsed_(parsed), flat_(parsed, changes) { top_.body = &parsed.top; }
+    CircuitElaborator(const ParsedNetlist& parsed, const Changes& changes) : parsed_(parsed), flat_(parsed, changes) {
+        top_.body = &parsed.top;
+    }
 
     Result<Circuit> run(const Values& given) {
         Circuit& c = flat_.circuit;
@@ -39,10 +41,10 @@ public:
         c.parameters = top_.parameters;
         if (auto ok = settings(); !ok) return ok.error();
         if (auto ok = contents(top_); !ok) return ok.error();
-        if (auto ok = keep_promises(); !ok) return ok.error();
-        if (auto ok = starts(); !ok) return ok.error();
+        if (auto ok = check_references(); !ok) return ok.error();
+        if (auto ok = resolve_node_voltages(); !ok) return ok.error();
         for (const auto* s : parsed_.commands) command(*s);
-        change_commands(c);
+        apply_overrides_to_commands(c);
         return std::move(c);
     }
 
@@ -52,11 +54,12 @@ private:
         given.insert(flat_.changes.parameters.begin(), flat_.changes.parameters.end());
         for (const auto& [name, value] : given)
             if (!parsed_.top.parameters.contains(name))
-                return bad_input(fmt::format("no .param {}{}", name, did_you_mean(name, names_in(parsed_.top.parameters))), {parsed_.file});
+                return bad_input(fmt::format("there is no .param {}{}", name, did_you_mean(name, names_in(parsed_.top.parameters))),
+                                 {parsed_.file});
         return top_.define(given);
     }
 
-    // ---- bodies ----
+    // ---- subcircuits ----
 
     Result<void> contents(Frame& frame) {
         for (const auto* s : frame.body->elements) {
@@ -66,7 +69,7 @@ private:
         }
         for (const auto* s : frame.body->ics) {
             if (const auto ok = flat_.visit(frame, *s); !ok) return ok;
-            if (const auto ok = start(frame, *s); !ok) return ok;
+            if (const auto ok = read_node_voltages(frame, *s); !ok) return ok;
         }
         return {};
     }
@@ -74,18 +77,20 @@ private:
     Result<void> instance(Frame& frame, const Statement& s) {
         const auto name = s.text(std::size_t{0});
         auto words = node_words(s);
-        if (words.size() < 1) return bad_input(fmt::format("{}: nodes and a subcircuit's name are wanted", name), s.place(std::size_t{1}));
+        if (words.size() < 1)
+            return bad_input(fmt::format("{}: expected nodes and the name of a subcircuit", name), s.place(std::size_t{1}));
         const Word of = words.back();
         words.pop_back();
         Frame inner;
         if (const auto ok = find_body(frame, s, of, inner); !ok) return ok;
         if (const auto ok = connect(frame, s, words, inner); !ok) return ok;
         inner.caller = &frame, inner.depth = frame.depth + 1, inner.path = fmt::format("{}{}.", frame.path, name);
-        if (inner.depth > deepest)
-            return bad_input(fmt::format("{}: subcircuits are nested more than {} deep", name, deepest), s.line.place());
-        if (const auto ok = not_itself(inner, s); !ok) return ok;
+        if (inner.depth > max_subcircuit_depth)
+            return bad_input(fmt::format("{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth),
+                             s.line.place());
+        if (const auto ok = check_recursion(inner, s); !ok) return ok;
         Values given;
-        if (const auto ok = overrule(frame, s, inner, given); !ok) return ok;
+        if (const auto ok = read_overrides(frame, s, inner, given); !ok) return ok;
         if (const auto ok = inner.define(given); !ok) return ok;
         return contents(inner);
     }
@@ -113,17 +118,17 @@ private:
     Result<void> connect(Frame& frame, const Statement& s, const std::vector<Word>& words, Frame& inner) {
         const auto& ports = inner.body->ports;
         if (words.size() != ports.size()) {
-            std::string wanted;
-            for (const auto& port : ports) wanted += wanted.size() < 100 ? ' ' + port : std::string();
+            std::string expected;
+            for (const auto& port : ports) expected += expected.size() < 100 ? ' ' + port : std::string();
             return bad_input(fmt::format("{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(std::size_t{0}), words.size(),
-                                         words.size() == 1 ? "" : "s", inner.body->name, ports.size(), wanted),
+                                         words.size() == 1 ? "" : "s", inner.body->name, ports.size(), expected),
                              s.line.place());
         }
         for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], flat_.node(frame, s.text(words[k])));
         return {};
     }
 
-    static Result<void> not_itself(const Frame& inner, const Statement& s) {
+    static Result<void> check_recursion(const Frame& inner, const Statement& s) {
         for (const Frame* f = inner.caller; f; f = f->caller) {
             if (f->body != inner.body) continue;
             std::string chain = inner.body->name;
@@ -133,8 +138,8 @@ private:
         return {};
     }
 
-    /// The parameters on the X line, worked out where it stands.
-    Result<void> overrule(const Frame& frame, const Statement& s, Frame& inner, Values& given) {
+    /// Evaluates the parameters of the X line in the scope that contains it.
+    Result<void> read_overrides(const Frame& frame, const Statement& s, Frame& inner, Values& given) {
         inner.m = frame.m;
         for (const auto& pair : s.named) {
             auto name = s.text(pair.name);
@@ -158,8 +163,8 @@ private:
                          s.place(pair.name));
     }
 
-    /// What formulas, F and H name must be there.
-    Result<void> keep_promises() const {
+    /// Checks that all names in expressions, F and H exist.
+    Result<void> check_references() const {
         const Circuit& c = flat_.circuit;
         for (const auto& p : flat_.promises) {
             if (p.of == Promise::Of::node) {
@@ -175,7 +180,7 @@ private:
                                     (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' || (e.letter == 'b' && e.formula_is_voltage)));
             if (!has_current)
                 return bad_input(
-                    fmt::format("{}: '{}' is no voltage source; one of 0 V in series with it measures its current", p.who, p.name),
+                    fmt::format("{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.who, p.name),
                     p.place);
         }
         return {};
@@ -196,8 +201,8 @@ private:
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
         for (const auto* s : parsed_.temperatures) {
             if (s->words.size() != 2)
-                return bad_input(".temp wants one temperature, in Celsius", s->place(std::min<std::size_t>(2, s->words.size())));
-            const auto value = top_.number(braced(*s, s->words[1], 0));
+                return bad_input(".temp: expected one temperature, in Celsius", s->place(std::min<std::size_t>(2, s->words.size())));
+            const auto value = top_.number(without_braces(*s, s->words[1], 0));
             if (!value) return value.error();
             c.temperature = *value;
         }
@@ -209,29 +214,29 @@ private:
     Result<void> options(const Statement& s) {
         Circuit& c = flat_.circuit;
         for (std::size_t k = 1; k < s.words.size(); ++k) {
-            if (auto wrong = wrong_option(s.text(k), {}, {}, s.place(k))) return *wrong;
+            if (auto error = wrong_option(s.text(k), {}, {}, s.place(k))) return *error;
             c.options.insert_or_assign(std::string(s.text(k)), 1.0);
         }
         for (const auto& pair : s.named) {
             const std::string name(s.text(pair.name));
             const auto text = s.text(pair.value);
-            const bool word = pair.value.kind == Word::Kind::quoted ||
-                              (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
-            if (word) {
-                if (auto wrong = wrong_option(name, {}, text, s.place(pair.name))) return *wrong;
+            const bool is_word = pair.value.kind == Word::Kind::quoted ||
+                                 (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
+            if (is_word) {
+                if (auto error = wrong_option(name, {}, text, s.place(pair.name))) return *error;
                 c.option_words.insert_or_assign(name, std::string(text));
                 continue;
             }
             const auto value = top_.number({&s, pair.value});
             if (!value) return value.error();
-            if (auto wrong = wrong_option(name, *value, {}, s.place(pair.name))) return *wrong;
+            if (auto error = wrong_option(name, *value, {}, s.place(pair.name))) return *error;
             c.options.insert_or_assign(name, *value);
         }
         return {};
     }
 
-    /// What stands in a command's word from `from` on, without the braces or quotes about it.
-    static Text braced(const Statement& s, Word w, std::uint32_t from) {
+    /// The part of a directive's word from offset `from` on, without surrounding braces or quotes.
+    static Text without_braces(const Statement& s, Word w, std::uint32_t from) {
         w.at += from, w.size -= from;
         const auto text = s.text(w);
         if (text.size() >= 2 && ((text[0] == '{' && text.back() == '}') || (text[0] == '\'' && text.back() == '\'')))
@@ -239,36 +244,36 @@ private:
         return {&s, w};
     }
 
-    /// .ic v(a)=1 v(b)={x}
-    Result<void> start(const Frame& frame, const Statement& s) {
+    /// Reads .ic v(a)=1 v(b)={x}, or .nodeset.
+    Result<void> read_node_voltages(const Frame& frame, const Statement& s) {
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             const auto text = s.text(k);
-            const auto close = text.find(')'), gives = text.find_first_not_of(" \t", std::min(close, text.size() - 1) + 1);
-            if (!text.starts_with("v(") || close == std::string_view::npos || gives == std::string_view::npos || text[gives] != '=')
-                return bad_input(fmt::format("'{}' where v(node)=value was expected", text), s.place(k));
-            auto from = text.find_first_not_of(" \t", gives + 1);
-            const auto value = frame.number(braced(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
+            const auto close = text.find(')'), equals = text.find_first_not_of(" \t", std::min(close, text.size() - 1) + 1);
+            if (!text.starts_with("v(") || close == std::string_view::npos || equals == std::string_view::npos || text[equals] != '=')
+                return bad_input(fmt::format("expected v(node)=value, not '{}'", text), s.place(k));
+            auto from = text.find_first_not_of(" \t", equals + 1);
+            const auto value = frame.number(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
             if (!value) return value.error();
             const auto node = trimmed(text.substr(2, close - 2));
-            if (is_ground(node)) return bad_input("ground is at 0 V always", s.place(k));
-            starts_.push_back({flat_.node_name(frame, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
+            if (is_ground(node)) return bad_input("ground is always at 0 V", s.place(k));
+            node_voltages_.push_back({flat_.node_name(frame, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
         }
         return {};
     }
-    Result<void> starts() {
+    Result<void> resolve_node_voltages() {
         Circuit& c = flat_.circuit;
-        for (const auto& start : starts_) {
-            const int k = c.node(start.node);
+        for (const auto& voltage : node_voltages_) {
+            const int k = c.node(voltage.node);
             if (k < 0) {
                 const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return bad_input(fmt::format("unknown node '{}'{}", start.node, did_you_mean(start.node, known)), start.place);
+                return bad_input(fmt::format("unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known)), voltage.place);
             }
-            (start.ic ? c.ic : c.nodesets).emplace_back(k, start.value);
+            (voltage.is_ic ? c.ic : c.nodesets).emplace_back(k, voltage.value);
         }
         return {};
     }
 
-    // ---- commands ----
+    // ---- directives ----
 
     void command(const Statement& s) {
         Command out{std::string(s.text(std::size_t{0}).substr(1)), {}, {}, s.line.place()};
@@ -279,13 +284,13 @@ private:
         flat_.circuit.commands.push_back(std::move(out));
     }
 
-    /// A netlist expects what it is as it is written.
-    void change_commands(Circuit& c) const {
+    /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides remove it.
+    void apply_overrides_to_commands(Circuit& c) const {
         const auto& changes = flat_.changes;
         const auto expectation =
             std::find_if(c.commands.begin(), c.commands.end(), [](const Command& one) { return one.name == "expect"; });
         if (changes.numbers_changed() && expectation != c.commands.end()) {
-            c.remarks.push_back(bad_input("it is not as it is written, so what it expects is left out", expectation->place));
+            c.remarks.push_back(bad_input("values of the netlist are overridden, so .expect is ignored", expectation->place));
             std::erase_if(c.commands, [](const Command& one) { return one.name == "expect"; });
         }
         std::erase_if(c.commands, [&](const Command& one) {
@@ -294,7 +299,7 @@ private:
         if (!changes.saved.empty()) c.commands.push_back({"save", changes.saved, {}, {c.file}});
     }
 
-    /// The word without blanks but those in quotes and braces; formulas of parameters alone as their values.
+    /// The word without blanks outside quotes and braces. Expressions of parameters only are replaced by their values.
     std::string without_blanks(const Statement& s, const Word& w) const {
         std::string out;
         const auto text = s.text(w);
@@ -305,7 +310,7 @@ private:
                 continue;
             }
             const auto end = group_end(text, k);
-            out += worked_out(s, w, k, end);
+            out += evaluated(s, w, k, end);
             k = end - 1;
         }
         return out;
@@ -319,12 +324,12 @@ private:
         }
         return text.size();
     }
-    std::string worked_out(const Statement& s, const Word& w, std::size_t from, std::size_t end) const {
-        const std::string as_is(s.text(w).substr(from, end - from));
-        if (as_is[0] == '"' || as_is.size() < 3) return as_is;
+    std::string evaluated(const Statement& s, const Word& w, std::size_t from, std::size_t end) const {
+        const std::string original(s.text(w).substr(from, end - from));
+        if (original[0] == '"' || original.size() < 3) return original;
         const Word inside{Word::Kind::formula, static_cast<std::uint32_t>(w.at + from + 1), static_cast<std::uint32_t>(end - from - 2)};
         const auto value = top_.number({&s, inside});
-        return value ? fmt::format("{:.17g}", *value) : as_is;
+        return value ? fmt::format("{:.17g}", *value) : original;
     }
 };
 
@@ -332,7 +337,7 @@ private:
 
 Result<Circuit> Netlist::elaborate(const Values& parameters) const {
     if (!parsed_) return Circuit{};
-    return Elaboration(*parsed_, changes()).run(parameters);
+    return CircuitElaborator(*parsed_, changes()).run(parameters);
 }
 
 }  // namespace corpuscle::circuit

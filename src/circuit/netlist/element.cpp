@@ -1,4 +1,4 @@
-// An element line as an element, by its first letter.
+// Reads an element line by its first letter.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -11,12 +11,12 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// What each letter may have by name, beside what is read apart.
-struct NamesRow {
+/// The parameters that elements of each letter may have by name.
+struct ElementNames {
     char letter;
     std::initializer_list<std::string_view> names;
 };
-const NamesRow names_rows[] = {
+const ElementNames element_names[] = {
     {'r', {"r", "tc1", "tc2", "m", "temp", "dtemp", "l", "w", "ac", "scale", "noisy"}},
     {'c', {"c", "q", "ic", "tc1", "tc2", "m", "temp", "dtemp", "l", "w", "scale"}},
     {'l', {"l", "ic", "tc1", "tc2", "m", "temp", "dtemp", "scale"}},
@@ -33,7 +33,7 @@ const NamesRow names_rows[] = {
 };
 
 std::span<const std::string_view> names_for(char letter) {
-    for (const auto& row : names_rows)
+    for (const auto& row : element_names)
         if (row.letter == letter) return {row.names.begin(), row.names.size()};
     return {};
 }
@@ -44,7 +44,7 @@ class ElementReader {
     const Statement& s_;
     std::string_view name_;
     Element out_;
-    std::vector<std::string_view> done_;  // names of pairs that are read apart
+    std::vector<std::string_view> read_names_;  // names of pairs that were read separately
 
 public:
     ElementReader(Flat& flat, Frame& frame, const Statement& s) : flat_(flat), frame_(frame), s_(s), name_(s.text(std::size_t{0})) {
@@ -54,11 +54,11 @@ public:
     }
 
     Result<void> read() {
-        if (name_.size() < 2) return wrong("an element's name has more than its letter, such as r1", 0);
+        if (name_.size() < 2) return wrong("the name of an element must be longer than its letter, such as r1", 0);
         if (const auto ok = by_letter(); !ok) return ok;
         if (const auto ok = pairs(); !ok) return ok;
-        overrule();
-        if (const auto ok = multiply(); !ok) return ok;
+        apply_overrides();
+        if (const auto ok = apply_multiplicity(); !ok) return ok;
         return flat_.add(std::move(out_));
     }
 
@@ -87,16 +87,16 @@ private:
         }
     }
 
-    Error wrong(std::string_view sentence, std::size_t word) const {
-        return bad_input(fmt::format("{}: {}", name_, sentence), s_.place(word));
+    Error wrong(std::string_view message, std::size_t word) const {
+        return bad_input(fmt::format("{}: {}", name_, message), s_.place(word));
     }
-    Error too_many(std::size_t word) const { return wrong(fmt::format("'{}' is a word too many", s_.text(word)), word); }
+    Error too_many(std::size_t word) const { return wrong(fmt::format("unexpected '{}'", s_.text(word)), word); }
 
-    /// The first n words behind the name are nodes.
-    Result<void> nodes(std::size_t n, std::string_view wanted) {
+    /// Reads the first n words after the name as nodes.
+    Result<void> nodes(std::size_t n, std::string_view expected) {
         for (std::size_t k = 1; k <= n; ++k) {
             if (k >= s_.words.size() || s_.words[k].kind != Word::Kind::plain)
-                return wrong(fmt::format("{} node{} where {} are wanted: {}", k - 1, k == 2 ? "" : "s", n, wanted), k);
+                return wrong(fmt::format("{} node{}, but expected {}: {}", k - 1, k == 2 ? "" : "s", n, expected), k);
             out_.nodes.push_back(flat_.node(frame_, s_.text(k)));
         }
         return {};
@@ -109,33 +109,34 @@ private:
         if (const auto ok = nodes(2, "two, then a value or a model"); !ok) return ok;
         bool has_value = false;
         for (std::size_t k = 3; k < s_.words.size(); ++k) {
-            const bool model = is_model(k, has_value);
-            if (model ? out_.model >= 0 : has_value) return too_many(k);
-            if (const auto ok = model ? passive_model(k) : value_of(text(k)); !ok) return ok;
-            has_value = has_value || !model;
+            const bool is_name = is_model(k, has_value);
+            if (is_name ? out_.model >= 0 : has_value) return too_many(k);
+            if (const auto ok = is_name ? passive_model(k) : value_of(text(k)); !ok) return ok;
+            has_value = has_value || !is_name;
         }
         const std::string_view own(&out_.letter, 1);
         if (const auto* pair = out_.letter == 'l' || out_.model < 0 || !has_value ? s_.find(own) : nullptr) {
-            if (has_value) return bad_input(fmt::format("{}: its value is said twice", name_), s_.place(pair->name));
-            done_.push_back(own);
+            if (has_value) return bad_input(fmt::format("{}: its value is given twice", name_), s_.place(pair->name));
+            read_names_.push_back(own);
             if (const auto ok = value_of({&s_, pair->value}); !ok) return ok;
             has_value = true;
         }
         if (const auto* q = out_.letter == 'c' ? s_.find("q") : nullptr) {
-            if (has_value) return bad_input(fmt::format("{}: both a capacitance and a charge", name_), s_.place(q->name));
+            if (has_value) return bad_input(fmt::format("{}: has both a capacitance and a charge", name_), s_.place(q->name));
             return formula(*q);
         }
         if (!has_value && out_.model < 0) return wrong("its value is missing", s_.words.size());
         if (out_.letter == 'r' && has_value && out_.value == 0)
-            return wrong("a resistor of 0 ohm; a voltage source of 0 V joins two nodes", 3);
+            return wrong("a resistor must not be 0 ohm; use a 0 V source to connect two nodes", 3);
         return {};
     }
-    /// Behind the nodes: a number or a formula is the value, a word that is no parameter a model.
+    /// After the nodes a number or an expression is the value; a word that is not a parameter is a model.
     bool is_model(std::size_t k, bool has_value) const {
         if (s_.words[k].kind != Word::Kind::plain || whole_number(s_.text(k))) return false;
         if (flat_.has_model(frame_, s_.text(k))) return true;
-        const bool letter = s_.text(k)[0] >= 'a' && s_.text(k)[0] <= 'z';
-        return letter && (has_value || (!frame_.parameter(s_.text(k)) && s_.text(k).find_first_of("*/+-") == std::string_view::npos));
+        const bool begins_with_letter = s_.text(k)[0] >= 'a' && s_.text(k)[0] <= 'z';
+        return begins_with_letter &&
+               (has_value || (!frame_.parameter(s_.text(k)) && s_.text(k).find_first_of("*/+-") == std::string_view::npos));
     }
     Result<void> passive_model(std::size_t k) {
         const std::string_view type[] = {std::string_view(&out_.letter, 1)};
@@ -161,14 +162,14 @@ private:
         auto waveform = read_waveform(frame_, s_);
         if (!waveform) return waveform.error();
         out_.waveform = std::move(*waveform);
-        for (const auto name : {"dc", "ac", "td", "r"}) done_.push_back(name);
+        for (const auto name : {"dc", "ac", "td", "r"}) read_names_.push_back(name);
         return {};
     }
 
     // ---- E G F H B ----
 
     Result<void> by_voltage() {
-        if (const auto ok = nodes(2, "plus, minus, then two that control, and the gain"); !ok) return ok;
+        if (const auto ok = nodes(2, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
         out_.formula_is_voltage = out_.letter == 'e';
         for (const auto name : {"value", "vol", "cur"})
             if (const auto* pair = s_.find(name)) {
@@ -177,10 +178,10 @@ private:
             }
         const auto kind = s_.text(3);
         if (kind == "poly" || kind == "table" || kind == "laplace" || kind == "freq")
-            return wrong(fmt::format("{} is not read; write value={{...}}", kind), 3);
+            return wrong(fmt::format("{} is not supported; write value={{...}}", kind), 3);
         out_.formula_is_voltage = false;
         out_.nodes.clear();
-        if (const auto ok = nodes(4, "plus, minus, then two that control, and the gain"); !ok) return ok;
+        if (const auto ok = nodes(4, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
         return gain(5);
     }
     Result<void> gain(std::size_t k) {
@@ -190,9 +191,9 @@ private:
     }
 
     Result<void> by_current() {
-        if (const auto ok = nodes(2, "plus, minus, then the voltage source whose current controls, and the gain"); !ok) return ok;
-        if (s_.text(3) == "poly") return wrong("poly is not read; a B source does the same", 3);
-        if (s_.words.size() < 4) return wrong("the voltage source is missing whose current controls", 3);
+        if (const auto ok = nodes(2, "plus, minus, then the controlling voltage source and the gain"); !ok) return ok;
+        if (s_.text(3) == "poly") return wrong("poly is not supported; use a B source instead", 3);
+        if (s_.words.size() < 4) return wrong("the controlling voltage source is missing", 3);
         out_.control = frame_.path + std::string(s_.text(3));
         flat_.promises.push_back({out_.control, s_.place(std::size_t{3}), std::string(name_), Promise::Of::source});
         return gain(4);
@@ -202,32 +203,32 @@ private:
         if (const auto ok = nodes(2, "plus and minus, then v=... or i=..."); !ok) return ok;
         if (s_.words.size() > 3) return too_many(3);
         const auto *v = s_.find("v"), *i = s_.find("i");
-        if (v && i) return bad_input(fmt::format("{}: both v=... and i=...", name_), s_.place(i->name));
-        if (!v && !i) return wrong("either v=... or i=... is wanted", s_.words.size());
+        if (v && i) return bad_input(fmt::format("{}: has both v=... and i=...", name_), s_.place(i->name));
+        if (!v && !i) return wrong("expected v=... or i=...", s_.words.size());
         out_.formula_is_voltage = v != nullptr;
         return formula(v ? *v : *i);
     }
 
     Result<void> formula(const Named& pair) {
-        done_.push_back(s_.text(pair.name));
+        read_names_.push_back(s_.text(pair.name));
         const Text t{&s_, pair.value};
         FormulaScope scope = frame_.scope();
         scope.inputs = true;
         scope.node = [this](std::string_view name) { return flat_.node_name(frame_, name); };
         scope.element = [this](std::string_view name) { return frame_.path + std::string(name); };
-        auto read = frame_.formula(t, std::move(scope));
-        if (!read) return read.error();
-        for (const auto& input : read->inputs()) promise(input, t.place());
-        out_.formula = std::move(*read);
+        auto expression = frame_.formula(t, std::move(scope));
+        if (!expression) return expression.error();
+        for (const auto& input : expression->inputs()) add_forward_reference(input, t.place());
+        out_.formula = std::move(*expression);
         return {};
     }
-    void promise(const FormulaInput& input, const Place& place) {
+    void add_forward_reference(const FormulaInput& input, const Place& location) {
         using Kind = FormulaInput::Kind;
         if (input.kind == Kind::current)
-            flat_.promises.push_back({input.name, place, std::string(name_), Promise::Of::current});
+            flat_.promises.push_back({input.name, location, std::string(name_), Promise::Of::current});
         else if (input.kind == Kind::voltage)
             for (const auto& node : {input.name, input.minus})
-                if (!node.empty()) flat_.promises.push_back({node, place, std::string(name_), Promise::Of::node});
+                if (!node.empty()) flat_.promises.push_back({node, location, std::string(name_), Promise::Of::node});
     }
 
     // ---- D M ----
@@ -251,14 +252,14 @@ private:
     }
 
     Result<void> transistor() {
-        constexpr std::string_view wanted = "drain, gate, source, bulk, then the model";
+        constexpr std::string_view expected = "drain, gate, source, bulk, then the model";
         constexpr std::string_view types[] = {"nmos", "pmos"};
         if (s_.words.size() == 5 && flat_.has_model(frame_, s_.text(4)))
-            return wrong(fmt::format("3 nodes where 4 are wanted: {}", wanted), 4);
-        if (const auto ok = nodes(4, wanted); !ok) return ok;
+            return wrong(fmt::format("3 nodes, but expected 4: {}", expected), 4);
+        if (const auto ok = nodes(4, expected); !ok) return ok;
         if (s_.words.size() < 6) return wrong("its model is missing", 5);
         if (s_.words.size() > 6 && !flat_.has_model(frame_, s_.text(5)) && flat_.has_model(frame_, s_.text(6)))
-            return wrong(fmt::format("5 nodes where 4 are wanted: {}", wanted), 5);
+            return wrong(fmt::format("5 nodes, but expected 4: {}", expected), 5);
         if (const auto ok = model(5, types); !ok) return ok;
         for (std::size_t k = 6; k < s_.words.size(); ++k) {
             if (s_.text(k) != "off") return too_many(k);
@@ -275,7 +276,7 @@ private:
             const auto name = s_.text(pair.name);
             if (std::find(known.begin(), known.end(), name) == known.end())
                 return bad_input(fmt::format("{}: unknown parameter '{}'{}", name_, name, did_you_mean(name, known)), s_.place(pair.name));
-            if (std::find(done_.begin(), done_.end(), name) != done_.end()) continue;
+            if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
             const auto value = frame_.number({&s_, pair.value});
             if (!value) return value.error();
             out_.values.insert_or_assign(std::string(name), *value);
@@ -285,33 +286,33 @@ private:
         return {};
     }
 
-    /// What is set from outside goes before what the line says.
-    void overrule() {
-        const auto set = flat_.changes.numbers.find(out_.name);
-        if (set == flat_.changes.numbers.end()) return;
-        const bool source = out_.letter == 'v' || out_.letter == 'i';
-        for (const auto& [name, value] : set->second) {
+    /// Overrides replace the values of the line.
+    void apply_overrides() {
+        const auto overrides = flat_.changes.numbers.find(out_.name);
+        if (overrides == flat_.changes.numbers.end()) return;
+        const bool is_source = out_.letter == 'v' || out_.letter == 'i';
+        for (const auto& [name, value] : overrides->second) {
             if (!name.empty())
                 out_.values.insert_or_assign(name, value);
-            else if (source)
+            else if (is_source)
                 out_.waveform.dc = value, out_.waveform.has_dc = true;
             else
                 out_.value = value;
         }
     }
 
-    /// In a subcircuit that stands m times in parallel every current is m times as large: an F's through what controls it, an H's must
-    /// be divided again.
-    Result<void> multiply() {
+    /// In m parallel copies of a subcircuit every current is m times as large. For F the controlling current already has the factor; the
+    /// gain of H is divided by it.
+    Result<void> apply_multiplicity() {
         if (frame_.m == 1) return {};
         if (out_.letter == 'h') out_.value /= frame_.m;
         if (out_.formula)
             for (const auto& input : out_.formula->inputs())
                 if (input.kind == FormulaInput::Kind::current)
-                    return wrong("a formula of a current does not go with m= of its subcircuit", 0);
-        const bool voltage =
+                    return wrong("an expression with a current is not supported in a subcircuit with m=", 0);
+        const bool is_voltage =
             out_.letter == 'v' || out_.letter == 'e' || out_.letter == 'h' || (out_.letter == 'b' && out_.formula_is_voltage);
-        if (voltage || out_.letter == 'f') return {};
+        if (is_voltage || out_.letter == 'f') return {};
         const auto at = out_.values.try_emplace("m", 1).first;
         at->second *= frame_.m;
         return {};

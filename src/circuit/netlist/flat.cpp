@@ -9,30 +9,30 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t most_name_letters = std::size_t{512} << 20;  // of all names
+constexpr std::size_t max_name_bytes = std::size_t{512} << 20;  // of all names together
 
-/// "res" is another word for "r".
+/// The short name of a model type: "res" means "r".
 std::string_view short_type(std::string_view type) {
     if (type == "res") return "r";
     if (type == "cap") return "c";
     return type == "ind" ? "l" : type;
 }
 
-std::string joined(std::span<const std::string_view> words) {
+std::string alternatives(std::span<const std::string_view> words) {
     std::string out;
     for (const auto w : words) out += fmt::format("{}{}", out.empty() ? "" : " or ", w);
     return out;
 }
 
-Error unknown_model(const Frame& frame, const Text& name, std::string_view who) {
+Error unknown_model(const Frame& frame, const Text& name, std::string_view user) {
     std::vector<std::string_view> known;
     for (const Frame* f = &frame; f; f = f->enclosing)
         for (const auto n : names_in(f->body->models)) known.push_back(n);
     constexpr std::string_view units[] = {"f",   "h",  "v",  "a",  "pf", "nf", "uf", "ohm", "k", "kohm",
                                           "meg", "mh", "uh", "nh", "fF", "p",  "n",  "u",   "m"};
-    const bool unit = std::find(std::begin(units), std::end(units), name.view()) != std::end(units);
-    const auto hint = unit ? "; a unit follows its number without a blank" : did_you_mean(name.view(), known);
-    return bad_input(fmt::format("{}: unknown model '{}'{}", who, name.view(), hint), name.place());
+    const bool is_unit = std::find(std::begin(units), std::end(units), name.view()) != std::end(units);
+    const auto hint = is_unit ? "; write a unit directly after its number, without a blank" : did_you_mean(name.view(), known);
+    return bad_input(fmt::format("{}: unknown model '{}'{}", user, name.view(), hint), name.place());
 }
 
 }  // namespace
@@ -47,8 +47,8 @@ std::string Flat::node_name(const Frame& frame, std::string_view name) const {
 int Flat::node(const Frame& frame, std::string_view name) {
     if (is_ground(name)) return 0;
     if (const auto port = frame.ports.find(name); port != frame.ports.end()) return port->second;
-    auto [at, fresh] = circuit.node_numbers.try_emplace(node_name(frame, name), static_cast<int>(circuit.nodes.size()));
-    if (fresh) {
+    auto [at, is_new] = circuit.node_numbers.try_emplace(node_name(frame, name), static_cast<int>(circuit.nodes.size()));
+    if (is_new) {
         circuit.nodes.push_back(at->first);
         letters_ += 2 * at->first.size();
     }
@@ -61,14 +61,14 @@ bool Flat::has_model(const Frame& frame, std::string_view name) const {
     return false;
 }
 
-Result<int> Flat::model(Frame& frame, const Text& name, std::string_view who, std::span<const std::string_view> types) {
+Result<int> Flat::model(Frame& frame, const Text& name, std::string_view user, std::span<const std::string_view> types) {
     Frame* f = &frame;
     while (f && !f->body->models.contains(name.view())) f = f->enclosing;
-    if (!f) return unknown_model(frame, name, who);
+    if (!f) return unknown_model(frame, name, user);
     const Statement& s = *f->body->models.find(name.view())->second;
     const auto type = short_type(s.text(2));
     if (std::find(types.begin(), types.end(), type) == types.end())
-        return bad_input(fmt::format("{}: model '{}' is of type {}; {} is wanted", who, name.view(), s.text(2), joined(types)),
+        return bad_input(fmt::format("{}: model '{}' has type {}; expected {}", user, name.view(), s.text(2), alternatives(types)),
                          name.place());
     if (const auto made = f->models.find(name.view()); made != f->models.end()) return made->second;
     Model model{f->path + std::string(name.view()), std::string(type), s.line.place(), {}, {}};
@@ -89,20 +89,22 @@ Result<int> Flat::model(Frame& frame, const Text& name, std::string_view who, st
 }
 
 Result<void> Flat::add(Element e) {
-    const auto [at, fresh] = circuit.element_numbers.try_emplace(e.name, static_cast<int>(circuit.elements.size()));
-    if (!fresh) {
+    const auto [at, is_new] = circuit.element_numbers.try_emplace(e.name, static_cast<int>(circuit.elements.size()));
+    if (!is_new) {
         const Place& first = circuit.elements[static_cast<std::size_t>(at->second)].place;
-        return bad_input(fmt::format("element '{}' is already given at {}:{}", e.name, first.file, first.line), e.place);
+        return bad_input(fmt::format("element '{}' is already defined at {}:{}", e.name, first.file, first.line), e.place);
     }
     circuit.elements.push_back(std::move(e));
     return {};
 }
 
 Result<void> Flat::visit(const Frame& frame, const Statement& s) {
-    if (++visited_ > most_elements) return bad_input(fmt::format("the circuit has more than {} elements", most_elements), s.line.place());
+    if (++visited_ > most_elements)
+        return bad_input(fmt::format("the circuit has more elements than the limit of {}", most_elements), s.line.place());
     letters_ += 2 * (frame.path.size() + s.text(std::size_t{0}).size()) + s.line.file->size();
-    if (letters_ > most_name_letters)
-        return bad_input(fmt::format("the names of all elements and nodes take more than {} MB", most_name_letters >> 20), s.line.place());
+    if (letters_ > max_name_bytes)
+        return bad_input(fmt::format("the names of all elements and nodes exceed the limit of {} MB", max_name_bytes >> 20),
+                         s.line.place());
     return {};
 }
 

@@ -1,15 +1,15 @@
 #pragma once
-// The flat circuit while it is made. Inside circuit/netlist only.
+// The flat circuit while it is built. Used inside circuit/netlist only.
 
 #include "circuit/netlist/frame.hpp"
 
 namespace corpuscle::circuit {
 
-/// Something named that must be there once the circuit is complete.
+/// A name that must exist when the circuit is complete.
 struct Promise {
-    std::string name;  ///< with its path
+    std::string name;  ///< full path
     Place place;
-    std::string who;  ///< "b1: v(x)", for the sentence
+    std::string who;  ///< the element that uses it, for the error message
     enum class Of { node, source, current } of;
 };
 
@@ -24,22 +24,22 @@ public:
 
     Flat(const ParsedNetlist& parsed, const Changes& set) : parsed_(parsed), changes(set) {}
 
-    /// A node's name in the circuit: of ground "0".
+    /// The name of a node in the circuit; ground is "0".
     std::string node_name(const Frame&, std::string_view name) const;
     int node(const Frame&, std::string_view name);
-    /// The model of this name as seen from the frame, worked out at its first use.
-    Result<int> model(Frame&, const Text& name, std::string_view who, std::span<const std::string_view> types);
+    /// The index of the model of this name as seen from the scope. The model is evaluated at its first use.
+    Result<int> model(Frame&, const Text& name, std::string_view user, std::span<const std::string_view> types);
     bool has_model(const Frame&, std::string_view name) const;
     Result<void> add(Element);
 
-    /// Counts a statement put in place, and what its name takes: both have limits.
+    /// Counts an elaborated statement and the memory of its name; both are limited.
     Result<void> visit(const Frame&, const Statement&);
 };
 
-/// An element line that is no X: its element, put in the circuit.
+/// Adds the element of any line but X to the circuit.
 Result<void> read_element(Flat&, Frame&, const Statement&);
 
-/// V, I: what stands behind the nodes.
+/// Reads the source specification of V and I, which follows the nodes.
 Result<Waveform> read_waveform(const Frame&, const Statement&);
 
 }  // namespace corpuscle::circuit

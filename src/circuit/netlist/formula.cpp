@@ -7,61 +7,62 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Room for a number a step: on the stack for all but the longest formulas.
-class Room {
-    static constexpr std::size_t few = 64;
-    double near_[few];
-    std::unique_ptr<double[]> far_;
-    double* at_;
+/// A buffer with a number for each step, on the stack for all but the longest expressions.
+class StepBuffer {
+    static constexpr std::size_t max_on_stack = 64;
+    double on_stack_[max_on_stack];
+    std::unique_ptr<double[]> on_heap_;
+    double* data_;
 
 public:
-    explicit Room(std::size_t n) : far_(n > few ? new double[n] : nullptr), at_(far_ ? far_.get() : near_) {}
-    double& operator[](std::size_t k) { return at_[k]; }
-    double& operator[](std::int32_t k) { return at_[static_cast<std::size_t>(k)]; }
+    explicit StepBuffer(std::size_t n)
+        : on_heap_(n > max_on_stack ? new double[n] : nullptr), data_(on_heap_ ? on_heap_.get() : on_stack_) {}
+    double& operator[](std::size_t k) { return data_[k]; }
+    double& operator[](std::int32_t k) { return data_[static_cast<std::size_t>(k)]; }
 };
 
 }  // namespace
 
-/// What each step comes to; the last is the value.
+/// Evaluates all steps; the last is the value.
 template <class Values>
-double Formula::run(std::span<const double> inputs, Values& values) const {
+double Formula::evaluate(std::span<const double> inputs, Values& values) const {
     for (std::size_t k = 0; k < steps_.size(); ++k) {
         const Step& s = steps_[k];
-        const auto what = static_cast<Operation>(s.what);
-        if (what == Operation::number)
+        const auto operation = static_cast<Operation>(s.what);
+        if (operation == Operation::number)
             values[k] = s.number;
-        else if (what == Operation::input)
+        else if (operation == Operation::input)
             values[k] = inputs[static_cast<std::size_t>(s.a)];
         else
-            values[k] = value_of(what, values[s.a], values[s.b], values[s.c]);
+            values[k] = value_of(operation, values[s.a], values[s.b], values[s.c]);
     }
     return steps_.empty() ? 0 : values[steps_.size() - 1];
 }
 
 double Formula::value(std::span<const double> inputs) const {
-    Room values(steps_.size());
-    return run(inputs, values);
+    StepBuffer values(steps_.size());
+    return evaluate(inputs, values);
 }
 
-/// The slopes by the reverse sweep: from the value back to what it came from, each step hands on what a change of it would do.
-/// A step that does nothing for the value hands on nothing, even where its own slope is infinite.
+/// Computes derivatives by reverse accumulation: from the value back to the inputs, each step passes its weight on to its operands.
+/// A step with weight 0 passes nothing on, even where its own derivative is infinite.
 double Formula::value(std::span<const double> inputs, std::span<double> slopes) const {
-    Room values(steps_.size()), weight(steps_.size());
-    const double value = run(inputs, values);
+    StepBuffer values(steps_.size()), weight(steps_.size());
+    const double value = evaluate(inputs, values);
     std::fill(slopes.begin(), slopes.end(), 0.0);
     for (std::size_t k = 0; k < steps_.size(); ++k) weight[k] = 0;
     if (!steps_.empty()) weight[steps_.size() - 1] = 1;
     for (std::size_t k = steps_.size(); k-- > 0;) {
         const Step& s = steps_[k];
-        const auto what = static_cast<Operation>(s.what);
+        const auto operation = static_cast<Operation>(s.what);
         const double w = weight[k];
-        if (w == 0 || what == Operation::number) continue;
-        if (what == Operation::input) {
+        if (w == 0 || operation == Operation::number) continue;
+        if (operation == Operation::input) {
             slopes[static_cast<std::size_t>(s.a)] += w;
             continue;
         }
-        const Slopes d = slopes_of(what, values[s.a], values[s.b], values[s.c], values[k]);
-        const int n = operands(what);
+        const Slopes d = slopes_of(operation, values[s.a], values[s.b], values[s.c], values[k]);
+        const int n = operands(operation);
         if (d.a != 0) weight[s.a] += w * d.a;
         if (n > 1 && d.b != 0) weight[s.b] += w * d.b;
         if (n > 2 && d.c != 0) weight[s.c] += w * d.c;

@@ -24,9 +24,9 @@ constexpr FunctionRow functions[] = {
     {"u", 1, 1, step},         {"u2", 1, 1, ramp_step},     {"unif", 2, 2, nominal},  {"uramp", 1, 1, ramp},
     {"pow", 2, 2, true_power}, {"pwr", 2, 2, signed_power},
 };
-constexpr FunctionRow solved_pow{"pow", 2, 2, magnitude_power}, unsolved_pwr{"pwr", 2, 2, magnitude_power};
+constexpr FunctionRow pow_with_inputs{"pow", 2, 2, magnitude_power}, pwr_in_parameters{"pwr", 2, 2, magnitude_power};
 
-/// As ngspice has them; kelvin is 0 K in Celsius.
+/// The constants of ngspice; kelvin is 0 K in Celsius.
 constexpr struct {
     std::string_view name;
     double value;
@@ -43,14 +43,14 @@ constexpr struct {
                  {"false", 0},
                  {"no", 0}};
 
-/// Turns are exact only while they are below 2^49; a wilder angle has no digits left that a processor could get differently wrong.
+/// num::sin_turns is exact for fewer than 2^49 turns. A larger angle has no significant digits in which processors could differ.
 double sine(double x) { return std::abs(x) < 1e14 ? num::sin_turns(x / (2 * pi)) : std::sin(x); }
 double cosine(double x) { return std::abs(x) < 1e14 ? num::cos_turns(x / (2 * pi)) : std::cos(x); }
 
 double logarithm(double x) {
-    constexpr double least = std::numeric_limits<double>::min(), scale = 18014398509481984.0;  // 2^54
-    if (x >= least && x <= std::numeric_limits<double>::max()) return num::log(x);
-    if (x > 0 && x < least) return num::log(x * scale) - num::log(scale);
+    constexpr double min_normal = std::numeric_limits<double>::min(), scale = 18014398509481984.0;  // 2^54
+    if (x >= min_normal && x <= std::numeric_limits<double>::max()) return num::log(x);
+    if (x > 0 && x < min_normal) return num::log(x * scale) - num::log(scale);
     return std::log(x);
 }
 
@@ -58,9 +58,9 @@ double signed_power_of(double x, double y) { return x < 0 ? -std::pow(-x, y) : s
 
 }  // namespace
 
-const FunctionRow* function_row(std::string_view name, bool solved) {
-    if (name == "pow" && solved) return &solved_pow;
-    if (name == "pwr" && !solved) return &unsolved_pwr;
+const FunctionRow* function_row(std::string_view name, bool with_inputs) {
+    if (name == "pow" && with_inputs) return &pow_with_inputs;
+    if (name == "pwr" && !with_inputs) return &pwr_in_parameters;
     for (const auto& row : functions)
         if (row.name == name) return &row;
     return nullptr;
@@ -215,7 +215,8 @@ double value_of(Operation o, double a, double b, double c) {
 }
 
 Slopes slopes_of(Operation o, double a, double b, double c, double value) {
-    const auto power = [&](double magnitude, double sign_of_a) -> Slopes {  // of m^b: by a through m = |a|, by b
+    const auto power = [&](double magnitude,
+                           double sign_of_a) -> Slopes {  // derivatives of m^b with respect to a, through m = |a|, and to b
         const double by_b = value == 0 ? 0 : value * logarithm(magnitude);
         return {b == 0 ? 0 : b * std::pow(magnitude, b - 1) * sign_of_a, by_b};
     };

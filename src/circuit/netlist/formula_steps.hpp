@@ -1,5 +1,5 @@
 #pragma once
-// What a step of a formula can do: its value from up to three others, and its slopes. Inside circuit/netlist only.
+// The operations of expressions: a value from up to three operands, and its derivatives. Used inside circuit/netlist only.
 
 #include <cstdint>
 #include <string_view>
@@ -24,7 +24,7 @@ enum class Operation : std::int16_t {
     both,
     either,
     choose,
-    magnitude_power,  // |x|^y: what ngspice's ^ and ** are
+    magnitude_power,  // |x|^y, as ^ and ** in ngspice
     true_power,       // C's pow
     signed_power,     // sgn(x) |x|^y
     abs,
@@ -60,16 +60,17 @@ enum class Operation : std::int16_t {
     nominal,
 };
 
-/// A function by the name that a netlist calls it.
+/// A function by its name in netlists.
 struct FunctionRow {
     std::string_view name;
-    int least, most;  ///< arguments
+    int least, most;  ///< number of arguments
     Operation operation;
 };
 
-/// The row of a function, or null. pow and pwr mean two things in ngspice: `solved` where voltages may stand, otherwise in .param.
-const FunctionRow* function_row(std::string_view name, bool solved);
-/// The value of a constant (pi, echarge ...), or null.
+/// The function of this name; null if there is none. In ngspice pow and pwr have two meanings: `with_inputs` selects the one for
+/// expressions that may use voltages, otherwise the one for .param.
+const FunctionRow* function_row(std::string_view name, bool with_inputs);
+/// The value of a constant (pi, echarge ...); null if there is none of this name.
 const double* constant_value(std::string_view name);
 /// Names of all functions and constants, for suggestions.
 std::string_view function_name(std::size_t k);  ///< "" after the last
@@ -77,13 +78,13 @@ std::string_view constant_name(std::size_t k);
 
 double value_of(Operation, double a, double b, double c);
 
-/// How a value changes with each operand.
+/// The derivatives of a value with respect to its operands.
 struct Slopes {
     double a = 0, b = 0, c = 0;
 };
 Slopes slopes_of(Operation, double a, double b, double c, double value);
 
-/// How many operands it has.
+/// The number of operands.
 int operands(Operation);
 
 }  // namespace corpuscle::circuit

@@ -1,4 +1,4 @@
-// A formula's steps as text again, in words that mean the same here and in ngspice's B sources.
+// Writes the steps of an expression as text that has the same meaning here and in ngspice's B sources.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -9,66 +9,68 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t most_letters = 1000000;
+constexpr std::size_t max_letters = 1000000;
 
-/// How tightly a text holds together: what is looser needs parentheses about it.
-enum class Hold { sum, product, whole };
+/// The precedence of a text. A text of lower precedence than its context needs parentheses.
+enum class Precedence { sum, product, atom };
 
-struct Piece {
+struct Fragment {
     std::string text;
-    Hold hold = Hold::whole;
-    double number = std::nan("");  ///< if it is one
+    Precedence precedence = Precedence::atom;
+    double number = std::nan("");  ///< the value of a number; NaN otherwise
 
-    std::string within(Hold least) const { return hold < least ? "(" + text + ")" : text; }
-    std::string whole() const { return within(Hold::whole); }
+    std::string in_context(Precedence required) const { return precedence < required ? "(" + text + ")" : text; }
+    std::string as_atom() const { return in_context(Precedence::atom); }
 };
 
-Piece number_piece(double x) {
+Fragment number_fragment(double x) {
     auto text = fmt::format("{}", x);
-    const auto hold = text[0] == '-' ? Hold::sum : Hold::whole;
-    return {std::move(text), hold, x};
+    const auto precedence = text[0] == '-' ? Precedence::sum : Precedence::atom;
+    return {std::move(text), precedence, x};
 }
 
-Piece call(std::string_view name, const Piece& a) { return {fmt::format("{}({})", name, a.text)}; }
-Piece call(std::string_view name, const Piece& a, const Piece& b) { return {fmt::format("{}({},{})", name, a.text, b.text)}; }
-Piece between(const Piece& a, std::string_view sign, const Piece& b) { return {fmt::format("({} {} {})", a.whole(), sign, b.whole())}; }
-Piece choice(std::string_view condition, std::string_view yes, std::string_view no) {
+Fragment call(std::string_view name, const Fragment& a) { return {fmt::format("{}({})", name, a.text)}; }
+Fragment call(std::string_view name, const Fragment& a, const Fragment& b) { return {fmt::format("{}({},{})", name, a.text, b.text)}; }
+Fragment between(const Fragment& a, std::string_view sign, const Fragment& b) {
+    return {fmt::format("({} {} {})", a.as_atom(), sign, b.as_atom())};
+}
+Fragment choice(std::string_view condition, std::string_view yes, std::string_view no) {
     return {fmt::format("({} ? {} : {})", condition, yes, no)};
 }
 
-/// Sums and products grow at their ends: the left operand keeps no parentheses that it does not need.
-Piece chain(const Piece& a, char sign, const Piece& b, Hold hold) {
-    const auto tighter = hold == Hold::sum ? Hold::product : Hold::whole;
-    return {a.within(hold) + sign + b.within(tighter), hold};
+/// A sum or product. The left operand of the same precedence needs no parentheses.
+Fragment chain(const Fragment& a, char sign, const Fragment& b, Precedence precedence) {
+    const auto higher = precedence == Precedence::sum ? Precedence::product : Precedence::atom;
+    return {a.in_context(precedence) + sign + b.in_context(higher), precedence};
 }
 
-/// The angle of the point (b, a), which ngspice has no function for.
-Piece angle(const Piece& a, const Piece& b) {
-    const auto y = a.whole(), x = b.whole(), slope = fmt::format("atan({}/{})", y, x);
+/// atan2(a, b), which ngspice does not have.
+Fragment angle(const Fragment& a, const Fragment& b) {
+    const auto y = a.as_atom(), x = b.as_atom(), slope = fmt::format("atan({}/{})", y, x);
     const auto left = choice(y + " < 0", slope + "-pi", slope + "+pi").text, on_axis = fmt::format("sgn({})*pi/2", y);
     return choice(x + " > 0", slope, choice(x + " < 0", left, on_axis).text);
 }
 
-/// e^x stays at e^700 beyond 700, in ngspice too.
-Piece exponential(const Piece& a) {
-    const bool safe = a.number <= 700 || a.text.starts_with("min(700,");
-    return safe ? call("exp", a) : Piece{fmt::format("exp(min(700,{}))", a.text)};
+/// exp with its argument limited to 700, so that ngspice limits it too.
+Fragment exponential(const Fragment& a) {
+    const bool is_limited = a.number <= 700 || a.text.starts_with("min(700,");
+    return is_limited ? call("exp", a) : Fragment{fmt::format("exp(min(700,{}))", a.text)};
 }
 
-Piece piece_of(Operation what, const Piece& a, const Piece& b, const Piece& c) {
+Fragment fragment_of(Operation what, const Fragment& a, const Fragment& b, const Fragment& c) {
     switch (what) {
         case Operation::add:
-            return chain(a, '+', b, Hold::sum);
+            return chain(a, '+', b, Precedence::sum);
         case Operation::subtract:
-            return chain(a, '-', b, Hold::sum);
+            return chain(a, '-', b, Precedence::sum);
         case Operation::multiply:
-            return chain(a, '*', b, Hold::product);
+            return chain(a, '*', b, Precedence::product);
         case Operation::divide:
-            return chain(a, '/', b, Hold::product);
+            return chain(a, '/', b, Precedence::product);
         case Operation::negative:
-            return {"-" + a.whole(), Hold::sum};
+            return {"-" + a.as_atom(), Precedence::sum};
         case Operation::bare_not:
-            return {fmt::format("({} == 0)", a.whole())};
+            return {fmt::format("({} == 0)", a.as_atom())};
         case Operation::less:
             return between(a, "<", b);
         case Operation::greater:
@@ -86,9 +88,9 @@ Piece piece_of(Operation what, const Piece& a, const Piece& b, const Piece& c) {
         case Operation::either:
             return between(a, "||", b);
         case Operation::choose:
-            return choice(a.whole(), b.whole(), c.whole());
+            return choice(a.as_atom(), b.as_atom(), c.as_atom());
         case Operation::magnitude_power:
-        case Operation::true_power:  // of voltages there is none: pow() is |x|^y among them
+        case Operation::true_power:  // never occurs with voltages, where pow() is |x|^y
             return call("pow", a, b);
         case Operation::signed_power:
             return call("pwr", a, b);
@@ -119,9 +121,9 @@ Piece piece_of(Operation what, const Piece& a, const Piece& b, const Piece& c) {
         case Operation::floor:
             return call("floor", a);
         case Operation::hypot:
-            return {fmt::format("sqrt({0}*{0}+{1}*{1})", a.whole(), b.whole())};
+            return {fmt::format("sqrt({0}*{0}+{1}*{1})", a.as_atom(), b.as_atom())};
         case Operation::integer:
-            return choice(a.whole() + " < 0", call("ceil", a).text, call("floor", a).text);
+            return choice(a.as_atom() + " < 0", call("ceil", a).text, call("floor", a).text);
         case Operation::log:
             return call("ln", a);
         case Operation::log10:
@@ -151,8 +153,8 @@ Piece piece_of(Operation what, const Piece& a, const Piece& b, const Piece& c) {
         case Operation::ramp:
             return call("uramp", a);
         case Operation::limit: {
-            const auto above = choice(fmt::format("{} > {}", a.whole(), c.whole()), c.whole(), a.whole());
-            return choice(fmt::format("{} < {}", a.whole(), b.whole()), b.whole(), above.text);
+            const auto above = choice(fmt::format("{} > {}", a.as_atom(), c.as_atom()), c.as_atom(), a.as_atom());
+            return choice(fmt::format("{} < {}", a.as_atom(), b.as_atom()), b.as_atom(), above.text);
         }
         case Operation::nominal:
         case Operation::number:
@@ -165,26 +167,26 @@ Piece piece_of(Operation what, const Piece& a, const Piece& b, const Piece& c) {
 }  // namespace
 
 Result<std::string> Formula::text(const std::function<std::string(const FormulaInput&)>& name) const {
-    std::vector<Piece> pieces;
+    std::vector<Fragment> fragments;
     std::size_t letters = 0;
     for (const Step& s : steps_) {
         const auto what = static_cast<Operation>(s.what);
-        const auto piece = [&](std::int32_t k) -> const Piece& { return pieces[static_cast<std::size_t>(k)]; };
+        const auto operand = [&](std::int32_t k) -> const Fragment& { return fragments[static_cast<std::size_t>(k)]; };
         if (what == Operation::number) {
-            if (!std::isfinite(s.number)) return bad_input("the formula has a number in it that is not finite");
-            pieces.push_back(number_piece(s.number));
+            if (!std::isfinite(s.number)) return bad_input("the expression contains a number that is not finite");
+            fragments.push_back(number_fragment(s.number));
         } else if (what == Operation::input) {
-            auto said = name(inputs_[static_cast<std::size_t>(s.a)]);
-            const auto hold = said[0] == '-' ? Hold::sum : Hold::whole;
-            pieces.push_back({std::move(said), hold});
+            auto text = name(inputs_[static_cast<std::size_t>(s.a)]);
+            const auto precedence = text[0] == '-' ? Precedence::sum : Precedence::atom;
+            fragments.push_back({std::move(text), precedence});
         } else {
-            pieces.push_back(piece_of(what, piece(s.a), piece(s.b), piece(s.c)));
+            fragments.push_back(fragment_of(what, operand(s.a), operand(s.b), operand(s.c)));
         }
-        letters += pieces.back().text.size();
-        if (pieces.back().text.size() > most_letters || letters > 256 * most_letters)
-            return bad_input(fmt::format("written out, the formula has more than {} letters", most_letters));
+        letters += fragments.back().text.size();
+        if (fragments.back().text.size() > max_letters || letters > 256 * max_letters)
+            return bad_input(fmt::format("written as text, the expression has more than {} characters", max_letters));
     }
-    return pieces.empty() ? std::string("0") : std::move(pieces.back().text);
+    return fragments.empty() ? std::string("0") : std::move(fragments.back().text);
 }
 
 }  // namespace corpuscle::circuit

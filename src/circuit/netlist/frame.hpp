@@ -1,5 +1,6 @@
 #pragma once
-// A body put in place: the top level, or a subcircuit under an X, its parameters worked out. Inside circuit/netlist only.
+// A scope of the elaboration: the top level, or an instance of a subcircuit (X), with its parameters evaluated. Used inside
+// circuit/netlist only.
 
 #include "circuit/netlist/body.hpp"
 
@@ -7,23 +8,23 @@ namespace corpuscle::circuit {
 
 struct Frame {
     const Body* body = nullptr;
-    const Frame* caller = nullptr;  ///< whose X this is; as in ngspice, names not known here mean what they mean there
-    Frame* enclosing = nullptr;     ///< the one in whose body this one's is defined: its models and subcircuits are seen from here
+    const Frame* caller = nullptr;  ///< the scope of the X line; as in ngspice, names that are unknown here are looked up there
+    Frame* enclosing = nullptr;     ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
     std::string path = {};          ///< "x1.x2."
-    ByName<int> ports = {};         ///< numbers of the nodes outside
-    ByName<int> models = {};        ///< already in the circuit
+    ByName<int> ports = {};         ///< numbers of the nodes that the ports are connected to
+    ByName<int> models = {};        ///< indices of models that are already in the circuit
     Values parameters = {};
-    double m = 1;  ///< as many of it in parallel
+    double m = 1;  ///< number of parallel instances
     int depth = 0;
 
     std::optional<double> parameter(std::string_view name) const;
     const FormulaScope::Function* function(std::string_view name) const;
 
-    /// Works out all parameters but those `given`, which overrule; in any order, a circle refused.
+    /// Evaluates all parameters; the values in `given` override. Parameters may be in any order, but a cycle is an error.
     Result<void> define(const Values& given);
 
     Result<double> number(const Text&) const;
-    /// A formula of voltages and currents; the scope says what these are called.
+    /// Parses an expression of voltages and currents; the scope translates their names.
     Result<Formula> formula(const Text&, FormulaScope) const;
     FormulaScope scope() const;
 

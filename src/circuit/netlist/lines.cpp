@@ -8,9 +8,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-bool blank(char c) { return c == ' ' || c == '\t'; }
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// Whether the text is UTF-8, as far as lengths of its sequences tell.
+/// True if the text is UTF-8, judged by the lengths of its sequences.
 bool is_utf8(std::string_view s) {
     for (std::size_t k = 0; k < s.size();) {
         const auto c = static_cast<unsigned char>(s[k++]);
@@ -34,22 +34,22 @@ std::string from_latin1(std::string_view s) {
 
 bool is_text(char c) { return c == '\t' || (c >= ' ' && c <= '~'); }
 
-Error strange_byte(std::string_view line, std::size_t at, Place place) {
+Error invalid_byte(std::string_view line, std::size_t at, Place location) {
     const auto byte = static_cast<unsigned char>(line[at]);
-    place.column = static_cast<long>(at) + 1;
-    const bool micro = byte == 0xb5 || (byte == 0xc2 && at + 1 < line.size() && static_cast<unsigned char>(line[at + 1]) == 0xb5);
-    const char* hint = micro       ? "write u for micro"
+    location.column = static_cast<long>(at) + 1;
+    const bool is_micro = byte == 0xb5 || (byte == 0xc2 && at + 1 < line.size() && static_cast<unsigned char>(line[at + 1]) == 0xb5);
+    const char* hint = is_micro    ? "write u for micro"
                        : byte == 0 ? "a netlist is text; is this UTF-16? Save it as UTF-8"
-                                   : "outside comments a netlist has plain ASCII letters";
-    return bad_input(fmt::format("byte 0x{:02X}: {}", byte, hint), std::move(place));
+                                   : "a netlist must be plain ASCII outside comments";
+    return bad_input(fmt::format("byte 0x{:02X}: {}", byte, hint), std::move(location));
 }
 
-/// Whether a comment begins here, outside quotes.
-bool comments(std::string_view line, std::size_t k) {
+/// True if a comment begins here; call it outside quotes only.
+bool begins_comment(std::string_view line, std::size_t k) {
     if (line[k] == ';') return true;
     if (line[k] == '/') return k + 1 < line.size() && line[k + 1] == '/';
     if (line[k] != '$') return false;
-    return (k == 0 || blank(line[k - 1]) || line[k - 1] == ',') && (k + 1 == line.size() || blank(line[k + 1]));
+    return (k == 0 || is_blank(line[k - 1]) || line[k - 1] == ',') && (k + 1 == line.size() || is_blank(line[k + 1]));
 }
 
 bool names_a_file(std::string_view text) {
@@ -99,7 +99,7 @@ Result<std::string> Lines::title() {
     std::string_view line;
     if (!take(line)) return std::string();
     for (std::size_t k = 0; k < line.size(); ++k)
-        if (!is_text(line[k]) && static_cast<unsigned char>(line[k]) < 0x80) return strange_byte(line, k, {*file_, 1, 0});
+        if (!is_text(line[k]) && static_cast<unsigned char>(line[k]) < 0x80) return invalid_byte(line, k, {*file_, 1, 0});
     return is_utf8(line) ? std::string(line) : from_latin1(line);
 }
 
@@ -108,49 +108,49 @@ Result<bool> Lines::next(Line& out) {
     while (take(line)) {
         const auto first = std::min(line.find_first_not_of(" \t"), line.size());
         if (first == line.size() || line[first] == '*') continue;
-        const bool goes_on = line[first] == '+';
-        if (goes_on && !begun_)
-            return bad_input("'+' goes on with the line before it, but there is none",
+        const bool is_continuation = line[first] == '+';
+        if (is_continuation && !has_next_)
+            return bad_input("'+' continues the previous line, but there is none",
                              {*file_, static_cast<long>(number_), static_cast<long>(first) + 1});
-        if (!goes_on && begun_) {  // the line before is complete; this one begins the next
+        if (!is_continuation && has_next_) {  // the previous line is complete; this one begins the next
             put_back();
-            if (auto given = give(out); !given || *given) return given;
+            if (auto complete = give(out); !complete || *complete) return complete;
             continue;
         }
-        if (const auto ok = add(line, goes_on ? first + 1 : first); !ok) return ok.error();
+        if (const auto ok = add(line, is_continuation ? first + 1 : first); !ok) return ok.error();
     }
-    return begun_ ? give(out) : Result<bool>(false);
+    return has_next_ ? give(out) : Result<bool>(false);
 }
 
-/// Adds a physical line's text, up to its comment, to the logical one.
+/// Appends the text of a physical line, up to its comment, to the logical line.
 Result<void> Lines::add(std::string_view line, std::size_t from) {
-    if (begun_) next_.text += ' ';
+    if (has_next_) next_.text += ' ';
     next_.pieces.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(from) + 1});
-    const bool as_is = names_a_file(begun_ ? next_.text : line.substr(from));
-    begun_ = true;
+    const bool keeps_case = names_a_file(has_next_ ? next_.text : line.substr(from));
+    has_next_ = true;
     for (std::size_t k = from; k < line.size(); ++k) {
         char c = line[k];
-        if (quote_ == 0 && comments(line, k)) break;
-        if (!is_text(c)) return strange_byte(line, k, {*file_, static_cast<long>(number_), 0});
+        if (quote_ == 0 && begins_comment(line, k)) break;
+        if (!is_text(c)) return invalid_byte(line, k, {*file_, static_cast<long>(number_), 0});
         const auto at = static_cast<std::uint32_t>(next_.text.size());
         if (c == quote_)
             quote_ = 0;
         else if (quote_ == 0 && (c == '\'' || c == '"'))
             quote_ = c, quote_at_ = at;
         if (c == 'M' || c == 'F') next_.capitals.push_back(at);
-        next_.text += as_is || quote_ == '"' ? c : lower(c);
+        next_.text += keeps_case || quote_ == '"' ? c : lower(c);
     }
     return {};
 }
 
-/// The line that is complete; false if nothing but a comment was in it.
+/// Returns the completed line; false if it contained only a comment.
 Result<bool> Lines::give(Line& out) {
-    begun_ = false;
+    has_next_ = false;
     out = std::exchange(next_, {});
     out.file = file_;
     if (std::exchange(quote_, '\0') != 0)
         return bad_input(fmt::format("this {} is not closed", out.text[quote_at_] == '"' ? "\"" : "'"), out.place(quote_at_));
-    while (!out.text.empty() && blank(out.text.back())) out.text.pop_back();
+    while (!out.text.empty() && is_blank(out.text.back())) out.text.pop_back();
     return !out.text.empty();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The logical lines of a netlist: comments gone, continuations joined, and each byte's place still known.
+// The logical lines of a netlist: comments are removed and continuation lines joined. The source location of each byte is kept.
 
 #include <cstdint>
 #include <memory>
@@ -11,9 +11,9 @@
 
 namespace corpuscle::circuit {
 
-/// A logical line: in small letters, but for what stands in double quotes and for lines that name files.
+/// A logical line in small letters, except for text in double quotes and for lines that name files.
 struct Line {
-    /// From `at` on, the text came from this line and column of the file.
+    /// From offset `at` on, the text comes from this line and column of the file.
     struct Piece {
         std::uint32_t at, line, column;
     };
@@ -21,30 +21,30 @@ struct Line {
     std::vector<Piece> pieces;
     std::shared_ptr<const std::string> file;
 
-    std::vector<std::uint32_t> capitals;  ///< where an F or M was a capital: people mean other scales by them than SPICE
+    std::vector<std::uint32_t> capitals;  ///< offsets of capital F and M, which users often mean differently from SPICE
 
     Place place(std::size_t at = 0) const;
     bool was_capital(std::size_t at) const;
 };
 
-/// Gives a file's logical lines one by one.
+/// Reads the logical lines of a file one by one.
 class Lines {
     std::shared_ptr<const std::string> file_;
     std::string_view rest_, last_;  // last_: rest_ before the physical line last taken
     std::uint32_t number_ = 0;      // of the physical line last taken
-    Line next_;                     // begun, and perhaps continued by what follows
-    char quote_ = 0;                // open at the end of what is in next_
+    Line next_;                     // the line being read; following lines may continue it
+    char quote_ = 0;                // the quote that is open at the end of next_; 0 if none
     std::uint32_t quote_at_ = 0;
-    bool begun_ = false;
+    bool has_next_ = false;
 
 public:
     Lines(std::string_view text, std::shared_ptr<const std::string> file);
 
-    /// The first line of the main file, which is nothing but a name; as UTF-8.
+    /// The first line of the main file, which is its title, as UTF-8.
     Result<std::string> title();
     /// The next line; false at the end.
     Result<bool> next(Line&);
-    /// Leaves out all lines, whatever is in them, to the one that begins with the word; false if there is none.
+    /// Skips all lines up to and including the one that begins with `word`. Returns false if there is none.
     bool skip_past(std::string_view word);
 
 private:

@@ -9,9 +9,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-Result<std::string> text_of(const std::string& path) { return read_whole_input(path, most_text, "netlist"); }
+Result<std::string> read_file_text(const std::string& path) { return read_whole_input(path, most_text, "netlist"); }
 
-int found(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
+int index_of_name(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
     const auto at = numbers.find(std::string(name));
     return at == numbers.end() ? -1 : at->second;
 }
@@ -20,13 +20,13 @@ int found(const std::unordered_map<std::string, int>& numbers, std::string_view 
 
 int Circuit::node(std::string_view name) const {
     if (is_ground(name)) return 0;
-    if (node_numbers.size() == nodes.size()) return found(node_numbers, name);
+    if (node_numbers.size() == nodes.size()) return index_of_name(node_numbers, name);
     const auto at = std::find(nodes.begin(), nodes.end(), name);
     return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());
 }
 
 int Circuit::element(std::string_view name) const {
-    if (element_numbers.size() == elements.size()) return found(element_numbers, name);
+    if (element_numbers.size() == elements.size()) return index_of_name(element_numbers, name);
     const auto at = std::find_if(elements.begin(), elements.end(), [&](const Element& e) { return e.name == name; });
     return at == elements.end() ? -1 : static_cast<int>(at - elements.begin());
 }
@@ -40,9 +40,9 @@ Result<Netlist> Netlist::parse(std::string text, std::string file, const Opener&
 }
 
 Result<Netlist> Netlist::read(const std::string& path, const std::string& corner) {
-    auto text = text_of(path);
+    auto text = read_file_text(path);
     if (!text) return text.error();
-    return parse(std::move(*text), path, text_of, corner);
+    return parse(std::move(*text), path, read_file_text, corner);
 }
 
 Netlist Netlist::with(Changes changes) const {

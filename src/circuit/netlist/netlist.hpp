@@ -1,5 +1,5 @@
 #pragma once
-// A SPICE netlist: its text as statements, and the flat circuit that it becomes once its parameters have values.
+// A SPICE netlist: its parsed statements, and the flat circuit that results once its parameters have values.
 
 #include <cstdint>
 #include <functional>
@@ -16,42 +16,42 @@
 
 namespace corpuscle::circuit {
 
-/// name=value, worked out; names in small letters.
+/// Evaluated name=value pairs; names in small letters.
 using Values = std::map<std::string, double, std::less<>>;
 
-/// A source's course in time, and its part in .ac.
+/// The specification of a source: DC value, AC stimulus and time waveform.
 struct Waveform {
     enum class Shape { none, pulse, sine, exponential, points, force } shape = Shape::none;
     double dc = 0;
     bool has_dc = false;
     double ac_magnitude = 0, ac_phase = 0;  ///< phase in degrees
-    std::vector<double> numbers;            ///< as they stand in PULSE( SIN( EXP( ; points: t1 v1 t2 v2 ...
+    std::vector<double> numbers;            ///< the arguments of PULSE, SIN or EXP; of PWL t1 v1 t2 v2 ...
 };
 
-/// An element, all its numbers worked out.
+/// An element with all its values evaluated.
 struct Element {
-    std::string name;        ///< small letters; inside subcircuits with their path: "x1.xinv.m1"
+    std::string name;        ///< in small letters, with the path of its subcircuit: "x1.xinv.m1"
     char letter = 0;         ///< r c l v i e f g h b d m
-    std::vector<int> nodes;  ///< numbers in Circuit::nodes, in the netlist's order; E, G: the controlling ones too
+    std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; of E and G also the controlling nodes
     Place place;
-    int model = -1;                   ///< in Circuit::models
-    double value = 0;                 ///< R C L: ohm, farad, henry; E F G H: the gain
-    Values values;                    ///< everything said by name: w, l, m, stack, delvto, ic, tc1 ...
-    Waveform waveform;                ///< V, I
-    std::optional<Formula> formula;   ///< B (v= or i=), C (q=), E and G (value=)
-    bool formula_is_voltage = false;  ///< B: v= rather than i=
-    std::string control;              ///< F, H: name of the voltage source whose current controls, with its path
+    int model = -1;                   ///< index in Circuit::models; -1 if none
+    double value = 0;                 ///< of R C L in ohm, farad, henry; of E F G H the gain
+    Values values;                    ///< all values given by name: w, l, m, stack, delvto, ic, tc1 ...
+    Waveform waveform;                ///< of V and I
+    std::optional<Formula> formula;   ///< of B (v= or i=), C (q=), E and G (value=)
+    bool formula_is_voltage = false;  ///< of B: true for v=, false for i=
+    std::string control;              ///< of F and H: the voltage source whose current controls, with its path
 };
 
 struct Model {
-    std::string name, type;  ///< d, nmos, pmos, r, c, ... in small letters; the name with its subcircuit's path, if it is a local one
+    std::string name, type;  ///< types are d, nmos, pmos, r, c, ...; the name of a local model has the path of its subcircuit
     Place place;
     Values values;
-    std::map<std::string, std::string, std::less<>> words;  ///< those that are no numbers: in double quotes, and version=3.3.0
+    std::map<std::string, std::string, std::less<>> words;  ///< values that are not numbers: text in double quotes, and version=3.3.0
 };
 
-/// A line that asks for something: .op, .dc, .ac, .meas, .print, .save, .expect, ... Its words in small letters but for quoted ones,
-/// formulas in braces already replaced by their values.
+/// A directive of the circuit: .op, .dc, .ac, .meas, .print, .save, .expect, ... Words are in small letters except for quoted ones, and
+/// expressions in braces are replaced by their values.
 struct Command {
     std::string name;  ///< "op", "dc", ... without the dot
     std::vector<std::string> words;
@@ -59,66 +59,66 @@ struct Command {
     Place place;
 };
 
-/// A netlist with all its subcircuits put in place and all its parameters worked out.
+/// A flat netlist: subcircuits are expanded and parameters are evaluated.
 struct Circuit {
     std::string title, file;
     std::vector<std::string> nodes{"0"};  ///< 0 is ground ("0", "gnd")
     std::vector<Element> elements;
     std::vector<Model> models;
     std::vector<Command> commands;
-    Values options;                                                ///< .options; a flag is 1
-    std::map<std::string, std::string, std::less<>> option_words;  ///< those whose value is a word: method=gear
+    Values options;                                                ///< of .options; a flag is 1
+    std::map<std::string, std::string, std::less<>> option_words;  ///< options whose value is a word: method=gear
     double temperature = 27;                                       ///< C
     std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
-    std::vector<Error> remarks;                                    ///< what deserves a warning, such as "1F is a femtofarad"
+    std::vector<Error> remarks;                                    ///< warnings, such as "1F is 1 femtofarad"
     Values parameters;                                             ///< .param of the top level
-    std::optional<std::uint64_t> mismatch;                         ///< it is a chip of a draw of this seed,
-    std::uint64_t chip = 0;                                        ///< the one of this number; copies are those that follow
+    std::optional<std::uint64_t> mismatch;                         ///< seed of the mismatch sample; nothing for the nominal circuit
+    std::uint64_t chip = 0;                                        ///< number of the chip for this seed; copies are the following chips
 
-    std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< by name, as elaborate() leaves them
+    std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by elaborate()
 
-    int node(std::string_view name) const;     ///< its number, or -1
-    int element(std::string_view name) const;  ///< its number, or -1
+    int node(std::string_view name) const;     ///< its index; -1 if there is none of this name
+    int element(std::string_view name) const;  ///< its index; -1 if there is none of this name
 };
 
-/// What is set of a netlist from outside, over what it says.
+/// Overrides of the values in a netlist.
 struct Changes {
-    std::string corner;                                  ///< the section that its libraries are read for; "": those that it names
+    std::string corner;                                  ///< section to read from libraries; "" means the sections that the netlist names
     Values parameters;                                   ///< .param of the top level
-    std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by their names with their paths; "" is the value of R C L V I ...
+    std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by full path; the name "" is the value of R C L V I ...
     std::optional<double> temperature;                   ///< C
-    std::optional<std::uint64_t> mismatch;               ///< the seed of the chip that is drawn; then .mc is left out
-    std::uint64_t chip = 0;                              ///< its number
-    std::vector<std::string> saved;                      ///< as if a .save named them
+    std::optional<std::uint64_t> mismatch;               ///< seed of the mismatch sample; if set, .mc is ignored
+    std::uint64_t chip = 0;                              ///< number of the chip for this seed
+    std::vector<std::string> saved;                      ///< additional names for .save
     bool numbers_changed() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch; }
-    bool saved_alone = false;  ///< in place of every .save
+    bool saved_alone = false;  ///< `saved` replaces every .save
 };
 
-/// The statements of a netlist and of all files it includes.
+/// The statements of a netlist and of all files that it includes.
 class Netlist {
     struct Parsed;
     std::shared_ptr<const Parsed> parsed_;
     std::shared_ptr<const Changes> changes_;
 
 public:
-    /// Opens what is included: gives the text of a file, by its path as resolved against the including file.
+    /// Returns the text of an included file. The path is resolved against the including file.
     using Opener = std::function<Result<std::string>(const std::string& path)>;
-    /// `corner`: the section to be read in place of the one that a line `.lib 'file' section` names, where the file has it; refused where
-    /// none has.
+    /// `corner` replaces the section of each line `.lib 'file' section` whose file has a section of this name. It is an error if no file
+    /// has one.
     static Result<Netlist> parse(std::string text, std::string file, const Opener& open, const std::string& corner = "");
     static Result<Netlist> read(const std::string& path, const std::string& corner = "");
 
-    /// The same with what is set of it. Its corner is of parse() alone.
+    /// The same netlist with overrides. The corner is not applied here but by parse().
     Netlist with(Changes) const;
     const Changes& changes() const;
     /// .param of the top level.
     struct Parameter {
-        std::string text;  ///< as it is written: "2*c_u"
-        bool own;          ///< of the netlist and its parts, not of a library
+        std::string text;  ///< as written in the netlist: "2*c_u"
+        bool own;          ///< defined in the netlist or an included file, not in a library section
     };
     std::map<std::string, Parameter, std::less<>> parameters() const;
 
-    /// The flat circuit. `parameters` overrule .param of the top level, and what is set.
+    /// The flat circuit. `parameters` override .param of the top level and the overrides of the netlist.
     Result<Circuit> elaborate(const Values& parameters = {}) const;
 };
 

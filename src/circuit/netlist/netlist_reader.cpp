@@ -1,4 +1,4 @@
-// The statements of a netlist into bodies; files it includes, sections of libraries.
+// Parses the statements of a netlist, of the files that it includes and of sections of libraries.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,24 +13,24 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t deepest_include = 50, deepest_subcircuit = 200;
+constexpr std::size_t max_include_depth = 50, max_definition_depth = 200;
 constexpr std::string_view element_letters = "rclveifghbdmx";
 
-constexpr std::string_view own_words[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
-                                          ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
-                                          ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
-constexpr std::string_view command_words[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",     ".sens", ".tran",
-                                              ".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
-                                              ".mc",   ".expect",  ".force", ".spike", ".within", ".four"};
+constexpr std::string_view structural_directives[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
+                                                      ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
+                                                      ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
+constexpr std::string_view circuit_directives[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",     ".sens", ".tran",
+                                                   ".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
+                                                   ".mc",   ".expect",  ".force", ".spike", ".within", ".four"};
 
-/// Values that go on over blanks: formulas of sources and charges.
-bool goes_on(char letter, std::string_view name) {
+/// True for values that may contain blanks: expressions of sources and charges.
+bool is_long_value(char letter, std::string_view name) {
     if (letter == 'b') return name == "v" || name == "i";
     if (letter == 'c') return name == "q";
     return (letter == 'e' || letter == 'g') && (name == "value" || name == "vol" || name == "cur");
 }
 
-std::string resolved(const std::string& from, std::string_view name) {
+std::string resolved_path(const std::string& from, std::string_view name) {
     return (std::filesystem::path(from).parent_path() / std::filesystem::path(name)).lexically_normal().string();
 }
 
@@ -42,18 +42,18 @@ class NetlistReader {
     };
     ParsedNetlist& out_;
     const Opener& open_;
-    std::map<std::string, std::shared_ptr<const std::string>> texts_;  // a library is often read for several sections
-    std::vector<Source> within_;                                       // files being read, outermost first
-    Body *body_, *floor_;                                              // the one being read; what a file began in, which it cannot close
+    std::map<std::string, std::shared_ptr<const std::string>> texts_;  // cached, because a library is often read for several sections
+    std::vector<Source> open_files_;                                   // files being read, outermost first
+    Body *body_, *file_body_;  // the definition being read; the one in which the file began, which the file cannot close
     std::size_t text_read_ = 0, opened_ = 0, subcircuit_depth_ = 0;
     bool ended_ = false;
     Corner corner_;
 
 public:
     NetlistReader(ParsedNetlist& out, const Opener& open, std::string corner)
-        : out_(out), open_(open), body_(&out.top), floor_(body_), corner_(std::move(corner)) {}
+        : out_(out), open_(open), body_(&out.top), file_body_(body_), corner_(std::move(corner)) {}
 
-    /// The netlist itself; then whether its libraries knew the corner.
+    /// Reads the netlist, then checks that a library had the corner.
     Result<void> read_all(std::string_view text, const std::string& path) {
         if (auto ok = read(text, path, ""); !ok) return ok;
         return corner_.found(path);
@@ -61,18 +61,19 @@ public:
 
     Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
         text_read_ += text.size();
-        if (text_read_ > most_text) return bad_input(fmt::format("more than {} MB of netlist", most_text >> 20), {path});
+        if (text_read_ > most_text)
+            return bad_input(fmt::format("the netlist and its included files exceed the limit of {} MB", most_text >> 20), {path});
         Lines lines(text, std::make_shared<const std::string>(path));
-        if (within_.empty())
+        if (open_files_.empty())
             if (const auto ok = take_title(lines); !ok) return ok;
-        within_.push_back({path, section});
+        open_files_.push_back({path, section});
         if (!section.empty()) out_.libraries.insert(path);
-        Body* const outer_floor = std::exchange(floor_, body_);
-        auto ok = section.empty() ? statements(lines) : section_of(lines, section);
-        if (ok && body_ != floor_)
+        Body* const outer_body = std::exchange(file_body_, body_);
+        auto ok = section.empty() ? statements(lines) : read_section(lines, section);
+        if (ok && body_ != file_body_)
             ok = bad_input(fmt::format(".subckt {} is not closed by .ends", body_->name), body_->head->place(std::size_t{0}));
-        floor_ = outer_floor;
-        within_.pop_back();
+        file_body_ = outer_body;
+        open_files_.pop_back();
         ended_ = false;
         return ok;
     }
@@ -82,15 +83,15 @@ private:
         auto title = lines.title();
         if (!title) return title.error();
         out_.title = std::string(trimmed(*title));
-        if (swallowed(out_.title))
+        if (looks_like_statement(out_.title))
             out_.remarks.push_back(bad_input(
                 fmt::format("the first line is the title, so '{}' is not read as a statement", std::string_view(out_.title).substr(0, 40)),
                 {out_.file, 1, 1}));
         return {};
     }
 
-    /// Whether a title looks like an element line or a dot line: "R1 a b 1k".
-    static bool swallowed(std::string_view title) {
+    /// True if a title looks like an element line or a directive: "R1 a b 1k".
+    static bool looks_like_statement(std::string_view title) {
         std::vector<std::string> words;
         for (std::size_t at = title.find_first_not_of(" \t"); at != std::string_view::npos && words.size() < 5;) {
             const auto end = std::min(title.find_first_of(" \t", at), title.size());
@@ -116,7 +117,8 @@ private:
     }
 
     Result<void> statement(Lines& lines, Line line) {
-        if (out_.statements.size() >= most_elements) return bad_input(fmt::format("more than {} statements", most_elements), line.place());
+        if (out_.statements.size() >= most_elements)
+            return bad_input(fmt::format("the netlist exceeds the limit of {} statements", most_elements), line.place());
         if (line.text[0] != '.') return element(std::move(line));
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         if (word == ".end") return ended_ = true, Result<void>();
@@ -130,72 +132,73 @@ private:
         if (word == ".lib") return library(lines, std::move(line));
         if (word == ".endl" || word == ".endc")
             return bad_input(fmt::format("{} without {}", word, word == ".endl" ? ".lib" : ".control"), line.place());
-        if (word == ".ic" || word == ".nodeset") return keep_command(std::move(line), body_->ics);
-        if (std::find(std::begin(own_words), std::end(own_words), word) == std::end(own_words) &&
-            std::find(std::begin(command_words), std::end(command_words), word) == std::end(command_words))
+        if (word == ".ic" || word == ".nodeset") return keep_directive(std::move(line), body_->ics);
+        if (std::find(std::begin(structural_directives), std::end(structural_directives), word) == std::end(structural_directives) &&
+            std::find(std::begin(circuit_directives), std::end(circuit_directives), word) == std::end(circuit_directives))
             return unknown(word, line.place());
         if (word == ".four")
-            return bad_input(".four: spectra of a transient are not computed here; --out x.csv writes the curve for another program",
+            return bad_input(".four: spectra of a transient are not supported; --out x.csv writes the curve for another program",
                              line.place());
-        if (body_->head) return bad_input(fmt::format("{} stands inside .subckt {}; it belongs outside", word, body_->name), line.place());
-        return of_top(word, std::move(line));
+        if (body_->head)
+            return bad_input(fmt::format("{} is not allowed inside .subckt {}; move it outside", word, body_->name), line.place());
+        return top_level_directive(word, std::move(line));
     }
 
-    Result<void> of_top(std::string_view word, Line line) {
+    Result<void> top_level_directive(std::string_view word, Line line) {
         if (word == ".title") return out_.title = trimmed(std::string_view(line.text).substr(word.size())), Result<void>();
         if (word == ".global") return global(std::move(line));
-        if (word == ".temp") return keep_command(std::move(line), out_.temperatures);
+        if (word == ".temp") return keep_directive(std::move(line), out_.temperatures);
         if (word.starts_with(".opt")) {
             auto read = element_statement(std::move(line), nullptr);
             if (!read) return read.error();
             out_.options.push_back(&keep(std::move(*read)));
             return {};
         }
-        return keep_command(std::move(line), out_.commands);
+        return keep_directive(std::move(line), out_.commands);
     }
 
-    static Error unknown(std::string_view word, Place place) {
-        std::vector<std::string_view> known(std::begin(own_words), std::end(own_words));
-        known.insert(known.end(), std::begin(command_words), std::end(command_words));
+    static Error unknown(std::string_view word, Place location) {
+        std::vector<std::string_view> known(std::begin(structural_directives), std::end(structural_directives));
+        known.insert(known.end(), std::begin(circuit_directives), std::end(circuit_directives));
         if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
-            return bad_input(fmt::format("{}: parts of a netlist on a condition are not read", word), std::move(place));
-        return bad_input(fmt::format("unknown statement '{}'{}", word, did_you_mean(word, known)), std::move(place));
+            return bad_input(fmt::format("{}: conditional parts of a netlist are not supported", word), std::move(location));
+        return bad_input(fmt::format("unknown statement '{}'{}", word, did_you_mean(word, known)), std::move(location));
     }
 
     Statement& keep(Statement s) { return out_.statements.emplace_back(std::move(s)); }
 
-    Result<void> keep_command(Line line, std::vector<const Statement*>& where) {
+    Result<void> keep_directive(Line line, std::vector<const Statement*>& list) {
         auto read = command_statement(std::move(line));
         if (!read) return read.error();
-        where.push_back(&keep(std::move(*read)));
+        list.push_back(&keep(std::move(*read)));
         return {};
     }
 
     Result<void> element(Line line) {
         if (element_letters.find(line.text[0]) == std::string_view::npos)
             return bad_input(
-                fmt::format("'{}': no element is known by the letter {}; known are R C L V I E F G H B D M X",
+                fmt::format("'{}': unknown element letter {}; known are R C L V I E F G H B D M X",
                             std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0]),
                 line.place());
-        auto read = element_statement(std::move(line), goes_on);
+        auto read = element_statement(std::move(line), is_long_value);
         if (!read) return read.error();
-        if (const auto ok = said_once(*read); !ok) return ok;
+        if (const auto ok = check_duplicates(*read); !ok) return ok;
         body_->elements.push_back(&keep(std::move(*read)));
         remark_on_units(*body_->elements.back(), out_.remarks);
         return {};
     }
 
-    static Result<void> said_once(const Statement& s) {
-        if (s.words.empty()) return bad_input("a name is missing before '='", s.line.place());
+    static Result<void> check_duplicates(const Statement& s) {
+        if (s.words.empty()) return bad_input("the name before '=' is missing", s.line.place());
         std::vector<std::string_view> names;
         for (const auto& pair : s.named) names.push_back(s.text(pair.name));
         std::sort(names.begin(), names.end());
         const auto twice = std::adjacent_find(names.begin(), names.end());
         if (twice == names.end()) return {};
-        Place place;
+        Place location;
         for (const auto& pair : s.named)
-            if (s.text(pair.name) == *twice) place = s.place(pair.name);
-        return bad_input(fmt::format("{}: {} is said twice", s.text(std::size_t{0}), *twice), std::move(place));
+            if (s.text(pair.name) == *twice) location = s.place(pair.name);
+        return bad_input(fmt::format("{}: {} is given twice", s.text(std::size_t{0}), *twice), std::move(location));
     }
 
     // ---- .param, .func, .model, .global ----
@@ -204,45 +207,45 @@ private:
         auto read = assignments(std::move(line));
         if (!read) return read.error();
         const Statement& s = keep(std::move(*read));
-        if (s.named.empty()) return bad_input(".param without name=value", s.line.place());
+        if (s.named.empty()) return bad_input(".param: expected name=value", s.line.place());
         for (const auto& pair : s.named) {
             const std::string name(s.text(pair.name));
             if (const auto open = name.find('('); open != std::string::npos) {
                 if (const auto ok = define(name, std::string(s.text(pair.value)), s.place(pair.name)); !ok) return ok;
                 continue;
             }
-            const auto [at, fresh] = body_->parameters.insert_or_assign(name, Text{&s, pair.value});
-            if (!fresh)
-                out_.remarks.push_back(bad_input(fmt::format(".param {} is given twice; this one holds", name), s.place(pair.name)));
+            const auto [at, is_new] = body_->parameters.insert_or_assign(name, Text{&s, pair.value});
+            if (!is_new)
+                out_.remarks.push_back(bad_input(fmt::format(".param {} is given twice; this value is used", name), s.place(pair.name)));
         }
         return {};
     }
 
-    /// .func f(x, y) {text}, with or without '=' before the text, which may stand in quotes, too.
+    /// Reads .func f(x, y) {text}; '=' before the text is optional, and the text may be in quotes instead of braces.
     Result<void> function(Line line) {
         const std::string_view text = line.text;
         const auto from = std::min(text.find_first_not_of(" \t", 5), text.size()), close = text.find(')', from);
-        if (close == std::string_view::npos) return bad_input(".func wants a function such as f(x) {2*x}", line.place(from));
+        if (close == std::string_view::npos) return bad_input(".func: expected a function such as f(x) {2*x}", line.place(from));
         auto body = trimmed(text.substr(close + 1));
         if (body.starts_with('=')) body = trimmed(body.substr(1));
-        const bool wrapped = body.size() >= 2 && ((body[0] == '{' && body.back() == '}') || (body[0] == '\'' && body.back() == '\''));
-        if (wrapped && body[0] == '\'') body = body.substr(1, body.size() - 2);
-        if (body.empty()) return bad_input(".func: the function has no formula; write f(x) {2*x}", line.place(close));
+        const bool is_enclosed = body.size() >= 2 && ((body[0] == '{' && body.back() == '}') || (body[0] == '\'' && body.back() == '\''));
+        if (is_enclosed && body[0] == '\'') body = body.substr(1, body.size() - 2);
+        if (body.empty()) return bad_input(".func: the expression is missing; write one such as f(x) {2*x}", line.place(close));
         return define(std::string(text.substr(from, close + 1 - from)), std::string(body), line.place(from));
     }
 
-    Result<void> define(std::string_view head, std::string text, Place place) {
+    Result<void> define(std::string_view head, std::string text, Place location) {
         const auto open = head.find('(');
         const std::string name(trimmed(head.substr(0, open)));
         if (open == std::string_view::npos || name.empty() || head.back() != ')')
-            return bad_input(fmt::format("'{}' is no function's head; write f(x,y)", head), std::move(place));
+            return bad_input(fmt::format("'{}' is not a function with arguments; write f(x,y)", head), std::move(location));
         FormulaScope::Function f{{}, std::move(text)};
         for (auto rest = trimmed(head.substr(open + 1, head.size() - open - 2)); !rest.empty();) {
             const auto comma = std::min(rest.find(','), rest.size());
             f.arguments.emplace_back(trimmed(rest.substr(0, comma)));
             rest.remove_prefix(std::min(comma + 1, rest.size()));
         }
-        if (f.arguments.size() > 100) return bad_input(fmt::format("{}() has more than 100 arguments", name), std::move(place));
+        if (f.arguments.size() > 100) return bad_input(fmt::format("{}() has more than 100 arguments", name), std::move(location));
         body_->functions.insert_or_assign(name, std::move(f));
         return {};
     }
@@ -251,17 +254,18 @@ private:
         auto read = element_statement(std::move(line), nullptr);
         if (!read) return read.error();
         if (read->words.size() < 3)
-            return bad_input(".model wants a name and a type, such as .model nm nmos (vto=0.5)", read->place(read->words.size()));
+            return bad_input(".model: expected a name and a type, such as .model nm nmos (vto=0.5)", read->place(read->words.size()));
         if (read->words.size() > 3)
-            return bad_input(fmt::format("'{}' where name=value was expected", read->text(3)), read->place(std::size_t{3}));
-        if (const auto ok = said_once(*read); !ok) return ok;
+            return bad_input(fmt::format("expected name=value, not '{}'", read->text(3)), read->place(std::size_t{3}));
+        if (const auto ok = check_duplicates(*read); !ok) return ok;
         const std::string name(read->text(1));
         if (const auto known = body_->models.find(name); known != body_->models.end())
-            return bad_input(fmt::format("model '{}' is already given at {}", name, where(*known->second)), read->place(std::size_t{1}));
+            return bad_input(fmt::format("model '{}' is already defined at {}", name, location_text(*known->second)),
+                             read->place(std::size_t{1}));
         body_->models.emplace(name, &keep(std::move(*read)));
         return {};
     }
-    static std::string where(const Statement& s) {
+    static std::string location_text(const Statement& s) {
         const Place p = s.line.place();
         return fmt::format("{}:{}", p.file, p.line);
     }
@@ -278,29 +282,31 @@ private:
     Result<void> subcircuit(Line line) {
         auto read = element_statement(std::move(line), nullptr);
         if (!read) return read.error();
-        if (read->words.size() < 2) return bad_input(".subckt wants a name and its nodes", read->place(std::size_t{1}));
-        if (const auto ok = said_once(*read); !ok) return ok;
-        if (++subcircuit_depth_ > deepest_subcircuit)
-            return bad_input(fmt::format("subcircuits are defined more than {} deep within each other", deepest_subcircuit),
+        if (read->words.size() < 2) return bad_input(".subckt: expected a name and nodes", read->place(std::size_t{1}));
+        if (const auto ok = check_duplicates(*read); !ok) return ok;
+        if (++subcircuit_depth_ > max_definition_depth)
+            return bad_input(fmt::format("definitions of subcircuits are nested deeper than the limit of {}", max_definition_depth),
                              read->line.place());
         const std::string name(read->text(1));
         auto& body = body_->subcircuits[name];
         if (body)
-            return bad_input(fmt::format("subcircuit '{}' is already given at {}", name, where(*body->head)), read->place(std::size_t{1}));
+            return bad_input(fmt::format("subcircuit '{}' is already defined at {}", name, location_text(*body->head)),
+                             read->place(std::size_t{1}));
         body = std::make_unique<Body>();
         body->name = name, body->outer = body_, body->head = &keep(std::move(*read));
         body_ = body.get();
-        return head_of(*body);
+        return read_head(*body);
     }
 
-    Result<void> head_of(Body& body) {
+    Result<void> read_head(Body& body) {
         const Statement& s = *body.head;
         std::set<std::string_view> seen;
         for (std::size_t k = 2; k < s.words.size(); ++k) {
             const auto port = s.text(k);
             if (port == "params:") continue;
-            if (is_ground(port)) return bad_input(fmt::format(".subckt {}: ground cannot be one of its nodes", body.name), s.place(k));
-            if (!seen.insert(port).second) return bad_input(fmt::format(".subckt {}: node '{}' stands twice", body.name, port), s.place(k));
+            if (is_ground(port)) return bad_input(fmt::format(".subckt {}: ground must not be one of its nodes", body.name), s.place(k));
+            if (!seen.insert(port).second)
+                return bad_input(fmt::format(".subckt {}: node '{}' is given twice", body.name, port), s.place(k));
             body.ports.emplace_back(port);
         }
         for (const auto& pair : s.named) {
@@ -314,9 +320,9 @@ private:
     Result<void> end_of_subcircuit(Line line) {
         auto read = command_statement(std::move(line));
         if (!read) return read.error();
-        if (body_ == floor_) return bad_input(".ends without .subckt", read->line.place());
+        if (body_ == file_body_) return bad_input(".ends without .subckt", read->line.place());
         if (read->words.size() > 1 && read->text(1) != body_->name)
-            return bad_input(fmt::format(".ends {} closes .subckt {}", read->text(1), body_->name), read->place(std::size_t{1}));
+            return bad_input(fmt::format(".ends {} does not match .subckt {}", read->text(1), body_->name), read->place(std::size_t{1}));
         body_ = body_->outer;
         --subcircuit_depth_;
         return {};
@@ -325,7 +331,7 @@ private:
     // ---- .control, .include, .lib ----
 
     Result<void> skip_control(Lines& lines, const Line& from) {
-        out_.remarks.push_back(bad_input(".control ... .endc is ngspice's own script and is not run", from.place()));
+        out_.remarks.push_back(bad_input(".control ... .endc is an ngspice script and is ignored", from.place()));
         if (!lines.skip_past(".endc")) return bad_input(".control is not closed by .endc", from.place());
         return {};
     }
@@ -334,7 +340,7 @@ private:
         auto read = command_statement(std::move(line));
         if (!read) return read.error();
         if (read->words.size() != 2)
-            return bad_input(".include wants one file; a name with blanks stands in quotes", read->place(read->words.size() < 2 ? 1 : 2));
+            return bad_input(".include: expected one file; put a name with blanks in quotes", read->place(read->words.size() < 2 ? 1 : 2));
         return open(unquoted(read->text(1)), "", read->place(std::size_t{1}));
     }
 
@@ -344,45 +350,47 @@ private:
         if (read->words.size() == 3) return open(unquoted(read->text(1)), lower(unquoted(read->text(2))), read->place(std::size_t{1}));
         const bool file = read->words.size() == 2 && unquoted(read->text(1)) != read->text(1);
         if (read->words.size() != 2 || file)
-            return bad_input(".lib wants a file and a section; a whole file is read by .include", read->place(std::size_t{1}));
+            return bad_input(".lib: expected a file and a section; to read a complete file, use .include", read->place(std::size_t{1}));
         return skip_section(lines, read->line.place());
     }
 
-    /// A section defined here, which only a ".lib file section" reads.
+    /// Skips the definition of a section; it is read only by ".lib file section".
     Result<void> skip_section(Lines& lines, Place from) {
         Line line;
         while (true) {
             const auto more = lines.next(line);
             if (!more) return more.error();
-            if (!*more) return bad_input(".lib with one word begins a section, and .endl is missing; a file is read by .include", from);
+            if (!*more) return bad_input(".lib with one word begins a section, but .endl is missing; to read a file, use .include", from);
             if (lower(std::string_view(line.text).substr(0, 5)) == ".endl") return {};
         }
     }
 
-    Result<void> open(std::string_view name, std::string section, Place place) {
+    Result<void> open(std::string_view name, std::string section, Place location) {
         ++opened_;
-        const std::string path = resolved(within_.back().path, name);
-        if (within_.size() > deepest_include)
-            return bad_input(fmt::format("files include each other more than {} deep", deepest_include), std::move(place));
-        if (opened_ > most_elements) return bad_input(fmt::format("more than {} files are included", most_elements), std::move(place));
+        const std::string path = resolved_path(open_files_.back().path, name);
+        if (open_files_.size() > max_include_depth)
+            return bad_input(fmt::format("included files are nested deeper than the limit of {}", max_include_depth), std::move(location));
+        if (opened_ > most_elements) return bad_input(fmt::format("more than {} files are included", most_elements), std::move(location));
         auto& text = texts_[path];
         if (!text) {
             auto opened = open_(path);
-            if (!opened) return bad_input(fmt::format("'{}': {}", name, opened.error().sentence), std::move(place));
+            if (!opened) return bad_input(fmt::format("'{}': {}", name, opened.error().sentence), std::move(location));
             text = std::make_shared<const std::string>(std::move(*opened));
         }
-        const auto kept = text;
-        const bool own = std::all_of(within_.begin(), within_.end(), [](const Source& s) { return s.section.empty(); });
-        if (own && !section.empty()) section = corner_.in_place_of(section, name, *kept);  // a library's own .lib lines stay as they are
-        if (std::find(within_.begin(), within_.end(), Source{path, section}) != within_.end())
-            return bad_input(fmt::format("'{}' includes itself", name), std::move(place));
-        auto ok = read(*kept, path, section);
-        if (!ok && ok.error().place.file.empty()) return bad_input(ok.error().sentence, std::move(place));
+        const auto shared_text = text;
+        const bool is_outside_library =
+            std::all_of(open_files_.begin(), open_files_.end(), [](const Source& s) { return s.section.empty(); });
+        // The corner does not replace the sections that a library itself names.
+        if (is_outside_library && !section.empty()) section = corner_.in_place_of(section, name, *shared_text);
+        if (std::find(open_files_.begin(), open_files_.end(), Source{path, section}) != open_files_.end())
+            return bad_input(fmt::format("'{}' includes itself", name), std::move(location));
+        auto ok = read(*shared_text, path, section);
+        if (!ok && ok.error().place.file.empty()) return bad_input(ok.error().sentence, std::move(location));
         return ok;
     }
 
-    /// What stands between ".lib section" and ".endl" of a library's file.
-    Result<void> section_of(Lines& lines, const std::string& section) {
+    /// Reads the lines between ".lib section" and ".endl" of a library.
+    Result<void> read_section(Lines& lines, const std::string& section) {
         std::vector<std::string> known;
         Line line;
         while (true) {
@@ -391,7 +399,7 @@ private:
             if (!*more) {
                 const std::vector<std::string_view> names(known.begin(), known.end());
                 return bad_input(
-                    fmt::format("library '{}' has no section '{}'{}", within_.back().path, section, did_you_mean(section, names)));
+                    fmt::format("library '{}' has no section '{}'{}", open_files_.back().path, section, did_you_mean(section, names)));
             }
             if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
             const auto head = command_statement(std::move(line));

@@ -11,24 +11,24 @@
 namespace corpuscle::circuit {
 namespace {
 
-bool digit(char c) { return c >= '0' && c <= '9'; }
-bool letter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
 
-/// Digits with at most one point; 0 if there are none.
+/// The length of the digits with at most one point; 0 if there are no digits.
 std::size_t mantissa_length(std::string_view s) {
     std::size_t n = 0;
     bool point = false;
-    while (n < s.size() && (digit(s[n]) || (s[n] == '.' && !point))) point |= s[n++] == '.';
+    while (n < s.size() && (is_digit(s[n]) || (s[n] == '.' && !point))) point |= s[n++] == '.';
     return n > (point ? 1 : 0) ? n : 0;
 }
 
-/// "e-9", "E+3", "d5": its length, 0 if it is none (a unit that begins with e).
+/// The length of an exponent such as "e-9", "E+3" or "d5"; 0 if the text is not an exponent but, for example, a unit.
 std::size_t exponent_length(std::string_view s) {
     if (s.empty() || (lower(s[0]) != 'e' && lower(s[0]) != 'd')) return 0;
     std::size_t n = 1;
     if (n < s.size() && (s[n] == '+' || s[n] == '-')) ++n;
     const auto first = n;
-    while (n < s.size() && digit(s[n])) ++n;
+    while (n < s.size() && is_digit(s[n])) ++n;
     return n > first ? n : 0;
 }
 
@@ -37,7 +37,7 @@ int exponent_of(std::string_view s) {
     const bool minus = s[1] == '-';
     int value = 0;
     for (const char c : s)
-        if (digit(c)) value = std::min(value * 10 + (c - '0'), 100000000);
+        if (is_digit(c)) value = std::min(value * 10 + (c - '0'), 100000000);
     return minus ? -value : value;
 }
 
@@ -55,7 +55,7 @@ Scale scale_of(std::string_view letters) {
     return k == std::string_view::npos ? Scale{} : Scale{powers[k]};
 }
 
-/// "10" with power -6 as "10e-6" is the nearest double to it; 10 times 1e-6 is not always.
+/// Converts "10" with power -6 as the text "10e-6", which gives the nearest double. The product 10 * 1e-6 does not always.
 double nearest(std::string_view mantissa, int power) {
     const std::string text = std::string(mantissa) + 'e' + std::to_string(power);
     double value = 0;
@@ -70,7 +70,7 @@ std::optional<SpiceNumber> leading_number(std::string_view text) {
     if (digits == 0) return {};
     const auto exponent = exponent_length(text.substr(digits)), start = digits + exponent;
     std::size_t end = start;
-    while (end < text.size() && letter(text[end])) ++end;
+    while (end < text.size() && is_letter(text[end])) ++end;
     const auto letters = text.substr(start, end - start);
     const auto scale = scale_of(letters);
     const int power = exponent_of(text.substr(digits, exponent)) + scale.power;
@@ -90,8 +90,8 @@ std::optional<std::string> ambiguous(const SpiceNumber& number, std::string_view
     const auto letters = lower(number.letters);
     if (letters.size() < 2 || letters[0] != 'a' || letters.starts_with("am")) return {};
     const auto digits = text.substr(0, text.size() - number.letters.size());
-    return fmt::format("'{}': some simulators read a as 1e-18 and some as no scale; write {}{}", text, digits,
-                       digits.find_first_of("eEdD") == std::string_view::npos ? "e-18" : ", with the exponent that is meant");
+    return fmt::format("'{}': some simulators read 'a' as 1e-18 and others ignore it; write {}{}", text, digits,
+                       digits.find_first_of("eEdD") == std::string_view::npos ? "e-18" : " with the intended exponent");
 }
 
 }  // namespace corpuscle::circuit

@@ -32,7 +32,7 @@ constexpr OptionRow option_rows[] = {
     {"method", true, 0, 0, "gear"},
 };
 
-/// Options of other simulators that steer their iterations, their memory or what they print: the circuit's equations are the same.
+/// Options of other simulators that control iterations, memory or output. They are ignored, since they do not change the equations.
 constexpr std::string_view without_effect[] = {
     "abstolpow",    "acct",   "autostop",    "bypass",      "chgtol",    "cptime",    "dvdt",         "gminsteps",
     "gshuntsteps",  "ingold", "interp",      "itl2",        "itl3",      "itl4",      "itl5",         "itl6",
@@ -44,38 +44,39 @@ constexpr std::string_view without_effect[] = {
     "wnflag",       "xmu",    "numsteps",    "ngdebug",     "brief",     "scalestop", "rawfmt",       "autoconv",
 };
 
-/// Those that change the circuit itself: passing them over would answer for another one.
-constexpr std::string_view not_read[] = {"defl",   "defw",   "defad", "defas",   "defnrd",    "defnrs",  "scale", "scalm",  "rshunt",
-                                         "gshunt", "cshunt", "cmin",  "badmos3", "geoshrink", "rseries", "minr",  "resmin", "parhier"};
+/// Options that change the circuit itself. Ignoring them would simulate a different circuit, so they are errors.
+constexpr std::string_view unsupported[] = {"defl",   "defw",   "defad", "defas",   "defnrd",    "defnrs",  "scale", "scalm",  "rshunt",
+                                            "gshunt", "cshunt", "cmin",  "badmos3", "geoshrink", "rseries", "minr",  "resmin", "parhier"};
 
 template <class Names>
-bool among(const Names& names, std::string_view name) {
+bool contains_name(const Names& names, std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
 }  // namespace
 
 std::optional<Error> wrong_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
-                                  const Place& place) {
+                                  const Place& location) {
     const auto* row = std::find_if(std::begin(option_rows), std::end(option_rows), [&](const OptionRow& r) { return r.name == name; });
     if (row == std::end(option_rows)) {
-        if (among(without_effect, name)) return {};
-        if (among(not_read, name))
-            return bad_input(fmt::format(".options {}: it changes the circuit and is not read here; say it at the elements", name), place);
+        if (contains_name(without_effect, name)) return {};
+        if (contains_name(unsupported, name))
+            return bad_input(
+                fmt::format(".options {}: not supported, because it changes the circuit; set it at the elements instead", name), location);
         std::vector<std::string_view> known;
         for (const auto& r : option_rows) known.push_back(r.name);
         const auto hint = did_you_mean(name, known);
         return bad_input(fmt::format("unknown option '{}'{}", name,
-                                     hint.empty() ? "; there are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "
+                                     hint.empty() ? "; known are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "
                                                     "spikecheck"
                                                   : hint),
-                         place);
+                         location);
     }
     if (row->takes_word && word) return {};
-    if (row->takes_word) return bad_input(fmt::format(".options {0}: a word is wanted, such as {0}={1}", name, row->example), place);
-    if (!number) return bad_input(fmt::format(".options {0}: a number is wanted, such as {0}={1}", name, row->example), place);
+    if (row->takes_word) return bad_input(fmt::format(".options {0}: expected a word, such as {0}={1}", name, row->example), location);
+    if (!number) return bad_input(fmt::format(".options {0}: expected a number, such as {0}={1}", name, row->example), location);
     if (!(*number >= row->min && *number <= row->max))
-        return bad_input(fmt::format(".options {}={:g} is outside [{:g}, {:g}]", name, *number, row->min, row->max), place);
+        return bad_input(fmt::format(".options {}={:g} is outside [{:g}, {:g}]", name, *number, row->min, row->max), location);
     return {};
 }
 

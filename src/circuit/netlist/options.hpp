@@ -1,5 +1,5 @@
 #pragma once
-// .options: the names that are known, and what each takes. Inside circuit/netlist only.
+// Checks .options: known names and their values. Used inside circuit/netlist only.
 
 #include <optional>
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace corpuscle::circuit {
 
-/// What is wrong with a name or its value, if anything is. `number` and `word` hold the value as it was read; without both it is a flag.
+/// Returns an error if the name or its value is invalid. The value is `number` or `word`; an option without both is a flag.
 std::optional<Error> wrong_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
-                                  const Place& place);
+                                  const Place& location);
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// What a Netlist holds. Inside circuit/netlist only.
+// The implementation of Netlist. Used inside circuit/netlist only.
 
 #include "circuit/netlist/body.hpp"
 

@@ -5,10 +5,10 @@
 namespace corpuscle::circuit {
 namespace {
 
-bool blank(char c) { return c == ' ' || c == '\t'; }
-bool in_name(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':'; }
+bool is_blank_char(char c) { return c == ' ' || c == '\t'; }
+bool is_in_name(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == ':'; }
 
-/// Goes through a line's text.
+/// A position in the text of a line.
 class Cursor {
     const Line& line_;
     std::string_view s_;
@@ -23,14 +23,14 @@ public:
     void skip(std::string_view these) { at = std::min(s_.find_first_not_of(these, at), s_.size()); }
     Error wrong(std::string sentence, std::size_t where) const { return bad_input(std::move(sentence), line_.place(where)); }
 
-    /// Whether '=' here gives a value, rather than being part of == <= >= !=.
-    bool gives(std::size_t k) const {
+    /// True if the character is an assignment '=', not a part of == <= >= !=.
+    bool is_assignment(std::size_t k) const {
         if (k >= s_.size() || s_[k] != '=') return false;
         if (k + 1 < s_.size() && s_[k + 1] == '=') return false;
         return k == 0 || std::string_view("=<>!~").find(s_[k - 1]) == std::string_view::npos;
     }
 
-    /// Past the group that opens here: ( ) { } with what is nested in them, or quotes.
+    /// The position after the group that opens here: ( ) or { } with nested groups, or quotes.
     Result<std::size_t> past_group() const {
         std::string open;
         for (std::size_t k = at; k < s_.size(); ++k) {
@@ -40,20 +40,20 @@ public:
             else if (c == '(' || c == '{')
                 open += c;
             else if (c == ')' || c == '}') {
-                if (open.empty() || (open.back() == '(') != (c == ')')) return wrong(fmt::format("this '{}' closes nothing", c), k);
+                if (open.empty() || (open.back() == '(') != (c == ')')) return wrong(fmt::format("unmatched '{}'", c), k);
                 open.pop_back();
             }
             if (open.empty()) return k + 1;
         }
         return wrong(fmt::format("this '{}' is not closed", s_[at]), at);
     }
-    bool opens() const { return here() == '(' || here() == '{' || here() == '\'' || here() == '"'; }
+    bool opens_group() const { return here() == '(' || here() == '{' || here() == '\'' || here() == '"'; }
 
-    /// Past what ends at a blank, a comma or a parenthesis that closes nothing here.
+    /// The position after a value that ends at a blank, a comma or an unmatched parenthesis.
     Result<std::size_t> past_value() const {
         Cursor c = *this;
-        while (!c.done() && !blank(c.here()) && c.here() != ',' && c.here() != ')' && !c.gives(c.at)) {
-            if (!c.opens()) {
+        while (!c.done() && !is_blank_char(c.here()) && c.here() != ',' && c.here() != ')' && !c.is_assignment(c.at)) {
+            if (!c.opens_group()) {
                 ++c.at;
                 continue;
             }
@@ -64,12 +64,12 @@ public:
         return c.at;
     }
 
-    /// Past what ends where the next pair begins.
-    Result<std::size_t> past_whole() const {
+    /// The position after a value that ends where the next pair begins.
+    Result<std::size_t> past_long_value() const {
         Cursor c = *this;
         while (!c.done()) {
-            if (c.gives(c.at)) return name_before(c.at);
-            if (!c.opens()) {
+            if (c.is_assignment(c.at)) return name_before(c.at);
+            if (!c.opens_group()) {
                 ++c.at;
                 continue;
             }
@@ -81,17 +81,17 @@ public:
     }
 
 private:
-    /// Where the name begins that stands before the '=' at k: "a" or "f(x, y)".
+    /// The beginning of the name before the '=' at k: "a" or "f(x, y)".
     std::size_t name_before(std::size_t k) const {
-        const auto back_over = [&](auto&& is) {
+        const auto skip_back = [&](auto&& is) {
             while (k > at && is(s_[k - 1])) --k;
         };
-        back_over(blank);
+        skip_back(is_blank_char);
         if (k > at && s_[k - 1] == ')') {
-            back_over([](char c) { return c != '('; });
+            skip_back([](char c) { return c != '('; });
             if (k > at) --k;
         }
-        back_over(in_name);
+        skip_back(is_in_name);
         return k;
     }
 };
@@ -100,35 +100,35 @@ Word word(std::size_t from, std::size_t to, Word::Kind kind = Word::Kind::plain)
     return {kind, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from)};
 }
 
-/// The text between, without blanks about it; a formula without the braces or quotes it stands in.
+/// The text between two positions, without surrounding blanks; an expression without its braces or quotes.
 Word value_word(std::string_view s, std::size_t from, std::size_t to) {
-    while (to > from && (blank(s[to - 1]) || s[to - 1] == ',')) --to;
+    while (to > from && (is_blank_char(s[to - 1]) || s[to - 1] == ',')) --to;
     if (to - from < 2) return word(from, to);
     const char open = s[from], close = s[to - 1];
     const auto inside = s.substr(from + 1, to - from - 2);
     if (open == '"' && close == '"' && inside.find('"') == std::string_view::npos) return word(from + 1, to - 1, Word::Kind::quoted);
-    const bool quoted = open == '\'' && close == '\'' && inside.find('\'') == std::string_view::npos;
-    const bool braced = open == '{' && close == '}' && inside.find_first_of("{}") == std::string_view::npos;
-    return quoted || braced ? word(from + 1, to - 1, Word::Kind::formula) : word(from, to);
+    const bool is_quoted = open == '\'' && close == '\'' && inside.find('\'') == std::string_view::npos;
+    const bool is_braced = open == '{' && close == '}' && inside.find_first_of("{}") == std::string_view::npos;
+    return is_quoted || is_braced ? word(from + 1, to - 1, Word::Kind::formula) : word(from, to);
 }
 
-Result<Word> value_here(Cursor& c, bool whole) {
+Result<Word> read_value(Cursor& c, bool is_long) {
     c.skip(" \t");
     const auto from = c.at;
-    const auto end = whole ? c.past_whole() : c.past_value();
+    const auto end = is_long ? c.past_long_value() : c.past_value();
     if (!end) return end.error();
     c.at = *end;
     const Word value = value_word(c.text(), from, c.at);
-    if (value.size == 0) return c.wrong("'=' without a value behind it", from > 0 ? from - 1 : 0);
+    if (value.size == 0) return c.wrong("'=' without a value after it", from > 0 ? from - 1 : 0);
     return value;
 }
 
-/// Counts the parentheses that part words: each must have its other.
+/// Skips separators and checks that separating parentheses are balanced.
 Result<void> skip_separators(Cursor& c, std::vector<std::size_t>& open) {
-    for (; !c.done() && (blank(c.here()) || c.here() == ',' || c.here() == '(' || c.here() == ')'); ++c.at) {
+    for (; !c.done() && (is_blank_char(c.here()) || c.here() == ',' || c.here() == '(' || c.here() == ')'); ++c.at) {
         if (c.here() == '(') open.push_back(c.at);
         if (c.here() != ')') continue;
-        if (open.empty()) return c.wrong("this ')' closes nothing", c.at);
+        if (open.empty()) return c.wrong("unmatched ')'", c.at);
         open.pop_back();
     }
     return {};
@@ -136,13 +136,14 @@ Result<void> skip_separators(Cursor& c, std::vector<std::size_t>& open) {
 
 Result<Word> plain_or_group(Cursor& c) {
     const auto from = c.at;
-    if (c.opens()) {
+    if (c.opens_group()) {
         const auto end = c.past_group();
         if (!end) return end.error();
         c.at = *end;
         return value_word(c.text(), from, c.at);
     }
-    while (!c.done() && !blank(c.here()) && c.here() != ',' && c.here() != ')' && !c.opens() && !c.gives(c.at)) ++c.at;
+    while (!c.done() && !is_blank_char(c.here()) && c.here() != ',' && c.here() != ')' && !c.opens_group() && !c.is_assignment(c.at))
+        ++c.at;
     return word(from, c.at);
 }
 
@@ -154,25 +155,25 @@ const Named* Statement::find(std::string_view name) const {
     return nullptr;
 }
 
-Result<Statement> element_statement(Line line, bool (*whole)(char, std::string_view)) {
+Result<Statement> element_statement(Line line, bool (*is_long_value)(char, std::string_view)) {
     Statement s{std::move(line), {}, {}};
     Cursor c(s.line);
     std::vector<std::size_t> open;
     while (true) {
         if (const auto ok = skip_separators(c, open); !ok) return ok.error();
         if (c.done()) break;
-        if (c.gives(c.at)) return c.wrong("'=' without a name before it", c.at);
+        if (c.is_assignment(c.at)) return c.wrong("'=' without a name before it", c.at);
         const auto first = plain_or_group(c);
         if (!first) return first.error();
         const auto after = c.at;
         c.skip(" \t");
-        if (!c.gives(c.at)) {
+        if (!c.is_assignment(c.at)) {
             c.at = after;
             s.words.push_back(*first);
             continue;
         }
         ++c.at;
-        const auto value = value_here(c, whole && whole(s.line.text[0], s.text(*first)));
+        const auto value = read_value(c, is_long_value && is_long_value(s.line.text[0], s.text(*first)));
         if (!value) return value.error();
         s.named.push_back({*first, *value});
     }
@@ -183,11 +184,11 @@ Result<Statement> element_statement(Line line, bool (*whole)(char, std::string_v
 Result<Statement> assignments(Line line) {
     Statement s{std::move(line), {}, {}};
     Cursor c(s.line);
-    while (!c.done() && !blank(c.here())) ++c.at;
+    while (!c.done() && !is_blank_char(c.here())) ++c.at;
     s.words.push_back(word(0, c.at));
     for (c.skip(" \t,"); !c.done(); c.skip(" \t,")) {
         const auto from = c.at;
-        while (!c.done() && in_name(c.here())) ++c.at;
+        while (!c.done() && is_in_name(c.here())) ++c.at;
         auto to = c.at;
         c.skip(" \t");
         if (c.here() == '(') {
@@ -196,9 +197,9 @@ Result<Statement> assignments(Line line) {
             to = c.at = *end;
             c.skip(" \t");
         }
-        if (!c.gives(c.at) || to == from) return c.wrong("expected name=value here", from);
+        if (!c.is_assignment(c.at) || to == from) return c.wrong("expected name=value here", from);
         ++c.at;
-        const auto value = value_here(c, true);
+        const auto value = read_value(c, true);
         if (!value) return value.error();
         s.named.push_back({word(from, to), *value});
     }
@@ -211,18 +212,18 @@ Result<Statement> command_statement(Line line) {
     for (c.skip(" \t,"); !c.done(); c.skip(" \t,")) {
         const auto from = c.at;
         while (!c.done()) {
-            if (c.opens()) {
+            if (c.opens_group()) {
                 const auto end = c.past_group();
                 if (!end) return end.error();
                 c.at = *end;
-            } else if (c.gives(c.at) && c.at > from) {
+            } else if (c.is_assignment(c.at) && c.at > from) {
                 ++c.at;
                 c.skip(" \t");
                 continue;
-            } else if (blank(c.here())) {  // a blank before '=' is not the word's end
+            } else if (is_blank_char(c.here())) {  // a blank before '=' does not end the word
                 const auto end = c.at;
                 c.skip(" \t");
-                if (c.gives(c.at)) continue;
+                if (c.is_assignment(c.at)) continue;
                 c.at = end;
                 break;
             } else if (c.here() == ',') {

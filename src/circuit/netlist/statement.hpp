@@ -1,5 +1,5 @@
 #pragma once
-// A logical line as words and name=value pairs.
+// A logical line split into words and name=value pairs.
 
 #include <cstdint>
 #include <optional>
@@ -10,9 +10,13 @@
 
 namespace corpuscle::circuit {
 
-/// A part of a line's text.
+/// A part of the text of a line.
 struct Word {
-    enum class Kind : std::uint8_t { plain, formula, quoted } kind = Kind::plain;  ///< formula: in {} or '', which are not part of it
+    enum class Kind : std::uint8_t {
+        plain,
+        formula,
+        quoted
+    } kind = Kind::plain;  ///< formula: an expression in {} or '', which are not part of it
     std::uint32_t at = 0, size = 0;
 };
 
@@ -28,25 +32,25 @@ struct Statement {
     std::string_view text(const Word& w) const { return std::string_view(line.text).substr(w.at, w.size); }
     std::string_view text(std::size_t k) const { return k < words.size() ? text(words[k]) : std::string_view(); }
     Place place(const Word& w) const { return line.place(w.at); }
-    /// Of the word, or of the line's end if there are fewer.
+    /// The location of word k, or of the end of the line if there are fewer words.
     Place place(std::size_t k) const { return line.place(k < words.size() ? words[k].at : line.text.size()); }
     const Named* find(std::string_view name) const;
 };
 
-/// Elements, .subckt and .model: blanks, commas and parentheses part words; "name = value" is a pair. A value goes on to the next blank
-/// or comma, but for those that `whole` says: these go on to the next pair or the end, blanks and all.
-Result<Statement> element_statement(Line, bool (*whole)(char letter, std::string_view name));
+/// Splits elements, .subckt and .model. Blanks, commas and parentheses separate words; "name = value" is a pair. A value ends at the next
+/// blank or comma, unless `is_long_value` is true for its name; it then extends to the next pair or the end, with its blanks.
+Result<Statement> element_statement(Line, bool (*is_long_value)(char letter, std::string_view name));
 
-/// .param: nothing but pairs, of which names may be "f(x, y)" and values go on to the next pair.
+/// Splits .param into pairs. A name may be "f(x, y)", and a value extends to the next pair.
 Result<Statement> assignments(Line);
 
-/// A word without the quotes about it.
+/// The word without its quotes.
 inline std::string_view unquoted(std::string_view s) {
     const bool quoted = s.size() >= 2 && (s[0] == '\'' || s[0] == '"') && s.back() == s[0];
     return quoted ? s.substr(1, s.size() - 2) : s;
 }
 
-/// All other dot lines: blanks and commas outside parentheses, quotes and braces part words; "a = 3" is one word.
+/// Splits all other directives. Blanks and commas outside parentheses, quotes and braces separate words; "a = 3" is one word.
 Result<Statement> command_statement(Line);
 
 }  // namespace corpuscle::circuit
