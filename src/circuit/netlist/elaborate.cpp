@@ -17,7 +17,7 @@ constexpr int max_subcircuit_depth = 200;
 
 class CircuitElaborator {
     const ParsedNetlist& parsed_;
-    Flat flat_;
+    Flat builder_;
     Frame top_;
 
     struct NodeVoltage {  // of .ic and .nodeset
@@ -29,12 +29,12 @@ class CircuitElaborator {
     std::vector<NodeVoltage> node_voltages_;
 
 public:
-    CircuitElaborator(const ParsedNetlist& parsed, const Changes& changes) : parsed_(parsed), flat_(parsed, changes) {
+    CircuitElaborator(const ParsedNetlist& parsed, const Changes& changes) : parsed_(parsed), builder_(parsed, changes) {
         top_.body = &parsed.top;
     }
 
     Result<Circuit> run(const Values& given) {
-        Circuit& c = flat_.circuit;
+        Circuit& c = builder_.circuit;
         c.title = parsed_.title, c.file = parsed_.file, c.remarks = parsed_.remarks;
         c.node_numbers.emplace("0", 0);
         if (auto ok = define_top(given); !ok) return ok.error();
@@ -51,7 +51,7 @@ public:
 private:
     Result<void> define_top(const Values& stepped) {
         auto given = stepped;
-        given.insert(flat_.changes.parameters.begin(), flat_.changes.parameters.end());
+        given.insert(builder_.changes.parameters.begin(), builder_.changes.parameters.end());
         for (const auto& [name, value] : given)
             if (!parsed_.top.parameters.contains(name))
                 return bad_input(fmt::format("there is no .param {}{}", name, did_you_mean(name, names_in(parsed_.top.parameters))),
@@ -63,12 +63,12 @@ private:
 
     Result<void> contents(Frame& frame) {
         for (const auto* s : frame.body->elements) {
-            if (const auto ok = flat_.visit(frame, *s); !ok) return ok;
-            const auto ok = s->line.text[0] == 'x' ? instance(frame, *s) : read_element(flat_, frame, *s);
+            if (const auto ok = builder_.visit(frame, *s); !ok) return ok;
+            const auto ok = s->line.text[0] == 'x' ? instance(frame, *s) : read_element(builder_, frame, *s);
             if (!ok) return ok;
         }
         for (const auto* s : frame.body->ics) {
-            if (const auto ok = flat_.visit(frame, *s); !ok) return ok;
+            if (const auto ok = builder_.visit(frame, *s); !ok) return ok;
             if (const auto ok = read_node_voltages(frame, *s); !ok) return ok;
         }
         return {};
@@ -124,7 +124,7 @@ private:
                                          words.size() == 1 ? "" : "s", inner.body->name, ports.size(), expected),
                              s.line.place());
         }
-        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], flat_.node(frame, s.text(words[k])));
+        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.node(frame, s.text(words[k])));
         return {};
     }
 
@@ -165,8 +165,8 @@ private:
 
     /// Checks that all names in expressions, F and H exist.
     Result<void> check_references() const {
-        const Circuit& c = flat_.circuit;
-        for (const auto& p : flat_.promises) {
+        const Circuit& c = builder_.circuit;
+        for (const auto& p : builder_.promises) {
             if (p.of == Promise::Of::node) {
                 if (c.node_numbers.contains(p.name)) continue;
                 const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
@@ -187,7 +187,7 @@ private:
     }
     std::vector<std::string_view> sources() const {
         std::vector<std::string_view> names;
-        for (const auto& e : flat_.circuit.elements)
+        for (const auto& e : builder_.circuit.elements)
             if (e.letter == 'v') names.push_back(e.name);
         return names;
     }
@@ -195,7 +195,7 @@ private:
     // ---- .options, .temp, .ic, .nodeset ----
 
     Result<void> settings() {
-        Circuit& c = flat_.circuit;
+        Circuit& c = builder_.circuit;
         for (const auto* s : parsed_.options)
             if (const auto ok = options(*s); !ok) return ok;
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
@@ -206,13 +206,13 @@ private:
             if (!value) return value.error();
             c.temperature = *value;
         }
-        c.temperature = flat_.changes.temperature.value_or(c.temperature);
-        c.mismatch = flat_.changes.mismatch, c.chip = flat_.changes.chip;
+        c.temperature = builder_.changes.temperature.value_or(c.temperature);
+        c.mismatch = builder_.changes.mismatch, c.chip = builder_.changes.chip;
         return {};
     }
 
     Result<void> options(const Statement& s) {
-        Circuit& c = flat_.circuit;
+        Circuit& c = builder_.circuit;
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             if (auto error = wrong_option(s.text(k), {}, {}, s.place(k))) return *error;
             c.options.insert_or_assign(std::string(s.text(k)), 1.0);
@@ -256,12 +256,12 @@ private:
             if (!value) return value.error();
             const auto node = trimmed(text.substr(2, close - 2));
             if (is_ground(node)) return bad_input("ground is always at 0 V", s.place(k));
-            node_voltages_.push_back({flat_.node_name(frame, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
+            node_voltages_.push_back({builder_.node_name(frame, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
         }
         return {};
     }
     Result<void> resolve_node_voltages() {
-        Circuit& c = flat_.circuit;
+        Circuit& c = builder_.circuit;
         for (const auto& voltage : node_voltages_) {
             const int k = c.node(voltage.node);
             if (k < 0) {
@@ -281,12 +281,12 @@ private:
             out.words.push_back(without_blanks(s, s.words[k]));
             out.columns.push_back(static_cast<int>(s.place(k).column));
         }
-        flat_.circuit.commands.push_back(std::move(out));
+        builder_.circuit.commands.push_back(std::move(out));
     }
 
     /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides remove it.
     void apply_overrides_to_commands(Circuit& c) const {
-        const auto& changes = flat_.changes;
+        const auto& changes = builder_.changes;
         const auto expectation =
             std::find_if(c.commands.begin(), c.commands.end(), [](const Command& one) { return one.name == "expect"; });
         if (changes.numbers_changed() && expectation != c.commands.end()) {

@@ -39,7 +39,7 @@ std::span<const std::string_view> names_for(char letter) {
 }
 
 class ElementReader {
-    Flat& flat_;
+    Flat& builder_;
     Frame& frame_;
     const Statement& s_;
     std::string_view name_;
@@ -47,7 +47,8 @@ class ElementReader {
     std::vector<std::string_view> read_names_;  // names of pairs that were read separately
 
 public:
-    ElementReader(Flat& flat, Frame& frame, const Statement& s) : flat_(flat), frame_(frame), s_(s), name_(s.text(std::size_t{0})) {
+    ElementReader(Flat& builder, Frame& frame, const Statement& s)
+        : builder_(builder), frame_(frame), s_(s), name_(s.text(std::size_t{0})) {
         out_.name = frame.path + std::string(name_);
         out_.letter = name_[0];
         out_.place = s.line.place();
@@ -57,9 +58,9 @@ public:
         if (name_.size() < 2) return wrong("the name of an element must be longer than its letter, such as r1", 0);
         if (const auto ok = by_letter(); !ok) return ok;
         if (const auto ok = pairs(); !ok) return ok;
-        apply_overrides();
+        override_values();
         if (const auto ok = apply_multiplicity(); !ok) return ok;
-        return flat_.add(std::move(out_));
+        return builder_.add(std::move(out_));
     }
 
 private:
@@ -97,7 +98,7 @@ private:
         for (std::size_t k = 1; k <= n; ++k) {
             if (k >= s_.words.size() || s_.words[k].kind != Word::Kind::plain)
                 return wrong(fmt::format("{} node{}, but expected {}: {}", k - 1, k == 2 ? "" : "s", n, expected), k);
-            out_.nodes.push_back(flat_.node(frame_, s_.text(k)));
+            out_.nodes.push_back(builder_.node(frame_, s_.text(k)));
         }
         return {};
     }
@@ -133,7 +134,7 @@ private:
     /// After the nodes a number or an expression is the value; a word that is not a parameter is a model.
     bool is_model(std::size_t k, bool has_value) const {
         if (s_.words[k].kind != Word::Kind::plain || whole_number(s_.text(k))) return false;
-        if (flat_.has_model(frame_, s_.text(k))) return true;
+        if (builder_.has_model(frame_, s_.text(k))) return true;
         const bool begins_with_letter = s_.text(k)[0] >= 'a' && s_.text(k)[0] <= 'z';
         return begins_with_letter &&
                (has_value || (!frame_.parameter(s_.text(k)) && s_.text(k).find_first_of("*/+-") == std::string_view::npos));
@@ -143,7 +144,7 @@ private:
         return model(k, type);
     }
     Result<void> model(std::size_t k, std::span<const std::string_view> types) {
-        const auto found = flat_.model(frame_, text(k), name_, types);
+        const auto found = builder_.model(frame_, text(k), name_, types);
         if (!found) return found.error();
         out_.model = *found;
         return {};
@@ -195,7 +196,7 @@ private:
         if (s_.text(3) == "poly") return wrong("poly is not supported; use a B source instead", 3);
         if (s_.words.size() < 4) return wrong("the controlling voltage source is missing", 3);
         out_.control = frame_.path + std::string(s_.text(3));
-        flat_.promises.push_back({out_.control, s_.place(std::size_t{3}), std::string(name_), Promise::Of::source});
+        builder_.promises.push_back({out_.control, s_.place(std::size_t{3}), std::string(name_), Promise::Of::source});
         return gain(4);
     }
 
@@ -214,7 +215,7 @@ private:
         const Text t{&s_, pair.value};
         FormulaScope scope = frame_.scope();
         scope.inputs = true;
-        scope.node = [this](std::string_view name) { return flat_.node_name(frame_, name); };
+        scope.node = [this](std::string_view name) { return builder_.node_name(frame_, name); };
         scope.element = [this](std::string_view name) { return frame_.path + std::string(name); };
         auto expression = frame_.formula(t, std::move(scope));
         if (!expression) return expression.error();
@@ -225,10 +226,10 @@ private:
     void add_forward_reference(const FormulaInput& input, const Place& location) {
         using Kind = FormulaInput::Kind;
         if (input.kind == Kind::current)
-            flat_.promises.push_back({input.name, location, std::string(name_), Promise::Of::current});
+            builder_.promises.push_back({input.name, location, std::string(name_), Promise::Of::current});
         else if (input.kind == Kind::voltage)
             for (const auto& node : {input.name, input.minus})
-                if (!node.empty()) flat_.promises.push_back({node, location, std::string(name_), Promise::Of::node});
+                if (!node.empty()) builder_.promises.push_back({node, location, std::string(name_), Promise::Of::node});
     }
 
     // ---- D M ----
@@ -254,11 +255,11 @@ private:
     Result<void> transistor() {
         constexpr std::string_view expected = "drain, gate, source, bulk, then the model";
         constexpr std::string_view types[] = {"nmos", "pmos"};
-        if (s_.words.size() == 5 && flat_.has_model(frame_, s_.text(4)))
+        if (s_.words.size() == 5 && builder_.has_model(frame_, s_.text(4)))
             return wrong(fmt::format("3 nodes, but expected 4: {}", expected), 4);
         if (const auto ok = nodes(4, expected); !ok) return ok;
         if (s_.words.size() < 6) return wrong("its model is missing", 5);
-        if (s_.words.size() > 6 && !flat_.has_model(frame_, s_.text(5)) && flat_.has_model(frame_, s_.text(6)))
+        if (s_.words.size() > 6 && !builder_.has_model(frame_, s_.text(5)) && builder_.has_model(frame_, s_.text(6)))
             return wrong(fmt::format("5 nodes, but expected 4: {}", expected), 5);
         if (const auto ok = model(5, types); !ok) return ok;
         for (std::size_t k = 6; k < s_.words.size(); ++k) {
@@ -287,9 +288,9 @@ private:
     }
 
     /// Overrides replace the values of the line.
-    void apply_overrides() {
-        const auto overrides = flat_.changes.numbers.find(out_.name);
-        if (overrides == flat_.changes.numbers.end()) return;
+    void override_values() {
+        const auto overrides = builder_.changes.numbers.find(out_.name);
+        if (overrides == builder_.changes.numbers.end()) return;
         const bool is_source = out_.letter == 'v' || out_.letter == 'i';
         for (const auto& [name, value] : overrides->second) {
             if (!name.empty())
@@ -321,6 +322,6 @@ private:
 
 }  // namespace
 
-Result<void> read_element(Flat& flat, Frame& frame, const Statement& s) { return ElementReader(flat, frame, s).read(); }
+Result<void> read_element(Flat& builder, Frame& frame, const Statement& s) { return ElementReader(builder, frame, s).read(); }
 
 }  // namespace corpuscle::circuit
