@@ -23,7 +23,7 @@ std::string spelling_of(std::string_view stimulus, std::string_view parameter) {
 }
 
 struct ForceSpec {
-    std::vector<Wish> wishes;
+    std::vector<Wish> overrides;
     double rate = 10e3;  // Hz
 };
 
@@ -40,7 +40,7 @@ Result<ForceSpec> parse_force_spec(const Command& c) {
             continue;
         }
         const std::string of(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
-        out.wishes.push_back(
+        out.overrides.push_back(
             {of, spelling_of(of, dot == std::string_view::npos ? name : name.substr(dot + 1)), fmt::format("{}", value->value)});
     }
     return out;
@@ -66,10 +66,10 @@ Result<std::unique_ptr<Source>> source_of(const Command& c) {
     if (c.words.empty()) return error_in(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
     const auto spec = parse_force_spec(c);
     if (!spec) return spec.error();
-    auto source = make_stimulus(c.words[0], spec->wishes, spec->rate, 0);
+    auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);
     if (!source) return error_in(c, 0, source.error().sentence);
-    for (const auto& wish : spec->wishes)
-        if (!wish.used) return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", wish.text(), wish.of));
+    for (const auto& parameter : spec->overrides)
+        if (!parameter.used) return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", parameter.text(), parameter.of));
     return source;
 }
 

@@ -256,21 +256,21 @@ Result<Netlist> tuned(const NetlistOpener& open, const std::string& name, std::s
     for (const auto& [own, text] : netlist->parameters()) parameters.push_back(own);
     std::vector<const Knob*> devices;
     for (const auto& setting : overrides) {
-        const auto what = lower(setting.name);
-        if (what == "corner") continue;
-        if (what == "temp") {
+        const auto lower_name = lower(setting.name);
+        if (lower_name == "corner") continue;
+        if (lower_name == "temp") {
             const auto value = temperature_of(setting);
             if (!value) return value.error();
             changes.temperature = *value;
-        } else if (what == "mismatch") {
+        } else if (lower_name == "mismatch") {
             const auto chip = chip_of(setting);
             if (!chip) return chip.error();
             changes.mismatch = chip->first, changes.chip = chip->second;
-        } else if (std::find(parameters.begin(), parameters.end(), what) != parameters.end()) {
-            if (auto ok = set_parameter(setting, what, changes); !ok) return ok.error();
+        } else if (std::find(parameters.begin(), parameters.end(), lower_name) != parameters.end()) {
+            if (auto ok = set_parameter(setting, lower_name, changes); !ok) return ok.error();
         } else if (setting.parameter_alone) {
             const std::vector<std::string_view> known(parameters.begin(), parameters.end());
-            return error_of(setting, fmt::format("{} has no .param {}{}", name, what, did_you_mean(what, known)));
+            return error_of(setting, fmt::format("{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known)));
         } else {
             devices.push_back(&setting);
         }

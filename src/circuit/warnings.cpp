@@ -48,12 +48,12 @@ void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
 }
 
 bool has_command(const Circuit& c, std::string_view command) {
-    return std::any_of(c.commands.begin(), c.commands.end(), [&](const Command& one) { return one.name == command; });
+    return std::any_of(c.commands.begin(), c.commands.end(), [&](const Command& directive) { return directive.name == command; });
 }
 
 void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
-    const bool without_uic = std::any_of(c.commands.begin(), c.commands.end(), [](const Command& one) {
-        return one.name == "tran" && (one.words.empty() || one.words.back() != "uic");
+    const bool without_uic = std::any_of(c.commands.begin(), c.commands.end(), [](const Command& directive) {
+        return directive.name == "tran" && (directive.words.empty() || directive.words.back() != "uic");
     });
     if (without_uic)
         warn(
@@ -72,10 +72,10 @@ void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
 
 void warn_about_missing_ac(std::vector<Error>& out, const Circuit& c) {
     if (std::any_of(c.elements.begin(), c.elements.end(), [](const Element& e) { return e.waveform.ac_magnitude != 0; })) return;
-    for (const auto& one : c.commands)
-        if (one.name == "ac") {
+    for (const auto& directive : c.commands)
+        if (directive.name == "ac") {
             out.push_back(
-                bad_input(".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'", one.place));
+                bad_input(".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'", directive.place));
             return;
         }
 }
@@ -97,12 +97,13 @@ void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
 }
 
 void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
-    for (const auto& one : c.commands) {
-        if (one.name != "tran" || one.words.size() < 2) continue;
-        const auto step = whole_number(one.words[0]), stop = whole_number(one.words[1]);
+    for (const auto& directive : c.commands) {
+        if (directive.name != "tran" || directive.words.size() < 2) continue;
+        const auto step = whole_number(directive.words[0]), stop = whole_number(directive.words[1]);
         if (step && stop && stop->value > 0 && step->value > stop->value)
             out.push_back(bad_input(
-                fmt::format(".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP", one.words[0], one.words[1]), one.place));
+                fmt::format(".tran: STEP {} is longer than STOP {}; the order is .tran STEP STOP", directive.words[0], directive.words[1]),
+                directive.place));
     }
 }
 

@@ -288,13 +288,14 @@ private:
     void apply_overrides_to_commands(Circuit& c) const {
         const auto& changes = builder_.changes;
         const auto expectation =
-            std::find_if(c.commands.begin(), c.commands.end(), [](const Command& one) { return one.name == "expect"; });
+            std::find_if(c.commands.begin(), c.commands.end(), [](const Command& directive) { return directive.name == "expect"; });
         if (changes.numbers_changed() && expectation != c.commands.end()) {
             c.remarks.push_back(bad_input("values of the netlist are overridden, so .expect is ignored", expectation->place));
-            std::erase_if(c.commands, [](const Command& one) { return one.name == "expect"; });
+            std::erase_if(c.commands, [](const Command& directive) { return directive.name == "expect"; });
         }
-        std::erase_if(c.commands, [&](const Command& one) {
-            return (changes.saved_alone && (one.name == "save" || one.name == "probe")) || (changes.mismatch && one.name == "mc");
+        std::erase_if(c.commands, [&](const Command& directive) {
+            return (changes.saved_alone && (directive.name == "save" || directive.name == "probe")) ||
+                   (changes.mismatch && directive.name == "mc");
         });
         if (!changes.saved.empty()) c.commands.push_back({"save", changes.saved, {}, {c.file}});
     }

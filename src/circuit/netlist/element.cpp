@@ -55,7 +55,7 @@ public:
     }
 
     Result<void> read() {
-        if (name_.size() < 2) return wrong("the name of an element must be longer than its letter, such as r1", 0);
+        if (name_.size() < 2) return error_at("the name of an element must be longer than its letter, such as r1", 0);
         if (const auto ok = by_letter(); !ok) return ok;
         if (const auto ok = pairs(); !ok) return ok;
         override_values();
@@ -88,16 +88,16 @@ private:
         }
     }
 
-    Error wrong(std::string_view message, std::size_t word) const {
+    Error error_at(std::string_view message, std::size_t word) const {
         return bad_input(fmt::format("{}: {}", name_, message), s_.place(word));
     }
-    Error too_many(std::size_t word) const { return wrong(fmt::format("unexpected '{}'", s_.text(word)), word); }
+    Error too_many(std::size_t word) const { return error_at(fmt::format("unexpected '{}'", s_.text(word)), word); }
 
     /// Reads the first n words after the name as nodes.
     Result<void> nodes(std::size_t n, std::string_view expected) {
         for (std::size_t k = 1; k <= n; ++k) {
             if (k >= s_.words.size() || s_.words[k].kind != Word::Kind::plain)
-                return wrong(fmt::format("{} node{}, but expected {}: {}", k - 1, k == 2 ? "" : "s", n, expected), k);
+                return error_at(fmt::format("{} node{}, but expected {}: {}", k - 1, k == 2 ? "" : "s", n, expected), k);
             out_.nodes.push_back(builder_.node(frame_, s_.text(k)));
         }
         return {};
@@ -126,9 +126,9 @@ private:
             if (has_value) return bad_input(fmt::format("{}: has both a capacitance and a charge", name_), s_.place(q->name));
             return formula(*q);
         }
-        if (!has_value && out_.model < 0) return wrong("its value is missing", s_.words.size());
+        if (!has_value && out_.model < 0) return error_at("its value is missing", s_.words.size());
         if (out_.letter == 'r' && has_value && out_.value == 0)
-            return wrong("a resistor must not be 0 ohm; use a 0 V source to connect two nodes", 3);
+            return error_at("a resistor must not be 0 ohm; use a 0 V source to connect two nodes", 3);
         return {};
     }
     /// After the nodes a number or an expression is the value; a word that is not a parameter is a model.
@@ -179,22 +179,22 @@ private:
             }
         const auto kind = s_.text(3);
         if (kind == "poly" || kind == "table" || kind == "laplace" || kind == "freq")
-            return wrong(fmt::format("{} is not supported; write value={{...}}", kind), 3);
+            return error_at(fmt::format("{} is not supported; write value={{...}}", kind), 3);
         out_.formula_is_voltage = false;
         out_.nodes.clear();
         if (const auto ok = nodes(4, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
         return gain(5);
     }
     Result<void> gain(std::size_t k) {
-        if (k >= s_.words.size()) return wrong("its gain is missing", k);
+        if (k >= s_.words.size()) return error_at("its gain is missing", k);
         if (s_.words.size() > k + 1) return too_many(k + 1);
         return value_of(text(k));
     }
 
     Result<void> by_current() {
         if (const auto ok = nodes(2, "plus, minus, then the controlling voltage source and the gain"); !ok) return ok;
-        if (s_.text(3) == "poly") return wrong("poly is not supported; use a B source instead", 3);
-        if (s_.words.size() < 4) return wrong("the controlling voltage source is missing", 3);
+        if (s_.text(3) == "poly") return error_at("poly is not supported; use a B source instead", 3);
+        if (s_.words.size() < 4) return error_at("the controlling voltage source is missing", 3);
         out_.control = frame_.path + std::string(s_.text(3));
         builder_.promises.push_back({out_.control, s_.place(std::size_t{3}), std::string(name_), Promise::Of::source});
         return gain(4);
@@ -205,7 +205,7 @@ private:
         if (s_.words.size() > 3) return too_many(3);
         const auto *v = s_.find("v"), *i = s_.find("i");
         if (v && i) return bad_input(fmt::format("{}: has both v=... and i=...", name_), s_.place(i->name));
-        if (!v && !i) return wrong("expected v=... or i=...", s_.words.size());
+        if (!v && !i) return error_at("expected v=... or i=...", s_.words.size());
         out_.formula_is_voltage = v != nullptr;
         return formula(v ? *v : *i);
     }
@@ -236,7 +236,7 @@ private:
 
     Result<void> diode() {
         if (const auto ok = nodes(2, "anode, cathode, then the model"); !ok) return ok;
-        if (s_.words.size() < 4) return wrong("its model is missing", 3);
+        if (s_.words.size() < 4) return error_at("its model is missing", 3);
         constexpr std::string_view types[] = {"d"};
         if (const auto ok = model(3, types); !ok) return ok;
         for (std::size_t k = 4; k < s_.words.size(); ++k) {
@@ -256,11 +256,11 @@ private:
         constexpr std::string_view expected = "drain, gate, source, bulk, then the model";
         constexpr std::string_view types[] = {"nmos", "pmos"};
         if (s_.words.size() == 5 && builder_.has_model(frame_, s_.text(4)))
-            return wrong(fmt::format("3 nodes, but expected 4: {}", expected), 4);
+            return error_at(fmt::format("3 nodes, but expected 4: {}", expected), 4);
         if (const auto ok = nodes(4, expected); !ok) return ok;
-        if (s_.words.size() < 6) return wrong("its model is missing", 5);
+        if (s_.words.size() < 6) return error_at("its model is missing", 5);
         if (s_.words.size() > 6 && !builder_.has_model(frame_, s_.text(5)) && builder_.has_model(frame_, s_.text(6)))
-            return wrong(fmt::format("5 nodes, but expected 4: {}", expected), 5);
+            return error_at(fmt::format("5 nodes, but expected 4: {}", expected), 5);
         if (const auto ok = model(5, types); !ok) return ok;
         for (std::size_t k = 6; k < s_.words.size(); ++k) {
             if (s_.text(k) != "off") return too_many(k);
@@ -310,7 +310,7 @@ private:
         if (out_.formula)
             for (const auto& input : out_.formula->inputs())
                 if (input.kind == FormulaInput::Kind::current)
-                    return wrong("an expression with a current is not supported in a subcircuit with m=", 0);
+                    return error_at("an expression with a current is not supported in a subcircuit with m=", 0);
         const bool is_voltage =
             out_.letter == 'v' || out_.letter == 'e' || out_.letter == 'h' || (out_.letter == 'b' && out_.formula_is_voltage);
         if (is_voltage || out_.letter == 'f') return {};

@@ -50,7 +50,7 @@ constexpr int power_level = 7;
 
 class FormulaReader {
     using Index = std::int32_t;
-    static constexpr Index failed = -1;
+    static constexpr Index no_index = -1;
     using Arguments = std::vector<std::pair<std::string, Index>>;
 
     const FormulaScope& scope_;
@@ -71,8 +71,8 @@ public:
 
     Result<Formula> read() {
         Index last = choice();
-        if (last != failed) last = expect_end(last);
-        if (last == failed) return *error_;
+        if (last != no_index) last = expect_end(last);
+        if (last == no_index) return *error_;
         remove_unused(last);
         return std::move(out_);
     }
@@ -80,15 +80,15 @@ public:
 private:
     // ---- errors ----
 
-    Index wrong(std::string message, std::size_t at) {
-        if (error_) return failed;
+    Index fail(std::string message, std::size_t at) {
+        if (error_) return no_index;
         if (!calls_.empty()) message = fmt::format("in {}(): {}", calls_.back(), message);
         Place location = location_;
         location.column = std::max(1L, location.column) + static_cast<long>(calls_.empty() ? at : call_at_);
         error_ = bad_input(std::move(message), std::move(location));
-        return failed;
+        return no_index;
     }
-    Index wrong(std::string message) { return wrong(std::move(message), at_); }
+    Index fail(std::string message) { return fail(std::move(message), at_); }
 
     std::string text_here() const {
         return at_ >= text_.size() ? "the end" : fmt::format("'{}'", text_.substr(at_, std::min<std::size_t>(12, text_.size() - at_)));
@@ -96,8 +96,8 @@ private:
     Index expect_end(Index last) {
         skip_blanks();
         if (at_ == text_.size()) return last;
-        if (text_[at_] == '=') return wrong("'=' is an assignment; compare two values with '=='");
-        return wrong(fmt::format("expected an operator such as + or the end of the expression, not {}", text_here()));
+        if (text_[at_] == '=') return fail("'=' is an assignment; compare two values with '=='");
+        return fail(fmt::format("expected an operator such as + or the end of the expression, not {}", text_here()));
     }
 
     // ---- steps ----
@@ -111,21 +111,21 @@ private:
     const Formula::Step& step(Index k) const { return out_.steps_[static_cast<std::size_t>(k)]; }
 
     /// Adds a step. If all operands are numbers, the result is computed at once.
-    Index apply(Operation what, Index a, Index b, Index c) {
-        if (a == failed || b == failed || c == failed) return failed;
-        const int n = operands(what);
+    Index apply(Operation operation, Index a, Index b, Index c) {
+        if (a == no_index || b == no_index || c == no_index) return no_index;
+        const int n = operands(operation);
         if (is_number(a) && (n < 2 || is_number(b)) && (n < 3 || is_number(c)))
-            return number(value_of(what, step(a).number, step(b).number, step(c).number));
-        return push({static_cast<std::int16_t>(what), a, n < 2 ? a : b, n < 3 ? a : c, 0});
+            return number(value_of(operation, step(a).number, step(b).number, step(c).number));
+        return push({static_cast<std::int16_t>(operation), a, n < 2 ? a : b, n < 3 ? a : c, 0});
     }
-    Index apply(Operation what, Index a, Index b) { return apply(what, a, b, a); }
-    Index apply(Operation what, Index a) { return apply(what, a, a, a); }
+    Index apply(Operation operation, Index a, Index b) { return apply(operation, a, b, a); }
+    Index apply(Operation operation, Index a) { return apply(operation, a, a, a); }
 
     Index input(FormulaInput::Kind kind, std::string name = "", std::string minus = "") {
         FormulaInput new_input{kind, std::move(name), std::move(minus)};
         const auto found = std::find(out_.inputs_.begin(), out_.inputs_.end(), new_input);
         const auto k = found - out_.inputs_.begin();
-        if (k >= max_inputs) return wrong(fmt::format("the expression uses more than {} voltages and currents", max_inputs));
+        if (k >= max_inputs) return fail(fmt::format("the expression uses more than {} voltages and currents", max_inputs));
         if (found == out_.inputs_.end()) out_.inputs_.push_back(std::move(new_input));
         return push({static_cast<std::int16_t>(Operation::input), static_cast<Index>(k), 0, 0, 0});
     }
@@ -133,19 +133,19 @@ private:
     /// Removes the steps and inputs that do not contribute to the value.
     void remove_unused(Index last) {
         auto& steps = out_.steps_;
-        std::vector<Index> new_index(steps.size(), failed), new_input_index(out_.inputs_.size(), failed);
+        std::vector<Index> new_index(steps.size(), no_index), new_input_index(out_.inputs_.size(), no_index);
         const auto need = [&](Index k) { new_index[static_cast<std::size_t>(k)] = 0; };
         need(last);
         for (std::size_t k = static_cast<std::size_t>(last) + 1; k-- > 0;) {
-            if (new_index[k] == failed) continue;
-            const auto what = static_cast<Operation>(steps[k].what);
-            if (what == Operation::input) new_input_index[static_cast<std::size_t>(steps[k].a)] = 0;
-            if (operands(what) > 0) need(steps[k].a), need(steps[k].b), need(steps[k].c);
+            if (new_index[k] == no_index) continue;
+            const auto operation = static_cast<Operation>(steps[k].what);
+            if (operation == Operation::input) new_input_index[static_cast<std::size_t>(steps[k].a)] = 0;
+            if (operands(operation) > 0) need(steps[k].a), need(steps[k].b), need(steps[k].c);
         }
         renumber_inputs(new_input_index);
         std::size_t kept = 0;
         for (std::size_t k = 0; k <= static_cast<std::size_t>(last); ++k) {
-            if (new_index[k] == failed) continue;
+            if (new_index[k] == no_index) continue;
             Formula::Step s = steps[k];
             if (static_cast<Operation>(s.what) == Operation::input)
                 s.a = new_input_index[static_cast<std::size_t>(s.a)];
@@ -160,7 +160,7 @@ private:
     void renumber_inputs(std::vector<Index>& new_index) {
         std::vector<FormulaInput> kept;
         for (std::size_t k = 0; k < new_index.size(); ++k)
-            if (new_index[k] != failed) {
+            if (new_index[k] != no_index) {
                 new_index[k] = static_cast<Index>(kept.size());
                 kept.push_back(std::move(out_.inputs_[k]));
             }
@@ -195,7 +195,7 @@ private:
 
     Index nested(Index (FormulaReader::*read)()) {
         if (depth_ >= max_expression_depth)
-            return wrong(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth));
+            return fail(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth));
         ++depth_;
         const Index k = (this->*read)();
         --depth_;
@@ -205,23 +205,23 @@ private:
     /// c ? a : b
     Index choice() {
         const Index condition = chain(1);
-        if (condition == failed || !take('?')) return condition;
+        if (condition == no_index || !take('?')) return condition;
         const Index yes = nested(&FormulaReader::choice);
-        if (yes == failed) return failed;
-        if (!take(':')) return wrong(fmt::format("expected ':', as in c ? a : b, not {}", text_here()));
+        if (yes == no_index) return no_index;
+        if (!take(':')) return fail(fmt::format("expected ':', as in c ? a : b, not {}", text_here()));
         const Index no = nested(&FormulaReader::choice);
-        return no == failed ? failed : apply(Operation::choose, condition, yes, no);
+        return no == no_index ? no_index : apply(Operation::choose, condition, yes, no);
     }
 
     /// Operators of this level and higher ones, from left to right.
     Index chain(int level) {
         Index left = signed_value(&FormulaReader::power);
-        while (left != failed) {
+        while (left != no_index) {
             const BinaryOperator* found = peek_operator();
             if (!found || found->level < level) break;
             at_ += found->text.size();
             const Index right = chain(found->level + 1);
-            left = right == failed ? failed : apply(found->operation, left, right);
+            left = right == no_index ? no_index : apply(found->operation, left, right);
         }
         return left;
     }
@@ -229,12 +229,12 @@ private:
     /// x^y^z, where y and z may have signs; -x^2 is -(x^2).
     Index power() {
         Index left = operand();
-        while (left != failed) {
+        while (left != no_index) {
             const BinaryOperator* found = peek_operator();
             if (!found || found->level != power_level) break;
             at_ += found->text.size();
             const Index right = signed_value(&FormulaReader::operand);
-            left = right == failed ? failed : apply(found->operation, left, right);
+            left = right == no_index ? no_index : apply(found->operation, left, right);
         }
         return left;
     }
@@ -244,36 +244,36 @@ private:
         while (at_ < text_.size() && std::string_view("-+! \t").find(text_[at_]) != std::string_view::npos) ++at_;
         auto prefix = text_.substr(from, at_ - from);
         Index k = (this->*read)();
-        for (; !prefix.empty() && k != failed; prefix.remove_suffix(1)) {
+        for (; !prefix.empty() && k != no_index; prefix.remove_suffix(1)) {
             if (prefix.back() == '-') k = apply(Operation::negative, k);
             if (prefix.back() == '!') k = apply(Operation::bare_not, k);
-            if (!count_step()) return failed;
+            if (!count_step()) return no_index;
         }
         return k;
     }
 
     bool count_step() {
         if (++step_count_ <= max_steps) return true;
-        wrong(fmt::format("the expression has more than {} steps", max_steps));
+        fail(fmt::format("the expression has more than {} steps", max_steps));
         return false;
     }
 
     Index operand() {
-        if (!count_step()) return failed;
+        if (!count_step()) return no_index;
         skip_blanks();
         const char c = at_ < text_.size() ? text_[at_] : '\0';
         if (c == '(' || c == '{') return group(c == '(' ? ')' : '}');
         if (starts_name(c)) return named();
         if ((c >= '0' && c <= '9') || c == '.') return literal();
-        return wrong(fmt::format("expected a number, a name or '(', not {}", text_here()));
+        return fail(fmt::format("expected a number, a name or '(', not {}", text_here()));
     }
 
     Index group(char close) {
         const auto open = at_++;
         const Index k = nested(&FormulaReader::choice);
-        if (k == failed || take(close)) return k;
-        if (at_ >= text_.size()) return wrong(fmt::format("this '{}' is not closed", text_[open]), open);
-        return wrong(fmt::format("expected '{}', not {}", close, text_here()));
+        if (k == no_index || take(close)) return k;
+        if (at_ >= text_.size()) return fail(fmt::format("this '{}' is not closed", text_[open]), open);
+        return fail(fmt::format("expected '{}', not {}", close, text_here()));
     }
 
     Index literal() {
@@ -282,9 +282,9 @@ private:
         const auto end = at_ + (read ? read->length : 1);
         if (!read || (end < text_.size() && (in_name(text_[end])))) {
             name_here();
-            return wrong(fmt::format("'{}' is not a number", text_.substr(from, std::max<std::size_t>(1, at_ - from))), from);
+            return fail(fmt::format("'{}' is not a number", text_.substr(from, std::max<std::size_t>(1, at_ - from))), from);
         }
-        if (auto why = ambiguous(*read, text_.substr(from, end - from))) return wrong(std::move(*why), from);
+        if (auto why = ambiguous(*read, text_.substr(from, end - from))) return fail(std::move(*why), from);
         at_ = end;
         return number(read->value);
     }
@@ -302,14 +302,14 @@ private:
         if (scope_.parameter)
             if (const auto value = scope_.parameter(name)) return number(*value);
         if (name == "time" || name == "temper") return time_or_temperature(name, from);
-        if (name == "hertz") return wrong("an expression must not depend on the frequency (hertz)", from);
+        if (name == "hertz") return fail("an expression must not depend on the frequency (hertz)", from);
         if (const double* value = constant_value(name)) return number(*value);
-        return wrong(fmt::format("unknown name '{}'{}", name, suggestion(name)), from);
+        return fail(fmt::format("unknown name '{}'{}", name, suggestion(name)), from);
     }
 
     Index time_or_temperature(std::string_view name, std::size_t from) {
         if (!scope_.inputs)
-            return wrong(fmt::format("'{}' is not available in a parameter, only in an expression of the circuit", name), from);
+            return fail(fmt::format("'{}' is not available in a parameter, only in an expression of the circuit", name), from);
         return input(name == "time" ? FormulaInput::Kind::time : FormulaInput::Kind::temperature);
     }
 
@@ -331,14 +331,14 @@ private:
         const auto* own = scope_.function ? scope_.function(name) : nullptr;
         if (!own && (name == "v" || name == "i")) return probe(name[0], from);
         if (!own && (name == "ddt" || name == "idt" || name == "sdt"))
-            return wrong(fmt::format("{}() is not supported; for a charge, use a capacitor with q='...'", name), from);
+            return fail(fmt::format("{}() is not supported; for a charge, use a capacitor with q='...'", name), from);
         const auto* row = own ? nullptr : function_row(name, scope_.inputs);
-        if (!own && !row) return wrong(fmt::format("unknown function '{}'{}", name, function_suggestion(name)), from);
+        if (!own && !row) return fail(fmt::format("unknown function '{}'{}", name, function_suggestion(name)), from);
         std::vector<Index> values;
-        if (!read_arguments(values)) return failed;
+        if (!read_arguments(values)) return no_index;
         if (own) return expand_function(name, *own, values, from);
         const int given = static_cast<int>(values.size());
-        if (given < row->least || given > row->most) return wrong(argument_count_message(*row, given), from);
+        if (given < row->least || given > row->most) return fail(argument_count_message(*row, given), from);
         const bool is_nominal = row->operation == Operation::limit && given == 2;
         values.resize(3, values[0]);
         return apply(is_nominal ? Operation::nominal : row->operation, values[0], values[1], values[2]);
@@ -354,25 +354,25 @@ private:
         if (take(')')) return true;
         do {
             values.push_back(nested(&FormulaReader::choice));
-            if (values.back() == failed) return false;
+            if (values.back() == no_index) return false;
         } while (take(','));
         if (take(')')) return true;
         if (at_ >= text_.size())
-            wrong("this '(' is not closed", open);
+            fail("this '(' is not closed", open);
         else
-            wrong(fmt::format("expected ',' or ')', not {}", text_here()));
+            fail(fmt::format("expected ',' or ')', not {}", text_here()));
         return false;
     }
 
     /// Expands a user's function: parses its text with its argument names bound to the values.
     Index expand_function(const std::string& name, const FormulaScope::Function& own, const std::vector<Index>& values, std::size_t from) {
         if (values.size() != own.arguments.size())
-            return wrong(fmt::format("{}() takes {} argument{}, not {}", name, own.arguments.size(), own.arguments.size() == 1 ? "" : "s",
-                                     values.size()),
-                         from);
-        if (std::find(calls_.begin(), calls_.end(), name) != calls_.end()) return wrong(fmt::format("{}() calls itself", name), from);
+            return fail(fmt::format("{}() takes {} argument{}, not {}", name, own.arguments.size(), own.arguments.size() == 1 ? "" : "s",
+                                    values.size()),
+                        from);
+        if (std::find(calls_.begin(), calls_.end(), name) != calls_.end()) return fail(fmt::format("{}() calls itself", name), from);
         if (depth_ >= max_expression_depth)
-            return wrong(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth), from);
+            return fail(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth), from);
         Arguments bound;
         for (std::size_t k = 0; k < values.size(); ++k) bound.emplace_back(own.arguments[k], values[k]);
         const auto text = std::exchange(text_, own.text);
@@ -381,7 +381,7 @@ private:
         if (calls_.empty()) call_at_ = from;
         calls_.push_back(name);
         Index k = nested(&FormulaReader::choice);
-        if (k != failed) k = expect_end(k);
+        if (k != no_index) k = expect_end(k);
         calls_.pop_back();
         text_ = text, at_ = at, arguments_ = arguments;
         return k;
@@ -391,18 +391,18 @@ private:
 
     Index probe(char kind, std::size_t from) {
         if (!scope_.inputs)
-            return wrong(fmt::format("{}(...) is not available in a parameter, only in an expression of the circuit", kind), from);
+            return fail(fmt::format("{}(...) is not available in a parameter, only in an expression of the circuit", kind), from);
         const auto close = text_.find(')', at_);
-        if (close == std::string_view::npos) return wrong("this '(' is not closed");
+        if (close == std::string_view::npos) return fail("this '(' is not closed");
         const auto inside = text_.substr(at_ + 1, close - at_ - 1);
         const auto comma = inside.find(',');
         const std::string first = lower(trimmed(inside.substr(0, comma)));
         const std::string second = comma == std::string_view::npos ? "" : lower(trimmed(inside.substr(comma + 1)));
         const bool is_difference = comma != std::string_view::npos;
         if (!is_probe(first) || (is_difference && (kind == 'i' || !is_probe(second))))
-            return wrong(fmt::format("'{}' is not a {}", text_.substr(from, close + 1 - from),
-                                     kind == 'v' ? "voltage; write v(node) or v(node,node)" : "current; write i(element)"),
-                         from);
+            return fail(fmt::format("'{}' is not a {}", text_.substr(from, close + 1 - from),
+                                    kind == 'v' ? "voltage; write v(node) or v(node,node)" : "current; write i(element)"),
+                        from);
         at_ = close + 1;
         if (kind == 'i') return input(FormulaInput::Kind::current, scope_.element ? scope_.element(first) : first);
         return voltage(node(first), is_difference ? node(second) : "");

@@ -57,8 +57,8 @@ Fragment exponential(const Fragment& a) {
     return is_limited ? call("exp", a) : Fragment{fmt::format("exp(min(700,{}))", a.text)};
 }
 
-Fragment fragment_of(Operation what, const Fragment& a, const Fragment& b, const Fragment& c) {
-    switch (what) {
+Fragment fragment_of(Operation operation, const Fragment& a, const Fragment& b, const Fragment& c) {
+    switch (operation) {
         case Operation::add:
             return chain(a, '+', b, Precedence::sum);
         case Operation::subtract:
@@ -170,17 +170,17 @@ Result<std::string> Formula::text(const std::function<std::string(const FormulaI
     std::vector<Fragment> fragments;
     std::size_t letters = 0;
     for (const Step& s : steps_) {
-        const auto what = static_cast<Operation>(s.what);
+        const auto operation = static_cast<Operation>(s.what);
         const auto operand = [&](std::int32_t k) -> const Fragment& { return fragments[static_cast<std::size_t>(k)]; };
-        if (what == Operation::number) {
+        if (operation == Operation::number) {
             if (!std::isfinite(s.number)) return bad_input("the expression contains a number that is not finite");
             fragments.push_back(number_fragment(s.number));
-        } else if (what == Operation::input) {
+        } else if (operation == Operation::input) {
             auto text = name(inputs_[static_cast<std::size_t>(s.a)]);
             const auto precedence = text[0] == '-' ? Precedence::sum : Precedence::atom;
             fragments.push_back({std::move(text), precedence});
         } else {
-            fragments.push_back(fragment_of(what, operand(s.a), operand(s.b), operand(s.c)));
+            fragments.push_back(fragment_of(operation, operand(s.a), operand(s.b), operand(s.c)));
         }
         letters += fragments.back().text.size();
         if (fragments.back().text.size() > max_letters || letters > 256 * max_letters)

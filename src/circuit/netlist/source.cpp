@@ -64,13 +64,13 @@ private:
         const Text text{&s_, s_.words[k_++]};
         return frame_.number(text);
     }
-    Error wrong(std::string_view message, std::size_t k) const {
+    Error error_at(std::string_view message, std::size_t k) const {
         return bad_input(fmt::format("{}: {}", s_.text(std::size_t{0}), message), s_.place(k));
     }
 
     Result<void> dc() {
-        if (k_ >= s_.words.size() || is_keyword(k_)) return wrong("dc must be followed by a number", k_);
-        if (out_.has_dc) return wrong("dc is given twice", k_);
+        if (k_ >= s_.words.size() || is_keyword(k_)) return error_at("dc must be followed by a number", k_);
+        if (out_.has_dc) return error_at("dc is given twice", k_);
         const auto value = number();
         if (!value) return value.error();
         out_.dc = *value, out_.has_dc = true;
@@ -93,8 +93,8 @@ private:
         if (w == "dc") return ++k_, dc();
         if (w == "ac") return ++k_, ac();
         const auto* row = shape_of(w);
-        if (!row) return wrong(unknown(w), k_);
-        if (out_.shape != Shape::none) return wrong(fmt::format("only one time waveform is allowed, not also '{}'", w), k_);
+        if (!row) return error_at(unknown(w), k_);
+        if (out_.shape != Shape::none) return error_at(fmt::format("only one time waveform is allowed, not also '{}'", w), k_);
         ++k_;
         return shape(*row);
     }
@@ -117,9 +117,9 @@ private:
         }
         const auto n = out_.numbers.size();
         if (n < row.min_numbers || n > row.max_numbers)
-            return wrong(fmt::format("{} has {} number{}; expected {}{}", row.name, n, n == 1 ? "" : "s", row.usage,
-                                     n > row.max_numbers ? fmt::format(" with at most {}", row.max_numbers) : ""),
-                         head);
+            return error_at(fmt::format("{} has {} number{}; expected {}{}", row.name, n, n == 1 ? "" : "s", row.usage,
+                                        n > row.max_numbers ? fmt::format(" with at most {}", row.max_numbers) : ""),
+                            head);
         if (row.shape == Shape::force && n == 0) out_.numbers = {1};
         return row.shape == Shape::points ? points() : Result<void>();
     }
@@ -127,9 +127,9 @@ private:
     Result<void> points() {
         const auto& x = out_.numbers;
         if (x.size() % 2)
-            return wrong(fmt::format("pwl has {} numbers; expected pairs of a time and a value", x.size()), number_words_.back());
+            return error_at(fmt::format("pwl has {} numbers; expected pairs of a time and a value", x.size()), number_words_.back());
         for (std::size_t k = 2; k < x.size(); k += 2)
-            if (x[k] <= x[k - 2]) return wrong(fmt::format("pwl: time {:g} must be later than {:g}", x[k], x[k - 2]), number_words_[k]);
+            if (x[k] <= x[k - 2]) return error_at(fmt::format("pwl: time {:g} must be later than {:g}", x[k], x[k - 2]), number_words_[k]);
         return {};
     }
 

@@ -21,7 +21,7 @@ public:
     char here() const { return done() ? '\0' : s_[at]; }
     std::string_view text() const { return s_; }
     void skip(std::string_view these) { at = std::min(s_.find_first_not_of(these, at), s_.size()); }
-    Error wrong(std::string sentence, std::size_t where) const { return bad_input(std::move(sentence), line_.place(where)); }
+    Error error_at(std::string sentence, std::size_t where) const { return bad_input(std::move(sentence), line_.place(where)); }
 
     /// True if the character is an assignment '=', not a part of == <= >= !=.
     bool is_assignment(std::size_t k) const {
@@ -40,12 +40,12 @@ public:
             else if (c == '(' || c == '{')
                 open += c;
             else if (c == ')' || c == '}') {
-                if (open.empty() || (open.back() == '(') != (c == ')')) return wrong(fmt::format("unmatched '{}'", c), k);
+                if (open.empty() || (open.back() == '(') != (c == ')')) return error_at(fmt::format("unmatched '{}'", c), k);
                 open.pop_back();
             }
             if (open.empty()) return k + 1;
         }
-        return wrong(fmt::format("this '{}' is not closed", s_[at]), at);
+        return error_at(fmt::format("this '{}' is not closed", s_[at]), at);
     }
     bool opens_group() const { return here() == '(' || here() == '{' || here() == '\'' || here() == '"'; }
 
@@ -119,7 +119,7 @@ Result<Word> read_value(Cursor& c, bool is_long) {
     if (!end) return end.error();
     c.at = *end;
     const Word value = value_word(c.text(), from, c.at);
-    if (value.size == 0) return c.wrong("'=' without a value after it", from > 0 ? from - 1 : 0);
+    if (value.size == 0) return c.error_at("'=' without a value after it", from > 0 ? from - 1 : 0);
     return value;
 }
 
@@ -128,7 +128,7 @@ Result<void> skip_separators(Cursor& c, std::vector<std::size_t>& open) {
     for (; !c.done() && (is_blank_char(c.here()) || c.here() == ',' || c.here() == '(' || c.here() == ')'); ++c.at) {
         if (c.here() == '(') open.push_back(c.at);
         if (c.here() != ')') continue;
-        if (open.empty()) return c.wrong("unmatched ')'", c.at);
+        if (open.empty()) return c.error_at("unmatched ')'", c.at);
         open.pop_back();
     }
     return {};
@@ -162,7 +162,7 @@ Result<Statement> element_statement(Line line, bool (*is_long_value)(char, std::
     while (true) {
         if (const auto ok = skip_separators(c, open); !ok) return ok.error();
         if (c.done()) break;
-        if (c.is_assignment(c.at)) return c.wrong("'=' without a name before it", c.at);
+        if (c.is_assignment(c.at)) return c.error_at("'=' without a name before it", c.at);
         const auto first = plain_or_group(c);
         if (!first) return first.error();
         const auto after = c.at;
@@ -177,7 +177,7 @@ Result<Statement> element_statement(Line line, bool (*is_long_value)(char, std::
         if (!value) return value.error();
         s.named.push_back({*first, *value});
     }
-    if (!open.empty()) return c.wrong("this '(' is not closed", open.back());
+    if (!open.empty()) return c.error_at("this '(' is not closed", open.back());
     return s;
 }
 
@@ -197,7 +197,7 @@ Result<Statement> assignments(Line line) {
             to = c.at = *end;
             c.skip(" \t");
         }
-        if (!c.is_assignment(c.at) || to == from) return c.wrong("expected name=value here", from);
+        if (!c.is_assignment(c.at) || to == from) return c.error_at("expected name=value here", from);
         ++c.at;
         const auto value = read_value(c, true);
         if (!value) return value.error();
