@@ -73,7 +73,7 @@ TEST(NetlistLines, TakeAnyLettersInCommentsAndTitlesOnly) {
     EXPECT_EQ(netlist->elaborate()->title, "caf\xc3\xa9");
     EXPECT_EQ(refusal("C1 a 0 1\xb5"), "dir/t.cir:2:9: byte 0xB5: write u for micro");
     EXPECT_EQ(refusal("C1 a 0 1\xc2\xb5"), "dir/t.cir:2:9: byte 0xC2: write u for micro");
-    EXPECT_EQ(refusal("R\xe9 a 0 1"), "dir/t.cir:2:2: byte 0xE9: outside comments a netlist has plain ASCII letters");
+    EXPECT_EQ(refusal("R\xe9 a 0 1"), "dir/t.cir:2:2: byte 0xE9: a netlist must be plain ASCII outside comments");
     EXPECT_EQ(refusal(std::string("R1 a 0\0 1", 9)), "dir/t.cir:2:7: byte 0x00: a netlist is text; is this UTF-16? Save it as UTF-8");
     const auto utf16 = Netlist::parse(std::string("\xff\xfet\0i\0", 6), "t.cir", {});
     ASSERT_FALSE(utf16);
