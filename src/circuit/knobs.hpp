@@ -7,7 +7,7 @@
 
 namespace corpuscle::circuit {
 
-/// Sets "C_u" to "4pF". The name is one of:
+/// An override NAME=VALUE, such as C_u=4pF. NAME is one of:
 ///  - corner, temp, mismatch;
 ///  - a .param of the top level;
 ///  - a device: of R C L V I and the gains of E F G H the value, of a transistor its array, "8x4" for 8 columns of 4 units in series;

@@ -142,7 +142,7 @@ private:
 
     /// An error if the name of an .expect is neither a measurement, a number of an analysis nor a curve.
     std::optional<Error> unknown_expectation(const Command& c, const std::vector<std::string>& given) const {
-        if (c.words.empty()) return {};  // run() reports the syntax
+        if (c.words.empty()) return {};  // run_directives() reports the syntax
         const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
         std::vector<std::string_view> known(given.begin(), given.end());
         for (const auto& other : circuit_.commands)

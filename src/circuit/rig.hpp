@@ -42,7 +42,7 @@ public:
     /// Restarts from the operating point under the first of these samples.
     Result<void> begin(std::span<const double> force);
     void hear(std::span<const double> force) { trace_.append(force); }
-    /// Takes one time step. A spike within the step is stored in `coming`.
+    /// Takes one time step. A spike within the step is stored in `pending_spike`.
     Result<void> step();
     std::optional<Spike>& coming() { return coming_; }
 

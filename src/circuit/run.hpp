@@ -46,7 +46,7 @@ public:
     virtual Result<void> whole(std::span<const Plot>) = 0;
 };
 
-/// Options of run().
+/// Options of run_directives().
 struct RunOrders {
     std::function<bool(std::string_view analysis, double progress)>
         stop{};  ///< called now and then with the analysis and its progress (0 to 1); true stops the run

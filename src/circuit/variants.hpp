@@ -21,7 +21,7 @@ struct Chips {
     bool process = true, mismatch = true;
     std::uint64_t first = 0;  ///< number of the first chip
 
-    Draw draw(std::uint64_t chip) const;  ///< `chip` counts from `first`
+    Draw draw(std::uint64_t chip) const;  ///< `chip` counts from `first_chip`
 };
 Result<Chips> chips_of(const Command&);
 /// The sample of the circuit's chip; nothing if the circuit has no mismatch seed.

@@ -15,7 +15,7 @@ struct NgspiceDeck {
         left_out;  ///< directives that ngspice does not have, at their lines of the netlist; comments of the deck list them too
 };
 
-/// The flat circuit with all parameters evaluated and transistors as subcircuits of expressions. Fails where run() would fail.
+/// The flat circuit with all parameters evaluated and transistors as subcircuits of expressions. Fails where run_directives() would fail.
 Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit>);
 
 }  // namespace corpuscle::circuit
