@@ -48,8 +48,8 @@ std::uint64_t fingerprint_of(const Circuit& c) {
 /// The unknowns that are interpolated between time points: those of spikes, probes and operating ranges.
 std::vector<int> interpolated_unknowns(const CircuitDesign& design) {
     std::vector<int> out = {design.output.of.plus, design.output.of.minus};
-    for (const auto& kept : design.kept) out.push_back(kept.what.of.plus), out.push_back(kept.what.of.minus);
-    for (const auto& shown : design.shown) out.push_back(shown.of.plus), out.push_back(shown.of.minus);
+    for (const auto& range : design.kept) out.push_back(range.what.of.plus), out.push_back(range.what.of.minus);
+    for (const auto& probe : design.shown) out.push_back(probe.of.plus), out.push_back(probe.of.minus);
     return out;
 }
 
@@ -101,7 +101,7 @@ public:
 
     Result<void> respond(std::span<const double> force, State& state, Answer& response) const override {
         if (auto ok = check_block(design_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
-        for (double* shown : response.probes) std::fill_n(shown, force.size(), std::numeric_limits<double>::quiet_NaN());
+        for (double* values : response.probes) std::fill_n(values, force.size(), std::numeric_limits<double>::quiet_NaN());
         if (force.empty()) return {};
         auto transient = borrow();
         if (!transient) return transient.error();
@@ -162,11 +162,10 @@ Result<void> CircuitAfferent::simulate_samples(Rig& transient, std::int64_t from
 Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(const Netlist& netlist) {
     auto circuit = netlist.elaborate();
     if (!circuit) return circuit.error();
-    auto made = of(std::make_shared<const Circuit>(std::move(*circuit)));
-    if (!made) return made;
-    const auto design = std::const_pointer_cast<CircuitDesign>(*made);
-    design->netlist = netlist;
-    return made;
+    auto factory = of(std::make_shared<const Circuit>(std::move(*circuit)));
+    if (!factory) return factory;
+    std::const_pointer_cast<CircuitDesign>(*factory)->netlist = netlist;
+    return factory;
 }
 
 Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<const Circuit> circuit) {
@@ -177,10 +176,10 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     if (!plan) return plan.error();
     const auto output = spike_output((*context)->system);
     if (!output) return output.error();
-    auto shown = saved_of((*context)->system);
-    if (!shown) return shown.error();
-    auto kept = within_of((*context)->system);
-    if (!kept) return kept.error();
+    auto probes = saved_of((*context)->system);
+    if (!probes) return probes.error();
+    auto ranges = within_of((*context)->system);
+    if (!ranges) return ranges.error();
     if (!(*context)->system.hear(nullptr))
         return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", place);
     if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", place);
@@ -197,9 +196,9 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
         design->times = *times;
     }
     if (circuit->mismatch) design->chips = Chips{1, *circuit->mismatch, true, true, circuit->chip};
-    if (shown->empty()) shown->push_back({output->value().text, output->value().of});
-    design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*shown),
-    design->kept = std::move(*kept);
+    if (probes->empty()) probes->push_back({output->value().text, output->value().of});
+    design->circuit = std::move(circuit), design->plan = *plan, design->output = **output, design->shown = std::move(*probes),
+    design->kept = std::move(*ranges);
     design->plan.reported = interpolated_unknowns(*design);
     design->plan.longest = design->times.longest.value_or(longest_step);
     design->mark = fingerprint_of(*design->circuit);

@@ -142,9 +142,9 @@ private:
         std::vector<std::string_view> names;
         for (const auto& n : known)
             if (!n.name.empty()) names.push_back(n.name);
-        if (number.empty() || names.empty())
-            return error_of(setting, fmt::format("{} {}; its value is not a single number", e.name,
-                                                 e.formula ? "has an expression" : "has several parameters"));
+        if (names.empty()) return error_of(setting, fmt::format("{} has an expression; its value is not a single number", e.name));
+        if (number.empty())
+            return error_of(setting, fmt::format("{} has no single value; set one of its parameters ({})", e.name, fmt::join(names, ", ")));
         return error_of(setting,
                         fmt::format("{} has no '{}'{} (it has {})", e.name, number, did_you_mean(number, names), fmt::join(names, ", ")));
     }

@@ -69,8 +69,8 @@ class PointDispatcher final : public PointSink {
     Analysed& analysed_;
     OwnCurrents currents_;
     std::optional<PrintedSteps> printed_;
-    Narrow narrow_;
-    std::optional<KeptPlot> kept_;
+    Narrow selector_;
+    std::optional<KeptPlot> recorder_;
     std::vector<double> last_;
     PointSink* unknowns_ = nullptr;
     bool begun_ = false;
@@ -81,7 +81,7 @@ public:
         : options_(options), out_(out), measures_(measures), analysed_(analysed), currents_(currents) {
         const auto& c = *analysed.command;
         if (options.print && c.name == "tran") printed_.emplace(circuit, tran_number(c, 2), tran_number(c, 0), tran_number(c, 1));
-        if (options.keep) kept_.emplace();
+        if (options.keep) recorder_.emplace();
     }
     bool begun() const { return begun_; }
 
@@ -95,11 +95,11 @@ public:
         if (auto ok = measures_.begin(analysed_.command->name, head); !ok) return ok;
         if (printed_)
             if (auto ok = printed_->begin(head); !ok) return ok;
-        if (kept_)
-            if (auto ok = kept_->begin(head); !ok) return ok;
+        if (recorder_)
+            if (auto ok = recorder_->begin(head); !ok) return ok;
         begun_ = true;
-        const auto narrow = narrow_.begin(head, out_.saved);
-        return options_.curves ? options_.curves->begin(narrow) : Result<void>();
+        const auto selected_head = selector_.begin(head, out_.saved);
+        return options_.curves ? options_.curves->begin(selected_head) : Result<void>();
     }
     Result<void> point(std::span<const double> unknowns) override {
         const auto row = currents_.point(unknowns);
@@ -109,9 +109,9 @@ public:
         if (printed_) printed_->point(row);
         if (unknowns_)
             if (auto ok = unknowns_->point(row); !ok) return ok;
-        if (kept_)
-            if (auto ok = kept_->point(row); !ok) return ok;
-        return options_.curves ? options_.curves->point(narrow_.point(row)) : Result<void>();
+        if (recorder_)
+            if (auto ok = recorder_->point(row); !ok) return ok;
+        return options_.curves ? options_.curves->point(selector_.point(row)) : Result<void>();
     }
     Result<void> end() override {
         for (std::size_t k = 0; k < last_.size(); ++k) analysed_.last.curves[k].values = {last_[k]};
@@ -120,7 +120,7 @@ public:
     }
     /// Moves the kept points into the result of the analysis.
     void move_points_to(Findings& found) {
-        if (kept_) found.plots.insert(found.plots.begin(), std::move(kept_->plot));
+        if (recorder_) found.plots.insert(found.plots.begin(), std::move(recorder_->plot));
     }
 };
 

@@ -130,7 +130,7 @@ TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
     says("one.left.cu=-1p", "-1 pF must not be below 0");
     says("one.left.ru.m=0", "0 must be above 0");
     says("vs=2V", "vs is a source with a time waveform");
-    says("b1=2", "b1 is a formula");
+    says("b1=2", "b1 has an expression; its value is not a single number");
     says("c_u=4q", "'4q' is not a number; write a number and a unit of V, A, F, ohm, s, Hz, m, S, N or none");
     says("temp=hot", "'hot' is not a temperature");
     says("temp=-300", "-300 C is outside");

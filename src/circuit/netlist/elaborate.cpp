@@ -39,12 +39,12 @@ public:
         c.node_numbers.emplace("0", 0);
         if (auto ok = define_top(given); !ok) return ok.error();
         c.parameters = top_.parameters;
-        if (auto ok = settings(); !ok) return ok.error();
-        if (auto ok = contents(top_); !ok) return ok.error();
+        if (auto ok = read_settings(); !ok) return ok.error();
+        if (auto ok = elaborate_contents(top_); !ok) return ok.error();
         if (auto ok = check_references(); !ok) return ok.error();
         if (auto ok = resolve_node_voltages(); !ok) return ok.error();
-        for (const auto* s : parsed_.commands) command(*s);
-        apply_overrides_to_commands(c);
+        for (const auto* s : parsed_.commands) add_directive(*s);
+        apply_overrides_to_directives(c);
         return std::move(c);
     }
 
@@ -61,20 +61,20 @@ private:
 
     // ---- subcircuits ----
 
-    Result<void> contents(Frame& frame) {
-        for (const auto* s : frame.body->elements) {
-            if (const auto ok = builder_.visit(frame, *s); !ok) return ok;
-            const auto ok = s->line.text[0] == 'x' ? instance(frame, *s) : read_element(builder_, frame, *s);
+    Result<void> elaborate_contents(Frame& scope) {
+        for (const auto* s : scope.body->elements) {
+            if (const auto ok = builder_.visit(scope, *s); !ok) return ok;
+            const auto ok = s->line.text[0] == 'x' ? elaborate_instance(scope, *s) : read_element(builder_, scope, *s);
             if (!ok) return ok;
         }
-        for (const auto* s : frame.body->ics) {
-            if (const auto ok = builder_.visit(frame, *s); !ok) return ok;
-            if (const auto ok = read_node_voltages(frame, *s); !ok) return ok;
+        for (const auto* s : scope.body->ics) {
+            if (const auto ok = builder_.visit(scope, *s); !ok) return ok;
+            if (const auto ok = read_node_voltages(scope, *s); !ok) return ok;
         }
         return {};
     }
 
-    Result<void> instance(Frame& frame, const Statement& s) {
+    Result<void> elaborate_instance(Frame& scope, const Statement& s) {
         const auto name = s.text(std::size_t{0});
         auto words = node_words(s);
         if (words.size() < 1)
@@ -82,17 +82,17 @@ private:
         const Word of = words.back();
         words.pop_back();
         Frame inner;
-        if (const auto ok = find_body(frame, s, of, inner); !ok) return ok;
-        if (const auto ok = connect(frame, s, words, inner); !ok) return ok;
-        inner.caller = &frame, inner.depth = frame.depth + 1, inner.path = fmt::format("{}{}.", frame.path, name);
+        if (const auto ok = find_body(scope, s, of, inner); !ok) return ok;
+        if (const auto ok = connect(scope, s, words, inner); !ok) return ok;
+        inner.caller = &scope, inner.depth = scope.depth + 1, inner.path = fmt::format("{}{}.", scope.path, name);
         if (inner.depth > max_subcircuit_depth)
             return bad_input(fmt::format("{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth),
                              s.line.place());
         if (const auto ok = check_recursion(inner, s); !ok) return ok;
         Values given;
-        if (const auto ok = read_overrides(frame, s, inner, given); !ok) return ok;
+        if (const auto ok = read_overrides(scope, s, inner, given); !ok) return ok;
         if (const auto ok = inner.define(given); !ok) return ok;
-        return contents(inner);
+        return elaborate_contents(inner);
     }
 
     static std::vector<Word> node_words(const Statement& s) {
@@ -102,9 +102,9 @@ private:
         return words;
     }
 
-    static Result<void> find_body(Frame& frame, const Statement& s, const Word& of, Frame& inner) {
+    static Result<void> find_body(Frame& scope, const Statement& s, const Word& of, Frame& inner) {
         std::vector<std::string_view> known;
-        for (Frame* f = &frame; f; f = f->enclosing) {
+        for (Frame* f = &scope; f; f = f->enclosing) {
             if (const auto at = f->body->subcircuits.find(s.text(of)); at != f->body->subcircuits.end()) {
                 inner.body = at->second.get(), inner.enclosing = f;
                 return {};
@@ -115,7 +115,7 @@ private:
                          s.place(of));
     }
 
-    Result<void> connect(Frame& frame, const Statement& s, const std::vector<Word>& words, Frame& inner) {
+    Result<void> connect(Frame& scope, const Statement& s, const std::vector<Word>& words, Frame& inner) {
         const auto& ports = inner.body->ports;
         if (words.size() != ports.size()) {
             std::string expected;
@@ -124,7 +124,7 @@ private:
                                          words.size() == 1 ? "" : "s", inner.body->name, ports.size(), expected),
                              s.line.place());
         }
-        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.node(frame, s.text(words[k])));
+        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.node(scope, s.text(words[k])));
         return {};
     }
 
@@ -139,12 +139,12 @@ private:
     }
 
     /// Evaluates the parameters of the X line in the scope that contains it.
-    Result<void> read_overrides(const Frame& frame, const Statement& s, Frame& inner, Values& given) {
-        inner.m = frame.m;
+    Result<void> read_overrides(const Frame& scope, const Statement& s, Frame& inner, Values& given) {
+        inner.m = scope.m;
         for (const auto& pair : s.named) {
             auto name = s.text(pair.name);
             if (name.starts_with("params:")) name.remove_prefix(7);
-            const auto value = frame.number({&s, pair.value});
+            const auto value = scope.number({&s, pair.value});
             if (!value) return value.error();
             if (inner.body->defaults.contains(name))
                 given.insert_or_assign(std::string(name), *value);
@@ -194,10 +194,10 @@ private:
 
     // ---- .options, .temp, .ic, .nodeset ----
 
-    Result<void> settings() {
+    Result<void> read_settings() {
         Circuit& c = builder_.circuit;
         for (const auto* s : parsed_.options)
-            if (const auto ok = options(*s); !ok) return ok;
+            if (const auto ok = read_options(*s); !ok) return ok;
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
         for (const auto* s : parsed_.temperatures) {
             if (s->words.size() != 2)
@@ -211,7 +211,7 @@ private:
         return {};
     }
 
-    Result<void> options(const Statement& s) {
+    Result<void> read_options(const Statement& s) {
         Circuit& c = builder_.circuit;
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             if (auto error = wrong_option(s.text(k), {}, {}, s.place(k))) return *error;
@@ -245,18 +245,18 @@ private:
     }
 
     /// Reads .ic v(a)=1 v(b)={x}, or .nodeset.
-    Result<void> read_node_voltages(const Frame& frame, const Statement& s) {
+    Result<void> read_node_voltages(const Frame& scope, const Statement& s) {
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             const auto text = s.text(k);
             const auto close = text.find(')'), equals = text.find_first_not_of(" \t", std::min(close, text.size() - 1) + 1);
             if (!text.starts_with("v(") || close == std::string_view::npos || equals == std::string_view::npos || text[equals] != '=')
                 return bad_input(fmt::format("expected v(node)=value, not '{}'", text), s.place(k));
             auto from = text.find_first_not_of(" \t", equals + 1);
-            const auto value = frame.number(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
+            const auto value = scope.number(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
             if (!value) return value.error();
             const auto node = trimmed(text.substr(2, close - 2));
             if (is_ground(node)) return bad_input("ground is always at 0 V", s.place(k));
-            node_voltages_.push_back({builder_.node_name(frame, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
+            node_voltages_.push_back({builder_.node_name(scope, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
         }
         return {};
     }
@@ -275,7 +275,7 @@ private:
 
     // ---- directives ----
 
-    void command(const Statement& s) {
+    void add_directive(const Statement& s) {
         Command out{std::string(s.text(std::size_t{0}).substr(1)), {}, {}, s.line.place()};
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             out.words.push_back(without_blanks(s, s.words[k]));
@@ -285,7 +285,7 @@ private:
     }
 
     /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides remove it.
-    void apply_overrides_to_commands(Circuit& c) const {
+    void apply_overrides_to_directives(Circuit& c) const {
         const auto& changes = builder_.changes;
         const auto expectation =
             std::find_if(c.commands.begin(), c.commands.end(), [](const Command& directive) { return directive.name == "expect"; });

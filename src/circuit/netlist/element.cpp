@@ -40,16 +40,16 @@ std::span<const std::string_view> names_for(char letter) {
 
 class ElementReader {
     Flat& builder_;
-    Frame& frame_;
+    Frame& scope_;
     const Statement& s_;
     std::string_view name_;
     Element out_;
     std::vector<std::string_view> read_names_;  // names of pairs that were read separately
 
 public:
-    ElementReader(Flat& builder, Frame& frame, const Statement& s)
-        : builder_(builder), frame_(frame), s_(s), name_(s.text(std::size_t{0})) {
-        out_.name = frame.path + std::string(name_);
+    ElementReader(Flat& builder, Frame& scope, const Statement& s)
+        : builder_(builder), scope_(scope), s_(s), name_(s.text(std::size_t{0})) {
+        out_.name = scope.path + std::string(name_);
         out_.letter = name_[0];
         out_.place = s.line.place();
     }
@@ -98,7 +98,7 @@ private:
         for (std::size_t k = 1; k <= n; ++k) {
             if (k >= s_.words.size() || s_.words[k].kind != Word::Kind::plain)
                 return error_at(fmt::format("{} node{}, but expected {}: {}", k - 1, k == 2 ? "" : "s", n, expected), k);
-            out_.nodes.push_back(builder_.node(frame_, s_.text(k)));
+            out_.nodes.push_back(builder_.node(scope_, s_.text(k)));
         }
         return {};
     }
@@ -134,23 +134,23 @@ private:
     /// After the nodes a number or an expression is the value; a word that is not a parameter is a model.
     bool is_model(std::size_t k, bool has_value) const {
         if (s_.words[k].kind != Word::Kind::plain || whole_number(s_.text(k))) return false;
-        if (builder_.has_model(frame_, s_.text(k))) return true;
+        if (builder_.has_model(scope_, s_.text(k))) return true;
         const bool begins_with_letter = s_.text(k)[0] >= 'a' && s_.text(k)[0] <= 'z';
         return begins_with_letter &&
-               (has_value || (!frame_.parameter(s_.text(k)) && s_.text(k).find_first_of("*/+-") == std::string_view::npos));
+               (has_value || (!scope_.parameter(s_.text(k)) && s_.text(k).find_first_of("*/+-") == std::string_view::npos));
     }
     Result<void> passive_model(std::size_t k) {
         const std::string_view type[] = {std::string_view(&out_.letter, 1)};
         return model(k, type);
     }
     Result<void> model(std::size_t k, std::span<const std::string_view> types) {
-        const auto found = builder_.model(frame_, text(k), name_, types);
+        const auto found = builder_.model(scope_, text(k), name_, types);
         if (!found) return found.error();
         out_.model = *found;
         return {};
     }
     Result<void> value_of(const Text& t) {
-        const auto value = frame_.number(t);
+        const auto value = scope_.number(t);
         if (!value) return value.error();
         out_.value = *value;
         return {};
@@ -160,7 +160,7 @@ private:
 
     Result<void> source() {
         if (const auto ok = nodes(2, "plus and minus"); !ok) return ok;
-        auto waveform = read_waveform(frame_, s_);
+        auto waveform = read_waveform(scope_, s_);
         if (!waveform) return waveform.error();
         out_.waveform = std::move(*waveform);
         for (const auto name : {"dc", "ac", "td", "r"}) read_names_.push_back(name);
@@ -195,7 +195,7 @@ private:
         if (const auto ok = nodes(2, "plus, minus, then the controlling voltage source and the gain"); !ok) return ok;
         if (s_.text(3) == "poly") return error_at("poly is not supported; use a B source instead", 3);
         if (s_.words.size() < 4) return error_at("the controlling voltage source is missing", 3);
-        out_.control = frame_.path + std::string(s_.text(3));
+        out_.control = scope_.path + std::string(s_.text(3));
         builder_.promises.push_back({out_.control, s_.place(std::size_t{3}), std::string(name_), Promise::Of::source});
         return gain(4);
     }
@@ -213,11 +213,11 @@ private:
     Result<void> formula(const Named& pair) {
         read_names_.push_back(s_.text(pair.name));
         const Text t{&s_, pair.value};
-        FormulaScope scope = frame_.scope();
+        FormulaScope scope = scope_.scope();
         scope.inputs = true;
-        scope.node = [this](std::string_view name) { return builder_.node_name(frame_, name); };
-        scope.element = [this](std::string_view name) { return frame_.path + std::string(name); };
-        auto expression = frame_.formula(t, std::move(scope));
+        scope.node = [this](std::string_view name) { return builder_.node_name(scope_, name); };
+        scope.element = [this](std::string_view name) { return scope_.path + std::string(name); };
+        auto expression = scope_.formula(t, std::move(scope));
         if (!expression) return expression.error();
         for (const auto& input : expression->inputs()) add_forward_reference(input, t.place());
         out_.formula = std::move(*expression);
@@ -245,7 +245,7 @@ private:
                 continue;
             }
             if (k > 4 || s_.find("area")) return too_many(k);
-            const auto area = frame_.number(text(k));
+            const auto area = scope_.number(text(k));
             if (!area) return area.error();
             out_.values["area"] = *area;
         }
@@ -255,11 +255,11 @@ private:
     Result<void> transistor() {
         constexpr std::string_view expected = "drain, gate, source, bulk, then the model";
         constexpr std::string_view types[] = {"nmos", "pmos"};
-        if (s_.words.size() == 5 && builder_.has_model(frame_, s_.text(4)))
+        if (s_.words.size() == 5 && builder_.has_model(scope_, s_.text(4)))
             return error_at(fmt::format("3 nodes, but expected 4: {}", expected), 4);
         if (const auto ok = nodes(4, expected); !ok) return ok;
         if (s_.words.size() < 6) return error_at("its model is missing", 5);
-        if (s_.words.size() > 6 && !builder_.has_model(frame_, s_.text(5)) && builder_.has_model(frame_, s_.text(6)))
+        if (s_.words.size() > 6 && !builder_.has_model(scope_, s_.text(5)) && builder_.has_model(scope_, s_.text(6)))
             return error_at(fmt::format("5 nodes, but expected 4: {}", expected), 5);
         if (const auto ok = model(5, types); !ok) return ok;
         for (std::size_t k = 6; k < s_.words.size(); ++k) {
@@ -278,7 +278,7 @@ private:
             if (std::find(known.begin(), known.end(), name) == known.end())
                 return bad_input(fmt::format("{}: unknown parameter '{}'{}", name_, name, did_you_mean(name, known)), s_.place(pair.name));
             if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
-            const auto value = frame_.number({&s_, pair.value});
+            const auto value = scope_.number({&s_, pair.value});
             if (!value) return value.error();
             out_.values.insert_or_assign(std::string(name), *value);
         }
@@ -305,8 +305,8 @@ private:
     /// In m parallel copies of a subcircuit every current is m times as large. For F the controlling current already has the factor; the
     /// gain of H is divided by it.
     Result<void> apply_multiplicity() {
-        if (frame_.m == 1) return {};
-        if (out_.letter == 'h') out_.value /= frame_.m;
+        if (scope_.m == 1) return {};
+        if (out_.letter == 'h') out_.value /= scope_.m;
         if (out_.formula)
             for (const auto& input : out_.formula->inputs())
                 if (input.kind == FormulaInput::Kind::current)
@@ -315,13 +315,13 @@ private:
             out_.letter == 'v' || out_.letter == 'e' || out_.letter == 'h' || (out_.letter == 'b' && out_.formula_is_voltage);
         if (is_voltage || out_.letter == 'f') return {};
         const auto at = out_.values.try_emplace("m", 1).first;
-        at->second *= frame_.m;
+        at->second *= scope_.m;
         return {};
     }
 };
 
 }  // namespace
 
-Result<void> read_element(Flat& builder, Frame& frame, const Statement& s) { return ElementReader(builder, frame, s).read(); }
+Result<void> read_element(Flat& builder, Frame& scope, const Statement& s) { return ElementReader(builder, scope, s).read(); }
 
 }  // namespace corpuscle::circuit

@@ -24,9 +24,9 @@ std::string alternatives(std::span<const std::string_view> words) {
     return out;
 }
 
-Error unknown_model(const Frame& frame, const Text& name, std::string_view user) {
+Error unknown_model(const Frame& scope, const Text& name, std::string_view user) {
     std::vector<std::string_view> known;
-    for (const Frame* f = &frame; f; f = f->enclosing)
+    for (const Frame* f = &scope; f; f = f->enclosing)
         for (const auto n : names_in(f->body->models)) known.push_back(n);
     constexpr std::string_view units[] = {"f",   "h",  "v",  "a",  "pf", "nf", "uf", "ohm", "k", "kohm",
                                           "meg", "mh", "uh", "nh", "fF", "p",  "n",  "u",   "m"};
@@ -37,17 +37,17 @@ Error unknown_model(const Frame& frame, const Text& name, std::string_view user)
 
 }  // namespace
 
-std::string Flat::node_name(const Frame& frame, std::string_view name) const {
+std::string Flat::node_name(const Frame& scope, std::string_view name) const {
     if (is_ground(name)) return "0";
-    if (const auto port = frame.ports.find(name); port != frame.ports.end()) return circuit.nodes[static_cast<std::size_t>(port->second)];
+    if (const auto port = scope.ports.find(name); port != scope.ports.end()) return circuit.nodes[static_cast<std::size_t>(port->second)];
     if (parsed_.globals.contains(name)) return std::string(name);
-    return frame.path + std::string(name);
+    return scope.path + std::string(name);
 }
 
-int Flat::node(const Frame& frame, std::string_view name) {
+int Flat::node(const Frame& scope, std::string_view name) {
     if (is_ground(name)) return 0;
-    if (const auto port = frame.ports.find(name); port != frame.ports.end()) return port->second;
-    auto [at, is_new] = circuit.node_numbers.try_emplace(node_name(frame, name), static_cast<int>(circuit.nodes.size()));
+    if (const auto port = scope.ports.find(name); port != scope.ports.end()) return port->second;
+    auto [at, is_new] = circuit.node_numbers.try_emplace(node_name(scope, name), static_cast<int>(circuit.nodes.size()));
     if (is_new) {
         circuit.nodes.push_back(at->first);
         letters_ += 2 * at->first.size();
@@ -55,16 +55,16 @@ int Flat::node(const Frame& frame, std::string_view name) {
     return at->second;
 }
 
-bool Flat::has_model(const Frame& frame, std::string_view name) const {
-    for (const Frame* f = &frame; f; f = f->enclosing)
+bool Flat::has_model(const Frame& scope, std::string_view name) const {
+    for (const Frame* f = &scope; f; f = f->enclosing)
         if (f->body->models.contains(name)) return true;
     return false;
 }
 
-Result<int> Flat::model(Frame& frame, const Text& name, std::string_view user, std::span<const std::string_view> types) {
-    Frame* f = &frame;
+Result<int> Flat::model(Frame& scope, const Text& name, std::string_view user, std::span<const std::string_view> types) {
+    Frame* f = &scope;
     while (f && !f->body->models.contains(name.view())) f = f->enclosing;
-    if (!f) return unknown_model(frame, name, user);
+    if (!f) return unknown_model(scope, name, user);
     const Statement& s = *f->body->models.find(name.view())->second;
     const auto type = short_type(s.text(2));
     if (std::find(types.begin(), types.end(), type) == types.end())
@@ -98,10 +98,10 @@ Result<void> Flat::add(Element e) {
     return {};
 }
 
-Result<void> Flat::visit(const Frame& frame, const Statement& s) {
+Result<void> Flat::visit(const Frame& scope, const Statement& s) {
     if (++visited_ > most_elements)
         return bad_input(fmt::format("the circuit has more elements than the limit of {}", most_elements), s.line.place());
-    letters_ += 2 * (frame.path.size() + s.text(std::size_t{0}).size()) + s.line.file->size();
+    letters_ += 2 * (scope.path.size() + s.text(std::size_t{0}).size()) + s.line.file->size();
     if (letters_ > max_name_bytes)
         return bad_input(fmt::format("the names of all elements and nodes exceed the limit of {} MB", max_name_bytes >> 20),
                          s.line.place());

@@ -25,7 +25,7 @@ void for_each_name(std::string_view text, F&& f) {
 }
 
 /// The names that an expression uses, including those in the functions that it calls.
-std::vector<std::string> dependencies_of(std::string_view text, const Frame& frame) {
+std::vector<std::string> dependencies_of(std::string_view text, const Frame& scope) {
     std::vector<std::string> names;
     std::set<std::string, std::less<>> seen;
     std::vector<const FormulaScope::Function*> functions;
@@ -34,7 +34,7 @@ std::vector<std::string> dependencies_of(std::string_view text, const Frame& fra
             const bool is_argument = of && std::find(of->arguments.begin(), of->arguments.end(), name) != of->arguments.end();
             if (is_argument || !seen.emplace(name).second) return;
             names.emplace_back(name);
-            if (const auto* f = frame.function(name)) functions.push_back(f);
+            if (const auto* f = scope.function(name)) functions.push_back(f);
         });
     };
     collect_names(text, nullptr);

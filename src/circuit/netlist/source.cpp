@@ -32,14 +32,14 @@ const WaveformSyntax* shape_of(std::string_view word) {
 }
 
 class SourceReader {
-    const Frame& frame_;
+    const Frame& scope_;
     const Statement& s_;
     std::size_t k_ = 3;  // index of the next word
     Waveform out_;
     std::vector<std::size_t> number_words_;
 
 public:
-    SourceReader(const Frame& frame, const Statement& s) : frame_(frame), s_(s) {}
+    SourceReader(const Frame& scope, const Statement& s) : scope_(scope), s_(s) {}
 
     Result<Waveform> read() {
         if (is_number_next())
@@ -58,11 +58,11 @@ private:
     }
     bool is_number_next() const {
         if (k_ >= s_.words.size() || is_keyword(k_)) return false;
-        return s_.words[k_].kind != Word::Kind::plain || whole_number(s_.text(k_)) || frame_.parameter(s_.text(k_));
+        return s_.words[k_].kind != Word::Kind::plain || whole_number(s_.text(k_)) || scope_.parameter(s_.text(k_));
     }
     Result<double> number() {
         const Text text{&s_, s_.words[k_++]};
-        return frame_.number(text);
+        return scope_.number(text);
     }
     Error error_at(std::string_view message, std::size_t k) const {
         return bad_input(fmt::format("{}: {}", s_.text(std::size_t{0}), message), s_.place(k));
@@ -138,7 +138,7 @@ private:
         const auto error_at_name = [&](std::string_view why) {
             return bad_input(fmt::format("{}: {}", s_.text(std::size_t{0}), why), s_.place(pair.name));
         };
-        const auto value = frame_.number({&s_, pair.value});
+        const auto value = scope_.number({&s_, pair.value});
         if (!value) return value.error();
         if (name == "dc" && !out_.has_dc)
             out_.dc = *value, out_.has_dc = true;
@@ -158,6 +158,6 @@ private:
 
 }  // namespace
 
-Result<Waveform> read_waveform(const Frame& frame, const Statement& s) { return SourceReader(frame, s).read(); }
+Result<Waveform> read_waveform(const Frame& scope, const Statement& s) { return SourceReader(scope, s).read(); }
 
 }  // namespace corpuscle::circuit
