@@ -31,9 +31,9 @@ inline constexpr Analysis analyses[] = {
 };
 
 /// The analysis of this name; null if there is none.
-inline const Analysis* analysis_of(std::string_view word) {
+inline const Analysis* analysis_of(std::string_view name) {
     for (const auto& a : analyses)
-        if (a.word == word) return &a;
+        if (a.word == name) return &a;
     return nullptr;
 }
 

@@ -38,11 +38,11 @@ Measures::Measures(const Circuit& circuit) {
         if (c.name == "meas" || c.name == "measure") entries_.push_back({&c, nullptr});
 }
 
-Result<void> Measures::begin(std::string_view word, const Plot& head) {
+Result<void> Measures::begin(std::string_view analysis, const Plot& head) {
     active_.clear();
     for (auto& entry : entries_) {
         const auto& c = *entry.command;
-        if (c.words.size() < 3 || c.words[0] != word || is_expression(c) || entry.gauge) continue;
+        if (c.words.size() < 3 || c.words[0] != analysis || is_expression(c) || entry.gauge) continue;
         auto made = gauge_of(c, head);
         if (!made) return made.error();
         entry.gauge = std::move(*made);
@@ -51,8 +51,8 @@ Result<void> Measures::begin(std::string_view word, const Plot& head) {
     return {};
 }
 
-Result<void> Measures::see(std::string_view word, const Plot& plot) {
-    if (auto ok = begin(word, plot); !ok || active_.empty()) return ok;
+Result<void> Measures::see(std::string_view analysis, const Plot& plot) {
+    if (auto ok = begin(analysis, plot); !ok || active_.empty()) return ok;
     std::vector<std::complex<double>> row(plot.curves.size());
     for (std::size_t k = 0; k < plot.points(); ++k) {
         for (std::size_t n = 0; n < row.size(); ++n) row[n] = plot.curves[n].values[k];

@@ -21,7 +21,7 @@ public:
     explicit Measures(const Circuit&);
 
     /// Begins a plot of the analysis of this name. An ill-formed line or an unknown curve is an error.
-    Result<void> begin(std::string_view word, const Plot& head);
+    Result<void> begin(std::string_view analysis, const Plot& head);
     /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `numbers` are the names of
     /// the numbers that the analyses may give.
     Result<void> check(const std::vector<std::string>& numbers) const;
@@ -29,7 +29,7 @@ public:
         for (auto* measurement : active_) measurement->point(x, row);
     }
     /// Measures a complete plot.
-    Result<void> see(std::string_view word, const Plot&);
+    Result<void> see(std::string_view analysis, const Plot&);
 
     /// Call this after all analyses. Appends the results to `numbers`, in order of the lines. A measurement that found nothing is NaN and
     /// adds a warning.

@@ -18,10 +18,10 @@ struct Column {
 };
 
 /// The columns of a .print line, the swept quantity first; empty if the line is for another analysis.
-std::vector<Column> columns_of(const Command& c, std::string_view word, const Plot& plot) {
+std::vector<Column> columns_of(const Command& c, std::string_view analysis, const Plot& plot) {
     std::vector<Column> out;
     const bool named = !c.words.empty() && analysis_of(c.words[0]) != nullptr;
-    if (c.name != "print" || (named && c.words[0] != word)) return out;
+    if (c.name != "print" || (named && c.words[0] != analysis)) return out;
     if (plot.swept) out.push_back({plot.curves[0].name, *CurveView::of(plot, plot.curves[0].name)});
     for (std::size_t w = named ? 1 : 0; w < c.words.size(); ++w)
         if (c.words[w] == "all")
@@ -46,10 +46,10 @@ void append_number(std::string& out, std::complex<double> x) {
 
 }  // namespace
 
-std::string printed(const Circuit& circuit, std::string_view word, const Plot& plot) {
+std::string printed(const Circuit& circuit, std::string_view analysis, const Plot& plot) {
     std::string out;
     for (const auto& c : circuit.commands) {
-        const auto columns = columns_of(c, word, plot);
+        const auto columns = columns_of(c, analysis, plot);
         if (columns.empty()) continue;
         out += column_heads(columns);
         std::vector<std::vector<std::complex<double>>> values;

@@ -10,7 +10,7 @@
 namespace corpuscle::circuit {
 
 /// The tables of all .print lines for the analysis of this name, over a complete plot; "" if there are none.
-std::string printed(const Circuit&, std::string_view word, const Plot&);
+std::string printed(const Circuit&, std::string_view analysis, const Plot&);
 
 /// The .print lines of a .tran. Rows are at START and every STEP after it, linearly interpolated between time points; none is before the
 /// first time point. (ngspice's batch mode prints every time point, and these rows with `.options interp`.)
