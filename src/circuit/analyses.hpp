@@ -13,6 +13,7 @@ Result<Findings> analyse_tran(TestBench&, const Command&);
 Result<Findings> analyse_tf(TestBench&, const Command&);
 Result<Findings> analyse_sens(TestBench&, const Command&);
 
+/// An analysis: the name of its directive, its syntax, a description for help, and its function.
 struct Analysis {
     std::string_view word, usage, sentence;
     Result<Findings> (*run)(TestBench&, const Command&);

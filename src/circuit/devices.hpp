@@ -8,6 +8,7 @@
 
 namespace corpuscle::circuit {
 
+/// A kind of device, chosen by the first letter of an element's name.
 struct DeviceKind {
     char letter;
     std::string_view sentence;
@@ -15,7 +16,7 @@ struct DeviceKind {
     /// At 0 Hz. conducts: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device fixes the
     /// voltage between its first two terminals.
     bool conducts, fixes_voltage;
-    /// Makes the batch that evaluates devices of this kind together; null: they are evaluated one by one.
+    /// Makes the batch that evaluates devices of this kind together. If null, they are evaluated one by one.
     Result<std::unique_ptr<Bank>> (*bank)() = nullptr;
 };
 

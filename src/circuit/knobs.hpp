@@ -10,7 +10,7 @@ namespace corpuscle::circuit {
 /// An override NAME=VALUE, such as C_u=4pF. NAME is one of:
 ///  - corner, temp, mismatch;
 ///  - a .param of the top level;
-///  - a device: of R C L V I and the gains of E F G H the value, of a transistor its array, "8x4" for 8 columns of 4 units in series;
+///  - a device, which sets the value of R C L V I, the gain of E F G H, or the array of a transistor ("8x4" is 8 columns of 4 in series);
 ///  - a device and one of its parameters, "summer.N3B.w".
 /// Letters may be of either case. The end of a device's path is enough, and SPICE's letters may be left out.
 struct Knob {

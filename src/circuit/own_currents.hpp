@@ -5,6 +5,7 @@
 
 namespace corpuscle::circuit {
 
+/// The device currents among some saved quantities. The system must outlive it.
 class OwnCurrents {
     const System& system_;
     std::vector<Saved> currents_;

@@ -26,7 +26,7 @@ bool has_optional_letter(std::string_view piece, bool last, Last kind) {
     return last ? kind == Last::element : piece[0] == 'x';
 }
 
-/// How well a name matches. 0: the full path; 1: the full path with letters left out; 2, 3: the same for the end of the path.
+/// How well a name matches. 0 is the full path, 1 the full path with letters left out; 2 and 3 are the same for the end of the path.
 int match_rank(std::string_view name, std::span<const std::string_view> typed, Last kind) {
     const auto pieces = split(name);
     if (typed.size() > pieces.size()) return no_match;

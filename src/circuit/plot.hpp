@@ -8,6 +8,7 @@
 
 namespace corpuscle::circuit {
 
+/// A named column of values; real values have no imaginary part.
 struct Curve {
     std::string name;  ///< "v(out)", "i(v1)", "frequency"
     std::string type;  ///< as in ngspice: "voltage", "current", "frequency", "notype" ...

@@ -25,13 +25,14 @@ struct Expectation {
     Place place;
 };
 
+/// The results of a run.
 struct RunOutcome {
     std::vector<Analysed> analyses;
     std::vector<std::pair<std::string, double>> numbers;  ///< in order; a measurement that found nothing is NaN
     std::vector<Expectation> expectations;
     std::vector<Error> remarks;
 
-    std::vector<std::string> saved;  ///< by .save: v(a), v(a,b), i(v1) ...; empty means all
+    std::vector<std::string> saved;  ///< names in .save: v(a), v(a,b), i(v1) ... An empty list means all.
 
     /// The value of a name after the run: a measurement or a number of an analysis. Otherwise the value of a curve, such as "v(out)", at
     /// the last point of the first plot that has it.
@@ -55,6 +56,7 @@ struct RunOrders {
     bool keep = true;               ///< keep the points of a transient in memory, as a plot of its result
     bool print = true;              ///< make the tables of .print
 };
+/// Runs all directives. A directive that is wrong, or an analysis that fails, is an error. An .expect that is not met is not an error.
 Result<RunOutcome> run(TestBench&, const RunOrders& = {});
 Result<RunOutcome> run(std::shared_ptr<const Circuit>, const RunOrders& = {});
 

@@ -31,6 +31,7 @@ public:
     double T() const { return T_; }
 
     void append(std::span<const double> force);
+    /// The force at time t, N; t in s.
     double at(double t) const;
     /// The first breakpoint after t, s; infinity if none is known.
     double next_corner(double t) const;

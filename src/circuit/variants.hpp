@@ -8,6 +8,7 @@
 
 namespace corpuscle::circuit {
 
+/// One variant of a netlist.
 struct Variant {
     std::string label;                       ///< "r=1000", "temp=85", "mc=17", separated by blanks; "" if there is only one variant
     std::shared_ptr<const Circuit> circuit;  ///< shared with the previous variant if only the chip differs
@@ -23,6 +24,7 @@ struct Chips {
 
     Draw draw(std::uint64_t chip) const;  ///< `chip` counts from `first_chip`
 };
+/// Reads a .mc line.
 Result<Chips> chips_of(const Command&);
 /// The sample of the circuit's chip; nothing if the circuit has no mismatch seed.
 std::optional<Draw> own_draw(const Circuit&);

@@ -6,6 +6,7 @@
 
 namespace corpuscle::circuit {
 
+/// Measures power over a transient while it runs, and adds area and leakage afterwards.
 class Accountant {
     TestBench& context_;
     std::optional<PowerMeter> meter_;

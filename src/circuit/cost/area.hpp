@@ -15,7 +15,7 @@ struct Area {
     Area& operator+=(const Area&);
 };
 
-/// MIM capacitors, F/m^2: 20 x 20 um are 0.8 pF, 30 x 30 um 1.8 pF (thesis table 5; errata S4).
+/// Density of MIM capacitors, F/m^2. 20 x 20 um are 0.8 pF and 30 x 30 um are 1.8 pF (thesis table 5; errata S4).
 inline constexpr double capacitor_density = 2e-3;
 
 /// Total area of an array of equal unit transistors of W by L, in rows and columns (along L) of one rectangle. The margins around the

@@ -8,14 +8,16 @@
 
 namespace corpuscle::circuit {
 
+/// Area and leakage of one block.
 struct BlockCost {
     std::string name;
     std::size_t transistors = 0, units = 0;  ///< arrays, and the unit transistors that they consist of
     Area area;
     Leak worst;              ///< of the transistor with the largest leakage current
-    std::string worst_name;  ///< "" if it has none
+    std::string worst_name;  ///< "" if the block has no transistor
 };
 
+/// The cost of a complete circuit.
 struct Cost {
     double supply = 0;                                  ///< V, of the source that delivers the most power at the operating point
     std::vector<std::string> sources;                   ///< the sources that deliver power

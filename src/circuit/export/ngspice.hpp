@@ -9,6 +9,7 @@
 
 namespace corpuscle::circuit {
 
+/// An exported netlist.
 struct NgspiceDeck {
     std::string text;
     std::vector<Error>

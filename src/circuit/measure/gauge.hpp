@@ -12,6 +12,7 @@ namespace corpuscle::circuit {
 inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double endless = std::numeric_limits<double>::infinity();
 
+/// A measurement of one number. Derived classes are below.
 class Gauge {
 public:
     virtual ~Gauge() = default;

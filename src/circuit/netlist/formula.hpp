@@ -16,7 +16,7 @@ namespace corpuscle::circuit {
 /// An input of an expression: v(a), v(a,b), i(vx), time or temper (C).
 struct FormulaInput {
     enum class Kind { voltage, current, time, temperature } kind;
-    std::string name, minus;  ///< voltage: the node and its reference ("" is ground); current: the element
+    std::string name, minus;  ///< of a voltage the node and its reference ("" is ground); of a current the element
     bool operator==(const FormulaInput&) const = default;
 };
 
@@ -36,6 +36,7 @@ struct FormulaScope {
     std::function<std::string(std::string_view)> node{}, element{};
 };
 
+/// A parsed expression.
 class Formula {
 public:
     /// Parses "2*v(a) + max(i(vx), 0)". It has + - * / ** ^ (powers), unary - + !, comparisons, && ||, c ? a : b, and numbers with SPICE's

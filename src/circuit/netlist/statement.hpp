@@ -20,10 +20,12 @@ struct Word {
     std::uint32_t at = 0, size = 0;
 };
 
+/// A pair name=value.
 struct Named {
     Word name, value;
 };
 
+/// A logical line split into words and pairs.
 struct Statement {
     Line line;
     std::vector<Word> words;
