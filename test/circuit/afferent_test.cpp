@@ -214,8 +214,7 @@ TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
     says(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is no number; the level to cross was expected");
     says(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
     says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: unexpected 'now'");
-    says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n",
-         file + ":2:9: iin: force has 2 numbers; expected force [scale]");
+    says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n", file + ":2:9: iin: force has 2 numbers; expected force [scale]");
     EXPECT_EQ(afferent_refusal(t + ".spike v(a) 1\n"), "");
 }
 

@@ -331,7 +331,8 @@ TEST(NetlistSubcircuits, ThatDoubleEachTimeStopAtALimit) {
     EXPECT_NE(said.find("the limit of"), std::string::npos) << said;
     std::string deep;
     for (int k = 0; k < 300; ++k) deep += fmt::format(".subckt s{} a\nX1 a s{}\n.ends\n", k, k + 1);
-    EXPECT_NE(refusal(deep + ".subckt s300 a\n.ends\nX1 a s0\n").find("subcircuits are nested deeper than the limit of 200"), std::string::npos);
+    EXPECT_NE(refusal(deep + ".subckt s300 a\n.ends\nX1 a s0\n").find("subcircuits are nested deeper than the limit of 200"),
+              std::string::npos);
     std::string inside;
     for (int k = 0; k < 300; ++k) inside += fmt::format(".subckt s{} a\n", k);
     EXPECT_NE(refusal(inside).find("definitions of subcircuits are nested deeper than the limit of 200"), std::string::npos);
@@ -359,7 +360,8 @@ TEST(NetlistParameters, ThatGoRoundInACircleAreRefusedWithTheChain) {
     EXPECT_EQ(refusal(".param a={1+bb} b=2"), "dir/t.cir:2:13: unknown name 'bb'; did you mean 'b'?");
     EXPECT_EQ(refusal(".param a"), "dir/t.cir:2:8: expected name=value here");
     EXPECT_EQ(refusal(".param a=ln(-1)"), "dir/t.cir:2:10: 'ln(-1)' is not a number");
-    EXPECT_EQ(refusal(".param a=1\n.param b={v(a)}"), "dir/t.cir:3:11: v(...) is not available in a parameter, only in an expression of the circuit");
+    EXPECT_EQ(refusal(".param a=1\n.param b={v(a)}"),
+              "dir/t.cir:3:11: v(...) is not available in a parameter, only in an expression of the circuit");
 }
 
 TEST(NetlistParameters, AHundredThousandInARowDoNotOverflow) {
@@ -477,9 +479,8 @@ TEST(NetlistRemarks, PointAtWhatLooksLikeSomethingElse) {
         return out;
     };
     using Said = std::vector<std::string>;
-    EXPECT_EQ(
-        remarks("t\nC1 a 0 1F\nC2 a 0 10f\nC3 a 0 1uF\nC4 a 0 c=2F\n"),
-        (Said{"t.cir:2:8: c1: 1F is 1 femtofarad; for a farad write 1", "t.cir:5:10: c4: 2F is 2 femtofarad; for a farad write 2"}));
+    EXPECT_EQ(remarks("t\nC1 a 0 1F\nC2 a 0 10f\nC3 a 0 1uF\nC4 a 0 c=2F\n"),
+              (Said{"t.cir:2:8: c1: 1F is 1 femtofarad; for a farad write 1", "t.cir:5:10: c4: 2F is 2 femtofarad; for a farad write 2"}));
     EXPECT_EQ(
         remarks("t\nR1 a 0 5M\nR2 a 0 5m\nR3 a 0 5Meg\nR4 a 0 5MEG\nR5 a 0 1Mohm\n"),
         (Said{"t.cir:2:8: r1: 5M is 5 milliohm; for a megohm write 5Meg", "t.cir:6:8: r5: 1M is 1 milliohm; for a megohm write 1Meg"}));
