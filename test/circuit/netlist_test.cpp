@@ -195,7 +195,7 @@ TEST(NetlistElements, AreRefusedWithPlaceAndSuggestion) {
         const char *body, *said;
     } cases[] = {
         {"R1 a 0", "2:7: r1: its value is missing"},
-        {"R1 a", "2:5: r1: 1 node, but expected 2: two, then a value or a model"},
+        {"R1 a", "2:5: r1: 1 node, but expected 2: plus, minus, then a value or a model"},
         {"R1 a 0 1k 2k", "2:11: r1: unexpected '2k'"},
         {"R1 a 0 1k5", "2:8: '1k5' is not a number"},
         {"R1 a 0 0", "2:8: r1: a resistor must not be 0 ohm; use a 0 V source to connect two nodes"},

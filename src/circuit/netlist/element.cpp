@@ -107,7 +107,7 @@ private:
     // ---- R C L ----
 
     Result<void> passive() {
-        if (const auto ok = nodes(2, "two, then a value or a model"); !ok) return ok;
+        if (const auto ok = nodes(2, "plus, minus, then a value or a model"); !ok) return ok;
         bool has_value = false;
         for (std::size_t k = 3; k < s_.words.size(); ++k) {
             const bool is_name = is_model(k, has_value);
