@@ -207,11 +207,11 @@ TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
     };
     says("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force; add one, such as 'iin 0 fin force 60n'");
     says(t, file + ": no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
-    says(t + ".spike v(b) 1\n", file + ":4:8: .spike: there is no v(b); did you mean 'v(a)'?");
+    says(t + ".spike v(b) 1\n", file + ":4:8: .spike: unknown output v(b); did you mean 'v(a)'?");
     says(t + ".spike v(a) 1\n.spike v(a) 2\n", file + ":5:1: .spike: only one is allowed; the first is in line 4");
     says(t + ".spike v(a)\n", file + ":4:1: .spike: v(a) needs a level to cross");
     says(t + ".spike\n", file + ":4:1: .spike: an output is missing");
-    says(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is no number; the level to cross was expected");
+    says(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is not a number; expected the level to cross");
     says(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
     says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: unexpected 'now'");
     says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n", file + ":2:9: iin: force has 2 numbers; expected force [scale]");

@@ -79,7 +79,7 @@ TEST(Topology, AMistypedNodeIsTold) {
     const auto outcome = run_text("t\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\nr3 ouy 0 1k\n.op\n");
     ASSERT_TRUE(outcome);
     ASSERT_EQ(outcome->remarks.size(), 1U);
-    EXPECT_NE(outcome->remarks[0].text().find("test.cir:5:1: node 'ouy' stands at r3 alone; did you mean 'out'?"), std::string::npos)
+    EXPECT_NE(outcome->remarks[0].text().find("test.cir:5:1: node 'ouy' is connected only to r3; did you mean 'out'?"), std::string::npos)
         << outcome->remarks[0].text();
 }
 

@@ -10,74 +10,75 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double kick = 10e-3;  // V
+constexpr double start_offset = 10e-3;  // V, from an unstable operating point
 
-Error kicked(const TestBench& bench, const Growth& growth) {
-    const auto& d = growth.direction;
-    const auto most =
-        std::max_element(d.begin(), d.begin() + bench.system.nodes(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-    const auto node = static_cast<std::size_t>(most - d.begin());
+Error unstable_warning(const TestBench& context, const Growth& mode) {
+    const auto& d = mode.direction;
+    const auto largest =
+        std::max_element(d.begin(), d.begin() + context.system.nodes(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto node = static_cast<std::size_t>(largest - d.begin());
     return bad_input(
-        fmt::format("the circuit would not stay where it rests: a disturbance grows{}; it begins {} beside, at {}; .ic says where else",
-                    growth.rate > 0 ? fmt::format(" {:.3g}-fold within {}", std::exp(1.0), format_quantity(1 / growth.rate, "s"))
-                                    : std::string(" as it swings"),
-                    format_quantity(kick, "V"), bench.system.names()[node]),
-        Place{bench.circuit->file});
+        fmt::format("the operating point is unstable: a disturbance grows{}; the transient starts {} from it, at {}; set .ic to choose the "
+                    "start",
+                    mode.rate > 0 ? fmt::format(" by a factor of {:.3g} in {}", std::exp(1.0), format_quantity(1 / mode.rate, "s"))
+                                  : std::string(" while it oscillates"),
+                    format_quantity(start_offset, "V"), context.system.names()[node]),
+        Place{context.circuit->file});
 }
 
-std::vector<double> charges_of(const Device& device, const std::vector<double>& v, const Instant& at) {
+std::vector<double> charges_of(const Device& device, const std::vector<double>& v, const Instant& eval_context) {
     const auto n = v.size();
-    std::vector<double> room(2 * n + 2 * n * n);
-    const auto all = std::span(room);
-    device.eval(v, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-    return {room.begin() + static_cast<std::ptrdiff_t>(n), room.begin() + static_cast<std::ptrdiff_t>(2 * n)};
+    std::vector<double> stamp(2 * n + 2 * n * n);
+    const auto all = std::span(stamp);
+    device.eval(v, eval_context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+    return {stamp.begin() + static_cast<std::ptrdiff_t>(n), stamp.begin() + static_cast<std::ptrdiff_t>(2 * n)};
 }
 
-/// Each element's charge as its ic= asks for, less its charge at x. An inductor's current is an unknown: x takes it.
-std::vector<double> charge_of_ics(const TestBench& bench, std::vector<double>& x) {
+/// The charge of each element at its ic= voltage minus its charge at x. The current of an inductor is an unknown and is written to x.
+std::vector<double> charge_of_ics(const TestBench& context, std::vector<double>& x) {
     std::vector<double> out;
-    Instant at;
-    at.gmin = bench.tolerances.gmin;
-    for (std::size_t k = 0; k < bench.circuit->elements.size(); ++k) {
-        const auto& e = bench.circuit->elements[k];
+    Instant eval_context;
+    eval_context.gmin = context.tolerances.gmin;
+    for (std::size_t k = 0; k < context.circuit->elements.size(); ++k) {
+        const auto& e = context.circuit->elements[k];
         const auto ic = e.values.find("ic");
         if (ic == e.values.end() || (e.letter != 'c' && e.letter != 'l')) continue;
-        const auto& device = *bench.system.devices()[k];
+        const auto& device = *context.system.devices()[k];
         if (e.letter == 'l') {
             x[static_cast<std::size_t>(device.unknowns[2])] = ic->second;
             continue;
         }
         out.resize(x.size());
-        const auto v = bench.system.terminals(device, x);
+        const auto v = context.system.terminals(device, x);
         auto charged = v;
         charged[0] = v[1] + ic->second;
-        const auto here = charges_of(device, v, at), wanted = charges_of(device, charged, at);
+        const auto here = charges_of(device, v, eval_context), requested = charges_of(device, charged, eval_context);
         for (std::size_t n = 0; n < v.size(); ++n)
-            if (const int unknown = device.unknowns[n]; unknown >= 0) out[static_cast<std::size_t>(unknown)] += wanted[n] - here[n];
+            if (const int unknown = device.unknowns[n]; unknown >= 0) out[static_cast<std::size_t>(unknown)] += requested[n] - here[n];
     }
     return out;
 }
 
 }  // namespace
 
-Result<Beginning> beginning(TestBench& bench, bool uic, std::vector<double> from) {
-    bench.newton.instant.time = 0, bench.newton.instant.charges = false;
-    const bool held_there = !bench.circuit->ic.empty();
-    auto springs = bench.held();
-    springs.to.resize(static_cast<std::size_t>(bench.system.size()));
+Result<Beginning> beginning(TestBench& context, bool uic, std::vector<double> guess) {
+    context.newton.instant.time = 0, context.newton.instant.charges = false;
+    const bool has_ic = !context.circuit->ic.empty();
+    auto clamps = context.held();
+    clamps.to.resize(static_cast<std::size_t>(context.system.size()));
     if (uic) {
-        Beginning out{std::move(springs.to), false};
-        out.charge = charge_of_ics(bench, out.x);
+        Beginning out{std::move(clamps.to), false};
+        out.charge = charge_of_ics(context, out.x);
         return out;
     }
-    auto rest = from.empty() ? bench.rest_held() : operating_point(bench.newton, std::move(from), held_there ? springs : Springs{});
+    auto rest = guess.empty() ? context.rest_held() : operating_point(context.newton, std::move(guess), has_ic ? clamps : Springs{});
     if (!rest) return rest.error();
     Beginning out{std::move(rest->x)};
-    if (held_there || bench.system.linear()) return out;
-    const auto growth = growth_at(bench.newton, out.x);
-    if (!growth) return out;
-    for (std::size_t n = 0; n < out.x.size(); ++n) out.x[n] += kick * growth->direction[n];
-    out.remark = kicked(bench, *growth);
+    if (has_ic || context.system.linear()) return out;
+    const auto mode = growth_at(context.newton, out.x);
+    if (!mode) return out;
+    for (std::size_t n = 0; n < out.x.size(); ++n) out.x[n] += start_offset * mode->direction[n];
+    out.remark = unstable_warning(context, *mode);
     return out;
 }
 

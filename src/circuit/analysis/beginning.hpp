@@ -1,5 +1,5 @@
 #pragma once
-// Where a transient begins.
+// The initial condition of a transient.
 
 #include "circuit/analysis/bench.hpp"
 
@@ -7,14 +7,14 @@ namespace corpuscle::circuit {
 
 struct Beginning {
     std::vector<double> x;
-    bool settled = true;            ///< false (uic): only charges are as they should be, the rest follows from them
-    std::vector<double> charge{};   ///< what ic= of elements adds to the charges at x, of each unknown's equation; empty: nothing
-    std::optional<Error> remark{};  ///< a warning: it would have stayed where it rests
+    bool settled = true;            ///< false (uic): only the charges are consistent; the other unknowns follow from them
+    std::vector<double> charge{};   ///< by equation: charge that ic= of elements adds to the charges at x; empty: none
+    std::optional<Error> remark{};  ///< the operating point is unstable, so the transient starts beside it
 };
 
-/// The operating point, sought from `from`, with the nodes of .ic held there; with uic those alone, all else at 0 V, capacitors with
-/// ic= charged to that voltage and inductors with ic= carrying that current. A circuit without
-/// .ic that rests where the smallest disturbance would grow begins 10 mV beside, in the direction that grows most.
-Result<Beginning> beginning(TestBench&, bool uic, std::vector<double> from = {});
+/// The operating point with the nodes of .ic clamped; the search starts from `guess`. With uic: the voltages of .ic, all other nodes at 0
+/// V, capacitors with ic= charged to that voltage, inductors with ic= carrying that current. A circuit without .ic whose operating point is
+/// unstable starts 10 mV from it, in the direction of the fastest growing disturbance.
+Result<Beginning> beginning(TestBench&, bool uic, std::vector<double> guess = {});
 
 }  // namespace corpuscle::circuit

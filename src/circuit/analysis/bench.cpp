@@ -37,7 +37,7 @@ Result<OperatingPoint> TestBench::rest() {
 
 Result<OperatingPoint> TestBench::rest_held() { return operating_point(newton, circuit->ic.empty() ? designed_ : begun_, held()); }
 
-/// Chips are solved from where the circuit rests as designed, along the pivots of its matrix there.
+/// Solves the nominal circuit. Chips are solved from its operating point, with the pivot order of its matrix there.
 void TestBench::prepare() {
     if (!circuit->ic.empty())
         if (auto begun = rest_held()) begun_ = std::move(begun->x);
@@ -57,10 +57,10 @@ void TestBench::draw(const Draw& chip) {
 
 Error interruption() { return {Code::interrupted, "interrupted"}; }
 
-Error error_at(const Command& c, std::size_t word, std::string sentence) {
-    auto place = c.place;
-    if (word < c.columns.size()) place.column = c.columns[word];
-    return bad_input(std::move(sentence), std::move(place));
+Error error_at(const Command& c, std::size_t word, std::string message) {
+    auto location = c.place;
+    if (word < c.columns.size()) location.column = c.columns[word];
+    return bad_input(std::move(message), std::move(location));
 }
 
 Result<double> number_of(const Command& c, std::size_t word, std::string_view what) {
@@ -69,22 +69,22 @@ Result<double> number_of(const Command& c, std::size_t word, std::string_view wh
         if (auto why = ambiguous(*x, c.words[word])) return error_at(c, word, fmt::format(".{}: {}", c.name, *why));
         return x->value;
     }
-    return error_at(c, word, fmt::format(".{}: '{}' is no number; {} was expected", c.name, c.words[word], what));
+    return error_at(c, word, fmt::format(".{}: '{}' is not a number; expected {}", c.name, c.words[word], what));
 }
 
 Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
     const std::string kind = word < c.words.size() ? c.words[word] : "";
     if (kind != "dec" && kind != "oct" && kind != "lin")
         return bad_input(fmt::format(".{}: '{}' must be dec, oct or lin", c.name, kind), c.place);
-    const auto points = number_of(c, word + 1, "a number of points"), from = number_of(c, word + 2, "a frequency to begin at"),
-               to = number_of(c, word + 3, "a frequency to end at");
+    const auto points = number_of(c, word + 1, "the number of points"), from = number_of(c, word + 2, "the first frequency"),
+               to = number_of(c, word + 3, "the last frequency");
     if (!points) return points.error();
     if (!from) return from.error();
     if (!to) return to.error();
     if (!(*points >= 1 && *points <= 1e7))
-        return bad_input(fmt::format(".{}: {:g} points; at least 1 and at most 10000000", c.name, *points), c.place);
+        return bad_input(fmt::format(".{}: {:g} points is outside [1, 10000000]", c.name, *points), c.place);
     if (!(*to >= *from && (*from > 0 || (kind == "lin" && *from >= 0))))
-        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz; the first must be above 0 and not above the second", c.name, *from, *to),
+        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, *from, *to),
                          c.place);
     const auto count = static_cast<long>(*points);
     std::vector<double> out;
@@ -93,9 +93,9 @@ Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
             out.push_back(count == 1 ? *from : *from + (*to - *from) * static_cast<double>(k) / static_cast<double>(count - 1));
         return out;
     }
-    // As ngspice: so many steps a decade (octave), evenly, and the last no further than the end.
+    // As in ngspice: points are spaced evenly per decade (octave), and the last is at or below the end.
     const double base = kind == "dec" ? 10 : 2, steps = std::log(*to / *from) / std::log(base) * static_cast<double>(count);
-    if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; at most 10000000", c.name, steps), c.place);
+    if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; the maximum is 10000000", c.name, steps), c.place);
     for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(*from * std::pow(base, k / static_cast<double>(count)));
     return out;
 }
@@ -115,20 +115,20 @@ Result<Wanted> wanted_of(const System& system, const Command& c, std::size_t wor
 Result<Wanted> wanted_of(const UnknownNames& names, const Command& c, std::size_t word) {
     if (word >= c.words.size())
         return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.place);
-    auto place = c.place;
-    if (word < c.columns.size()) place.column = c.columns[word];
+    auto location = c.place;
+    if (word < c.columns.size()) location.column = c.columns[word];
     const auto& text = c.words[word];
     const bool voltage = text.starts_with("v("), closed = text.ends_with(")");
     if (!closed || !(voltage || text.starts_with("i(")))
-        return bad_input(fmt::format(".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text), place);
+        return bad_input(fmt::format(".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text), location);
     const auto inside = text.substr(2, text.size() - 3);
     const auto unknown = [&](const std::string& name) -> Result<int> {
         if (voltage && (name == "0" || name == "gnd")) return -1;
         const auto full = fmt::format("{}({})", voltage ? 'v' : 'i', name);
-        const int found = names.index_of(full);
-        if (found >= 0) return found;
+        const int index = names.index_of(full);
+        if (index >= 0) return index;
         const std::vector<std::string_view> known(names.all().begin(), names.all().end());
-        return bad_input(fmt::format(".{}: there is no {}{}", c.name, full, did_you_mean(full, known)), place);
+        return bad_input(fmt::format(".{}: unknown output {}{}", c.name, full, did_you_mean(full, known)), location);
     };
     const auto comma = inside.find(',');
     const auto plus = unknown(inside.substr(0, comma));
@@ -169,13 +169,13 @@ std::vector<std::complex<double>> admittances(const Sums& sums, std::size_t entr
     return out;
 }
 
-Sums sums_at(const TestBench& bench, std::span<const double> x) {
+Sums sums_at(const TestBench& context, std::span<const double> x) {
     Sums sums;
-    Instant at;
-    at.gmin = bench.tolerances.gmin;
-    auto memory = bench.system.fresh_memory();
-    for (int k = 0; k < 200; ++k) {  // until no device shortens its look
-        bench.system.eval(x, at, memory, sums);
+    Instant eval_context;
+    eval_context.gmin = context.tolerances.gmin;
+    auto limiting_state = context.system.fresh_memory();
+    for (int k = 0; k < 200; ++k) {  // until limit() changes no voltage
+        context.system.eval(x, eval_context, limiting_state, sums);
         if (!sums.limited) break;
     }
     return sums;

@@ -1,5 +1,5 @@
 #pragma once
-// What analyses work on: a circuit's equations, its tolerances, and what they leave behind.
+// The input of the analyses (equations, tolerances) and their results.
 
 #include <functional>
 #include <memory>
@@ -13,20 +13,20 @@
 
 namespace corpuscle::circuit {
 
-/// What an analysis found.
+/// The result of an analysis.
 struct Findings {
     std::vector<Plot> plots;
     std::vector<std::pair<std::string, double>> numbers;  ///< printed as "name = value"
-    std::vector<std::pair<std::string, double>> work;     ///< what it took: steps, iterations ...
-    std::string table;                                    ///< for people
+    std::vector<std::pair<std::string, double>> work;     ///< counters: steps, iterations ...
+    std::string table;                                    ///< a printed table
     std::vector<Error> remarks;
-    std::optional<std::vector<double>> spikes;  ///< s, where the netlist has .spike
+    std::optional<std::vector<double>> spikes;  ///< s, if the netlist has .spike
 };
 
-/// A circuit ready for its analyses; one chip of it after another, if it is drawn.
+/// A circuit with everything that its analyses need. With apply_variation() it is one chip after another.
 class TestBench {
     std::optional<OperatingPoint> rest_;
-    std::vector<double> designed_, begun_;  // where the circuit rests as designed, and with .ic held: each chip's search begins there
+    std::vector<double> designed_, begun_;  // nominal operating points, without and with .ic: the start of each chip's search
     std::optional<Draw> drawn_;
 
     TestBench(std::shared_ptr<const Circuit>, System, const Tolerances&);
@@ -37,38 +37,38 @@ public:
     System system;
     Tolerances tolerances;
     Newton newton;
-    std::function<bool(double share)> stop{};  ///< asked now and then, told how far the work is; true: stop
-    PointSink* points = nullptr;               ///< takes what is too long to be kept; null: it is kept
-    long most_iterations = 0;                  ///< of a transient: one that takes more is stopped; 0: as many as it takes
-    bool capped = false;                       ///< the last one was
-    bool requests_checked = false;             ///< .print, .plot and .meas were checked against the circuit
-    bool brief = false;                        ///< one of many: tables for people and warnings are not wanted
+    std::function<bool(double fraction)> stop{};  ///< called repeatedly with the completed fraction; returns true to stop the analysis
+    PointSink* points = nullptr;                  ///< receives the points of a transient; null: they are kept in the result
+    long most_iterations = 0;                     ///< limit for a transient; 0: no limit
+    bool capped = false;                          ///< the last transient was stopped by this limit
+    bool requests_checked = false;                ///< .print, .plot and .meas were checked against the circuit
+    bool brief = false;                           ///< one of many analyses: no printed tables, no warnings
 
     static Result<std::unique_ptr<TestBench>> make(std::shared_ptr<const Circuit>);
     TestBench(const TestBench&) = delete;
 
-    bool stopped(double share) const { return stop && stop(share); }
-    /// Where the circuit rests; searched for once.
+    bool stopped(double fraction) const { return stop && stop(fraction); }
+    /// The operating point; computed once.
     Result<OperatingPoint> rest();
-    /// As its sources stand now, with the nodes of .ic held; not kept.
+    /// The operating point with the present source values and the nodes of .ic clamped; computed at each call.
     Result<OperatingPoint> rest_held();
-    Springs held() const;  ///< by .ic; none if there is no .ic
+    Springs held() const;  ///< clamps of .ic; empty if there is no .ic
     void draw(const Draw&);
     const std::optional<Draw>& drawn() const { return drawn_; }
 };
 
 Error interruption();
 
-/// An error at one of a command's words.
-Error error_at(const Command&, std::size_t word, std::string sentence);
+/// An error with the location of a word of a command.
+Error error_at(const Command&, std::size_t word, std::string message);
 
-/// A number among a command's words, SPICE's suffixes and all; names the command, the word and its place if it is none.
+/// Reads a number, with SPICE suffixes, from a word of a command. Errors name the command, the word and its location.
 Result<double> number_of(const Command&, std::size_t word, std::string_view what);
 
-/// Frequencies of "dec 10 1 1k", "oct ...", "lin ...", from the given word on.
+/// Reads frequencies (Hz) as "dec 10 1 1k", "oct ..." or "lin ...", starting at the given word.
 Result<std::vector<double>> frequencies_of(const Command&, std::size_t word);
 
-/// v(a), v(a,b) or i(x) as unknowns: their difference is meant. -1: nothing.
+/// An output variable v(a), v(a,b) or i(x): the difference of two unknowns. -1: 0.
 struct Wanted {
     int plus = -1, minus = -1;
     std::complex<double> of(std::span<const std::complex<double>> x) const;
@@ -76,7 +76,7 @@ struct Wanted {
 };
 Result<Wanted> wanted_of(const System&, const Command&, std::size_t word);
 
-/// The system's unknowns by name, for many look-ups. The system must outlive it.
+/// Index of the system's unknowns by name. The system must outlive it.
 class UnknownNames {
     const System& system_;
     std::unordered_map<std::string_view, int> at_;
@@ -88,15 +88,15 @@ public:
 };
 Result<Wanted> wanted_of(const UnknownNames&, const Command&, std::size_t word);
 
-/// Curves for all unknowns, empty, after the one that is swept.
+/// A plot with an empty curve for the swept quantity, then one for each unknown.
 Plot plot_of(const System&, std::string name, std::string swept, std::string type);
 void append(Plot&, std::complex<double> swept, std::span<const double> x);
 void append(Plot&, std::complex<double> swept, std::span<const std::complex<double>> x);
 
-/// G + j w C of a system at its operating point, in the pattern's places.
+/// G + j omega C, by entry of the sparsity pattern. omega: rad/s.
 std::vector<std::complex<double>> admittances(const Sums&, std::size_t entries, double omega);
 
-/// All sums at an operating point.
+/// Evaluates all devices at an operating point.
 Sums sums_at(const TestBench&, std::span<const double> x);
 
 }  // namespace corpuscle::circuit

@@ -1,4 +1,4 @@
-// .op: the operating point, each device at it, and whether there is another.
+// .op: the operating point, the quantities of each device, and a check for a second stable state.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,42 +13,42 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t page_width = 100, least_cell_width = 12, least_name_width = 24;
+constexpr std::size_t page_width = 100, min_cell_width = 12, min_name_width = 24;
 
-/// Devices that follow one another and have the same readings.
-struct DeviceGroup {
-    struct Row {
+/// The table of successive devices that have the same quantities.
+struct DeviceTable {
+    struct DeviceRow {
         std::string name, state;
         std::vector<std::string> cells;
     };
-    std::vector<std::string_view> readings;
-    std::vector<Row> rows;
+    std::vector<std::string_view> quantities;
+    std::vector<DeviceRow> rows;
 
     template <class Length>
-    std::size_t longest(std::size_t least, const Length& length) const {
-        for (const auto& r : rows) least = std::max(least, length(r));
-        return least;
+    std::size_t max_length(std::size_t minimum, const Length& length) const {
+        for (const auto& r : rows) minimum = std::max(minimum, length(r));
+        return minimum;
     }
 
-    /// A header, a row a device: as often as it takes for all readings on lines of 100 letters. The state stands behind the last of them.
-    std::string table() const {
-        const auto name_width = longest(least_name_width, [](const Row& r) { return r.name.size(); });
-        const auto state_width = longest(0, [](const Row& r) { return r.state.empty() ? 0 : r.state.size() + 2; });
+    /// A header and a row for each device, repeated until all quantities fit in lines of 100 characters. The state follows the last one.
+    std::string text() const {
+        const auto name_width = max_length(min_name_width, [](const DeviceRow& r) { return r.name.size(); });
+        const auto state_width = max_length(0, [](const DeviceRow& r) { return r.state.empty() ? 0 : r.state.size() + 2; });
         std::vector<std::size_t> widths;
-        for (std::size_t k = 0; k < readings.size(); ++k)
+        for (std::size_t k = 0; k < quantities.size(); ++k)
             widths.push_back(
-                longest(std::max(least_cell_width, readings[k].size() + 1), [k](const Row& r) { return r.cells[k].size() + 1; }));
+                max_length(std::max(min_cell_width, quantities[k].size() + 1), [k](const DeviceRow& r) { return r.cells[k].size() + 1; }));
         std::string out;
-        for (std::size_t from = 0, to = 0; from < readings.size(); from = to) {
+        for (std::size_t from = 0, to = 0; from < quantities.size(); from = to) {
             auto width = name_width + widths[to++];
-            const auto behind = [&] { return to + 1 == readings.size() ? state_width : 0; };  // the reading that is next
-            while (to < readings.size() && width + widths[to] + behind() <= page_width) width += widths[to++];
+            const auto state_column = [&] { return to + 1 == quantities.size() ? state_width : 0; };  // of the next column
+            while (to < quantities.size() && width + widths[to] + state_column() <= page_width) width += widths[to++];
             out += fmt::format("\n{:{}}", "", name_width);
-            for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", readings[k], widths[k]);
+            for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", quantities[k], widths[k]);
             for (const auto& r : rows) {
                 out += fmt::format("\n{:{}}", r.name, name_width);
                 for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", r.cells[k], widths[k]);
-                if (to == readings.size() && !r.state.empty()) out += "  " + r.state;
+                if (to == quantities.size() && !r.state.empty()) out += "  " + r.state;
             }
             out += '\n';
         }
@@ -56,98 +56,100 @@ struct DeviceGroup {
     }
 };
 
-/// All unknowns, then the devices with their readings.
-std::string table_of(const System& system, std::span<const double> x) {
+/// All unknowns, then the devices with their quantities.
+std::string operating_point_table(const System& system, std::span<const double> x) {
     std::string out;
     for (const auto& n : system.names()) {
         const auto at = static_cast<std::size_t>(&n - system.names().data());
         out += fmt::format("{:24} {:>14}\n", n, format_quantity(x[at], system.is_voltage(static_cast<int>(at)) ? "V" : "A"));
     }
-    DeviceGroup group;
+    DeviceTable table;
     for (const auto& d : system.devices()) {
         const auto v = system.terminals(*d, x);
-        const auto readings = d->readings(v);
-        if (readings.empty()) continue;
+        const auto quantities = d->readings(v);
+        if (quantities.empty()) continue;
         std::vector<std::string_view> names;
-        DeviceGroup::Row row{d->name, std::string(d->state(v)), {}};
-        for (const auto& r : readings) names.push_back(r.name), row.cells.push_back(format_quantity(r.value, r.unit));
-        if (names != group.readings) {
-            out += group.table();
-            group = {std::move(names), {}};
+        DeviceTable::DeviceRow row{d->name, std::string(d->state(v)), {}};
+        for (const auto& r : quantities) names.push_back(r.name), row.cells.push_back(format_quantity(r.value, r.unit));
+        if (names != table.quantities) {
+            out += table.text();
+            table = {std::move(names), {}};
         }
-        group.rows.push_back(std::move(row));
+        table.rows.push_back(std::move(row));
     }
-    return out + group.table();
+    return out + table.text();
 }
 
-/// A second look from elsewhere: all nodes high. Its answer, if it is another one.
-std::optional<Error> other_state(TestBench& bench, const OperatingPoint& found) {
-    if (bench.system.linear() || !bench.circuit->nodesets.empty()) return {};
+/// Searches again with all nodes at the highest voltage. Returns a warning if the result is different.
+std::optional<Error> check_second_state(TestBench& context, const OperatingPoint& found) {
+    if (context.system.linear() || !context.circuit->nodesets.empty()) return {};
     double high = 0;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n) high = std::max(high, std::abs(found.x[n]));
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) high = std::max(high, std::abs(found.x[n]));
     std::vector<double> start(found.x.size());
-    for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n) start[n] = high;
-    const auto again = operating_point(bench.newton, std::move(start));
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) start[n] = high;
+    const auto again = operating_point(context.newton, std::move(start));
     if (!again) return {};
-    for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n)
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
         if (std::abs(again->x[n] - found.x[n]) > 1e-3)
             return Error{
                 Code::not_converged,
-                fmt::format("more than one state is stable: {} is {} from 0 V on, {} from {} on; .nodeset chooses", bench.system.names()[n],
-                            format_quantity(found.x[n], "V"), format_quantity(again->x[n], "V"), format_quantity(high, "V")),
-                Place{bench.circuit->file}};
+                fmt::format(
+                    "more than one stable state: {} is {} if the search starts from 0 V, {} if it starts from {}; choose with .nodeset",
+                    context.system.names()[n], format_quantity(found.x[n], "V"), format_quantity(again->x[n], "V"),
+                    format_quantity(high, "V")),
+                Place{context.circuit->file}};
     return {};
 }
 
 /// .op [states [RISE]]
-struct OpWords {
+struct OpOptions {
     bool states = false;
     double rise = 1e-3;  // s
 };
-Result<OpWords> op_words(const Command& c) {
-    OpWords out;
+Result<OpOptions> read_op_options(const Command& c) {
+    OpOptions out;
     if (c.words.empty()) return out;
-    if (c.words[0] != "states") return error_at(c, 0, fmt::format(".op takes no word but 'states', not '{}'", c.words[0]));
-    if (c.words.size() > 2) return error_at(c, 2, fmt::format(".op: '{}' is one word too many; it is .op states [RISE]", c.words[2]));
+    if (c.words[0] != "states") return error_at(c, 0, fmt::format(".op: '{}' is not an option; the only one is 'states'", c.words[0]));
+    if (c.words.size() > 2) return error_at(c, 2, fmt::format(".op: unexpected '{}'; expected .op states [RISE]", c.words[2]));
     out.states = true;
     if (c.words.size() == 1) return out;
-    const auto rise = number_of(c, 1, "a time in which the sources rise");
+    const auto rise = number_of(c, 1, "the rise time of the sources");
     if (!rise) return rise.error();
     if (!(*rise > 0 && *rise <= 1e3))
-        return error_at(c, 1, fmt::format(".op: the sources rise within {:g} s; above 0, at most 1000", *rise));
+        return error_at(c, 1, fmt::format(".op: the rise time {:g} s must be above 0 and at most 1000 s", *rise));
     return out.rise = *rise, out;
 }
 
-/// Numbers, so that .mc counts them over its chips; and a table.
-Result<void> tell_states(TestBench& bench, const OpWords& asked, Findings& out) {
-    const auto states = rest_states(bench, asked.rise);
+/// Adds the numbers of states, which .mc evaluates over its chips, and their table.
+Result<void> report_states(TestBench& context, const OpOptions& options, Findings& out) {
+    const auto states = rest_states(context, options.rise);
     if (!states) return states.error();
-    double stable = 0, unusual = 1;  // unusual: switched on, it comes elsewhere, or nowhere
-    for (const auto& s : *states) stable += s.stable, unusual -= s.usual && s.power_on;
+    double stable = 0, elsewhere = 1;  // at power-on the circuit reaches another state than .op, or none
+    for (const auto& s : *states) stable += s.stable, elsewhere -= s.usual && s.power_on;
     out.numbers = {
-        {"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", unusual}};
-    out.table = told(bench, *states);
+        {"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", elsewhere}};
+    out.table = told(context, *states);
     return {};
 }
 
 }  // namespace
 
-Result<Findings> analyse_op(TestBench& bench, const Command& c) {
-    const auto asked = op_words(c);
-    if (!asked) return asked.error();
-    const auto found = bench.rest();
+Result<Findings> analyse_op(TestBench& context, const Command& c) {
+    const auto options = read_op_options(c);
+    if (!options) return options.error();
+    const auto found = context.rest();
     if (!found) return found.error();
     Findings out;
-    Plot plot = plot_of(bench.system, "Operating Point", "", "");
+    Plot plot = plot_of(context.system, "Operating Point", "", "");
     for (std::size_t n = 0; n < found->x.size(); ++n) plot.curves[n].values.emplace_back(found->x[n]);
     out.plots.push_back(std::move(plot));
-    if (asked->states)
-        if (auto done = tell_states(bench, *asked, out); !done) return done.error();
-    if (bench.brief) return out;
-    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->how, found->iterations, bench.tolerances.gmin,
-                            out.table, table_of(bench.system, found->x));
-    if (asked->states) return out;
-    if (auto other = other_state(bench, *found)) out.remarks.push_back(std::move(*other));
+    if (options->states)
+        if (auto done = report_states(context, *options, out); !done) return done.error();
+    if (context.brief) return out;
+    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->how, found->iterations, context.tolerances.gmin,
+                            out.table, operating_point_table(context.system, found->x));
+    if (options->states) return out;
+    if (auto other = check_second_state(context, *found)) out.remarks.push_back(std::move(*other));
     return out;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-// A circuit switched on.
+// The state that a circuit reaches at power-on.
 
 #include "circuit/analysis/bench.hpp"
 
 namespace corpuscle::circuit {
 
-/// Where it stands long after all its sources have risen from 0 within `rise` (s), from 0 V everywhere and without .ic. Nothing: it swings
-/// on.
+/// The final state of a transient that starts at 0 V everywhere, without .ic, while all sources rise from 0 within `rise` (s). Returns
+/// nothing if the circuit keeps oscillating.
 Result<std::optional<std::vector<double>>> powered_on(const TestBench&, double rise);
 
 }  // namespace corpuscle::circuit

@@ -13,43 +13,45 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double apart = 1e-3;  // V: from there on states are two
+constexpr double min_difference = 1e-3;  // V, between two equilibria
 
-/// Collects states as they are found.
-class States {
-    TestBench& bench_;
+/// Collects equilibria without duplicates.
+class EquilibriumSet {
+    TestBench& context_;
     std::vector<RestState> found_;
 
-    std::size_t nodes() const { return static_cast<std::size_t>(bench_.system.nodes()); }
+    std::size_t nodes() const { return static_cast<std::size_t>(context_.system.nodes()); }
 
 public:
-    explicit States(TestBench& bench) : bench_(bench) { bench.newton.instant.time = 0, bench.newton.instant.charges = false; }
+    explicit EquilibriumSet(TestBench& context) : context_(context) {
+        context.newton.instant.time = 0, context.newton.instant.charges = false;
+    }
 
     bool same(const std::vector<double>& a, const std::vector<double>& b) const {
         for (std::size_t n = 0; n < nodes(); ++n)
-            if (std::abs(a[n] - b[n]) > apart) return false;
+            if (std::abs(a[n] - b[n]) > min_difference) return false;
         return true;
     }
     RestState& add(std::vector<double> x) {
         for (auto& s : found_)
             if (same(s.x, x)) return s;
-        bench_.newton.memory = bench_.system.fresh_memory();
-        const bool stable = bench_.system.linear() || !growth_at(bench_.newton, x);
-        bench_.newton.instant.charges = false;
+        context_.newton.memory = context_.system.fresh_memory();
+        const bool stable = context_.system.linear() || !growth_at(context_.newton, x);
+        context_.newton.instant.charges = false;
         return found_.emplace_back(RestState{std::move(x), stable});
     }
-    RestState* from(std::vector<double> start) {
-        auto found = operating_point(bench_.newton, std::move(start));
+    RestState* add_from(std::vector<double> start) {
+        auto found = operating_point(context_.newton, std::move(start));
         return found ? &add(std::move(found->x)) : nullptr;
     }
-    /// With a node pushed to a voltage until all else has followed, then let go.
-    void pushed(const std::vector<double>& x, std::size_t node, double to) {
-        Springs springs{std::vector<double>(nodes()), std::vector<double>(x.size())};
-        springs.g[node] = 1, springs.to[node] = to;
-        auto held = operating_point(bench_.newton, x, springs);
-        if (held) (void)from(std::move(held->x));
+    /// Searches with a node clamped to a voltage, then from there without the clamp.
+    void add_from_clamped(const std::vector<double>& x, std::size_t node, double to) {
+        Springs clamps{std::vector<double>(nodes()), std::vector<double>(x.size())};
+        clamps.g[node] = 1, clamps.to[node] = to;
+        auto clamped = operating_point(context_.newton, x, clamps);
+        if (clamped) (void)add_from(std::move(clamped->x));
     }
-    /// Of the stable ones found so far by number: a copy, as more may come.
+    /// A copy of the stable equilibria found so far.
     std::vector<std::vector<double>> stable() const {
         std::vector<std::vector<double>> out;
         for (const auto& s : found_)
@@ -64,13 +66,13 @@ public:
     }
 };
 
-/// The voltages between which sources hold what they hold: ground, and the highest and lowest of them.
-std::pair<double, double> rails(const TestBench& bench) {
+/// The lowest and the highest voltage of ground and all voltage sources.
+std::pair<double, double> supply_range(const TestBench& context) {
     double low = 0, high = 0;
-    const auto& elements = bench.circuit->elements;
+    const auto& elements = context.circuit->elements;
     for (std::size_t k = 0; k < elements.size(); ++k)
         if (elements[k].letter == 'v') {
-            const double v = bench.system.devices()[k]->setting().value_or(0);
+            const double v = context.system.devices()[k]->setting().value_or(0);
             low = std::min(low, v), high = std::max(high, v);
         }
     return {low, high};
@@ -78,52 +80,53 @@ std::pair<double, double> rails(const TestBench& bench) {
 
 }  // namespace
 
-Result<std::vector<RestState>> rest_states(TestBench& bench, double rise) {
-    const auto usual = bench.rest();
-    if (!usual) return usual.error();
-    States states(bench);
-    states.add(usual->x).usual = true;
-    if (bench.system.linear()) return states.take();
-    const auto [low, high] = rails(bench);
-    for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n) {
-        if (bench.stopped(static_cast<double>(n) / bench.system.nodes())) return interruption();
+Result<std::vector<RestState>> rest_states(TestBench& context, double rise) {
+    const auto operating_point = context.rest();
+    if (!operating_point) return operating_point.error();
+    EquilibriumSet states(context);
+    states.add(operating_point->x).usual = true;
+    if (context.system.linear()) return states.take();
+    const auto [low, high] = supply_range(context);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) {
+        if (context.stopped(static_cast<double>(n) / context.system.nodes())) return interruption();
         for (const double end : {low, high})
-            if (std::abs(usual->x[n] - end) > apart) states.pushed(usual->x, n, end);
+            if (std::abs(operating_point->x[n] - end) > min_difference) states.add_from_clamped(operating_point->x, n, end);
     }
-    const auto on = powered_on(bench, rise);
-    if (on && *on)
-        if (auto* there = states.from(**on)) there->power_on = true;
+    const auto power_on = powered_on(context, rise);
+    if (power_on && *power_on)
+        if (auto* reached = states.add_from(**power_on)) reached->power_on = true;
     const auto stable = states.stable();
     for (std::size_t a = 0; a < stable.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
             auto between = stable[a];
             for (std::size_t n = 0; n < between.size(); ++n) between[n] = (between[n] + stable[b][n]) / 2;
-            (void)states.from(std::move(between));
+            (void)states.add_from(std::move(between));
         }
     return states.take();
 }
 
-std::vector<std::size_t> differing(const TestBench& bench, const RestState& a, const RestState& b) {
-    const auto off = [&](std::size_t n) { return std::abs(a.x[n] - b.x[n]); };
+std::vector<std::size_t> differing(const TestBench& context, const RestState& a, const RestState& b) {
+    const auto difference = [&](std::size_t n) { return std::abs(a.x[n] - b.x[n]); };
     std::vector<std::size_t> out;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(bench.system.nodes()); ++n)
-        if (off(n) > apart) out.push_back(n);
-    std::sort(out.begin(), out.end(), [&](std::size_t m, std::size_t n) { return std::pair(-off(m), m) < std::pair(-off(n), n); });
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
+        if (difference(n) > min_difference) out.push_back(n);
+    std::sort(out.begin(), out.end(),
+              [&](std::size_t m, std::size_t n) { return std::pair(-difference(m), m) < std::pair(-difference(n), n); });
     return out;
 }
 
-std::string told(const TestBench& bench, const std::vector<RestState>& states) {
-    constexpr std::size_t most = 6;  // nodes
+std::string told(const TestBench& context, const std::vector<RestState>& states) {
+    constexpr std::size_t max_nodes = 6;
     std::string out;
     for (const auto& s : states) {
-        out += fmt::format("state {}: {}{}{}\n", &s - states.data() + 1, s.stable ? "stable" : "not stable",
-                           s.usual ? ", where .op rests" : "", s.power_on ? ", where it comes to when it is switched on" : "");
+        out += fmt::format("state {}: {}{}{}\n", &s - states.data() + 1, s.stable ? "stable" : "unstable",
+                           s.usual ? ", the state of .op" : "", s.power_on ? ", the state after power-on" : "");
         if (&s == states.data()) continue;
-        const auto nodes = differing(bench, states[0], s);
-        for (std::size_t k = 0; k < std::min(most, nodes.size()); ++k)
-            out += fmt::format("  {:24} {:>12}, in state 1 {:>12}\n", bench.system.names()[nodes[k]], format_quantity(s.x[nodes[k]], "V"),
+        const auto nodes = differing(context, states[0], s);
+        for (std::size_t k = 0; k < std::min(max_nodes, nodes.size()); ++k)
+            out += fmt::format("  {:24} {:>12}, in state 1 {:>12}\n", context.system.names()[nodes[k]], format_quantity(s.x[nodes[k]], "V"),
                                format_quantity(states[0].x[nodes[k]], "V"));
-        if (nodes.size() > most) out += fmt::format("  and {} more nodes by more than a millivolt\n", nodes.size() - most);
+        if (nodes.size() > max_nodes) out += fmt::format("  and {} more nodes that differ by more than 1 mV\n", nodes.size() - max_nodes);
     }
     return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// All the states in which a circuit may rest, as far as a search finds them, and the one that it comes to when it is switched on.
+// The equilibria of a circuit, as far as a search finds them, and the one that it reaches at power-on.
 
 #include "circuit/analysis/bench.hpp"
 
@@ -7,24 +7,24 @@ namespace corpuscle::circuit {
 
 struct RestState {
     std::vector<double> x;
-    bool stable = true;     ///< a small disturbance dies out (growth_at)
-    bool usual = false;     ///< the one that TestBench::rest() finds
-    bool power_on = false;  ///< the one that it comes to from 0 V when its sources rise
+    bool stable = true;     ///< small disturbances decay (find_unstable_mode)
+    bool usual = false;     ///< the one that AnalysisContext::operating_point() returns
+    bool power_on = false;  ///< the one that the circuit reaches at power-on
 };
 
-/// Where it rests: from where .op finds it; with each node in turn pushed to either end of the supply and let go; along the way on
-/// which it is switched on; and half way between any two that are stable, where there is one that is not. States count as two when some
-/// node differs by more than a millivolt. That these are all is not proven. First the usual one, then stable ones, then the others, each in
-/// the order of their voltages. Of a drawn bench: those of its chip.
+/// Finds equilibria by a search from these points: the start of .op; each node clamped to either supply voltage, then released; the end of
+/// the power-on transient; the midpoint of any two stable equilibria, between which there is an unstable one. Two equilibria differ if a
+/// node differs by more than 1 mV. The list may be incomplete. Order: the default one, then stable ones, then unstable ones, each sorted by
+/// their voltages. With variation applied, these are the equilibria of that chip.
 ///
-/// Switched on: a transient from 0 V everywhere, without .ic, in which every source of V and I rises on a straight line within `rise` (s)
-/// to what it is in .op; its end, when it stands still, is a state. No state has the mark where it does not come to stand.
+/// Power-on is a transient from 0 V everywhere, without .ic, in which all V and I sources rise linearly within `rise` (s) to their values
+/// in .op. If it settles, its end is an equilibrium. Otherwise no equilibrium has is_power_on.
 Result<std::vector<RestState>> rest_states(TestBench&, double rise = 1e-3);
 
-/// The voltages in which two states differ by more than a millivolt, the largest first.
+/// The nodes that differ by more than 1 mV between two equilibria, the largest difference first.
 std::vector<std::size_t> differing(const TestBench&, const RestState&, const RestState&);
 
-/// The states in words: how many, which one has which mark, and where they differ.
+/// Describes the equilibria as text: stability, default and power-on state, and the nodes that differ.
 std::string told(const TestBench&, const std::vector<RestState>&);
 
 }  // namespace corpuscle::circuit

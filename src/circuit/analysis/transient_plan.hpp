@@ -1,18 +1,18 @@
 #pragma once
-// What .tran and .options say of a transient.
+// Reads the parameters of a transient from .tran and .options.
 
 #include "circuit/analysis/bench.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {
 
-/// accuracy=rough|normal|fine|finest, reltol, vntol, abstol, method=gear|trap, maxord; a word or number that is none of these is refused.
+/// From .options: accuracy=rough|normal|fine|finest, reltol, vntol, abstol, method=gear|trap, maxord. Errors: an invalid value.
 Result<TransientPlan> transient_plan(const Circuit&);
 
 /// .tran STEP STOP [START [LONGEST]] [uic]
 struct TransientTimes {
     double step = 0, stop = 0, start = 0;  ///< s
-    std::optional<double> longest;         ///< s, if it is said
+    std::optional<double> longest;         ///< s, if given
     bool uic = false;
 };
 Result<TransientTimes> transient_times(const Command&);

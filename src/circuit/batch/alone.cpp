@@ -1,4 +1,4 @@
-// One chip of a batch by itself, as an afferent.
+// Simulates one chip of a batch by the scalar code, as an afferent.
 
 #include "circuit/batch/chips.hpp"
 
@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::size_t block = 256;  // samples
 
-/// A chip at work, block by block.
-class Alone {
+/// Simulates a chip block by block.
+class ScalarRun {
     const Chip& chip_;
     const BatchOptions& options_;
     ChipAnswer& out_;
@@ -18,7 +18,7 @@ class Alone {
     std::vector<std::vector<double>> probes_;
     std::vector<double*> rows_;
 
-    void keep_shown(std::int64_t first, std::size_t count) {
+    void record_probes(std::int64_t first, std::size_t count) {
         const auto every = static_cast<std::int64_t>(options_.show_every), last = static_cast<std::int64_t>(chip_.force.size());
         for (std::size_t p = 0; p < probes_.size(); ++p)
             for (std::size_t k = 0; k < count; ++k)
@@ -27,7 +27,7 @@ class Alone {
     }
 
 public:
-    Alone(const Chip& chip, const BatchOptions& options, ChipAnswer& out)
+    ScalarRun(const Chip& chip, const BatchOptions& options, ChipAnswer& out)
         : chip_(chip), options_(options), out_(out), afferent_(chip.design->make(chip.T, chip.draw)), state_(afferent_->start()) {
         out.outside.resize(afferent_->ranges().size());
         if (options.show_every == 0) return;
@@ -43,18 +43,19 @@ public:
             if (options_.stop && options_.stop()) return Error{Code::interrupted, "interrupted"};
             const auto count = std::min(block, force.size() - at);
             const auto first = state_.step - afferent_->delay();
-            Answer answer{spikes_, 0, rows_, out_.outside};
-            auto done = afferent_->respond(std::span(force).subspan(at, count), state_, answer);
-            out_.work.steps += answer.steps, out_.work.rejected += answer.rejected, out_.work.iterations += answer.iterations;
-            out_.spent += answer.spent;
+            Answer block_response{spikes_, 0, rows_, out_.outside};
+            auto done = afferent_->respond(std::span(force).subspan(at, count), state_, block_response);
+            out_.work.steps += block_response.steps, out_.work.rejected += block_response.rejected,
+                out_.work.iterations += block_response.iterations;
+            out_.spent += block_response.spent;
             if (!done) return done;
-            keep_shown(first, count);
+            record_probes(first, count);
             out_.capped = options_.most_iterations > 0 && out_.work.iterations > options_.most_iterations;
         }
         return {};
     }
 
-    void tell_spikes() {
+    void report_spikes() {
         const auto end = static_cast<std::int64_t>(chip_.force.size());
         for (const auto& spike : spikes_)
             if (spike.step <= end) out_.spikes.push_back((static_cast<double>(spike.step - 1) + spike.offset) * chip_.T);
@@ -65,9 +66,9 @@ public:
 
 ChipAnswer run_chip_alone(const Chip& chip, const BatchOptions& options) {
     ChipAnswer out;
-    Alone alone(chip, options, out);
-    if (auto done = alone.run(); !done) out.error = done.error();
-    alone.tell_spikes();
+    ScalarRun run(chip, options, out);
+    if (auto done = run.run(); !done) out.error = done.error();
+    run.report_spikes();
     return out;
 }
 

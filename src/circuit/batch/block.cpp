@@ -9,29 +9,30 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Rows one after another out of one stretch of memory.
-class Rows {
-    std::vector<std::pair<lanes::Row**, std::size_t>> wanted_;
+/// Allocates several arrays of rows from one block of memory.
+class RowAllocator {
+    std::vector<std::pair<lanes::Row**, std::size_t>> requests_;
 
 public:
-    void want(lanes::Row*& at, std::size_t count) { wanted_.emplace_back(&at, count); }
-    void give(std::vector<lanes::Row>& memory) {
-        std::size_t all = 0;
-        for (const auto& [at, count] : wanted_) all += count;
-        memory.assign(all, {});
-        all = 0;
-        for (const auto& [at, count] : wanted_) *at = memory.data() + all, all += count;
+    void request(lanes::Row*& array, std::size_t count) { requests_.emplace_back(&array, count); }
+    void allocate(std::vector<lanes::Row>& memory) {
+        std::size_t total = 0;
+        for (const auto& [array, count] : requests_) total += count;
+        memory.assign(total, {});
+        total = 0;
+        for (const auto& [array, count] : requests_) *array = memory.data() + total, total += count;
     }
 };
 
-/// Which unknowns the devices stand at: transistors, ground as the last of them; others.
-std::vector<int> terminals_of(const System& system) {
+/// The unknowns of the transistors' terminals; ground is the index after the last unknown.
+std::vector<int> transistor_terminals(const System& system) {
     std::vector<int> out;
     for (const auto& group : system.groups())
         for (const int u : group.unknowns) out.push_back(u < 0 ? system.size() : u);
     return out;
 }
-std::vector<std::vector<int>> others_of(const System& system) {
+/// The unknowns of the other devices.
+std::vector<std::vector<int>> other_unknowns(const System& system) {
     std::vector<std::vector<int>> out;
     for (const auto k : system.alone()) out.push_back(system.devices()[k]->unknowns);
     return out;
@@ -40,7 +41,7 @@ std::vector<std::vector<int>> others_of(const System& system) {
 }  // namespace
 
 ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std::size_t points)
-    : terminals_(terminals_of(system)), transistors_(terminals_.size() / 4), alone_(others_of(system)) {
+    : terminals_(transistor_terminals(system)), transistors_(terminals_.size() / 4), alone_(other_unknowns(system)) {
     const auto& p = system.pattern();
     const auto n = static_cast<std::size_t>(system.size()), entries = p.entries();
     const auto list = elimination.list();
@@ -62,20 +63,20 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     auto& b = block;
     b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = list;
     b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.voltage = voltage_.data(), b.terminals = terminals_.data();
-    Rows rows;
-    for (auto* at : {&b.q, &b.base, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.per_pivot, &b.work, &b.scale, &b.per_allowed,
-                     &b.relative, &b.floor})
-        rows.want(*at, n);
-    for (auto* at : {&b.x, &b.I, &b.Q}) rows.want(*at, n + 1);
-    for (auto* at : {&b.G, &b.C}) rows.want(*at, entries + 1);
-    rows.want(b.slots, b.list.slots);
-    for (auto* at : {&b.past_x, &b.past_q}) rows.want(*at, points * n);
-    rows.want(b.looked, 4 * transistors_);
-    rows.give(rows_);
-    std::vector<char> stands(b.list.slots);
-    for (std::size_t e = 0; e < entries; ++e) stands[static_cast<std::size_t>(slot_[e])] = 1;
+    RowAllocator rows;
+    for (auto* array : {&b.q, &b.base, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.per_pivot, &b.work, &b.scale, &b.per_allowed,
+                        &b.relative, &b.floor})
+        rows.request(*array, n);
+    for (auto* array : {&b.x, &b.I, &b.Q}) rows.request(*array, n + 1);
+    for (auto* array : {&b.G, &b.C}) rows.request(*array, entries + 1);
+    rows.request(b.slots, b.list.slots);
+    for (auto* array : {&b.past_x, &b.past_q}) rows.request(*array, points * n);
+    rows.request(b.looked, 4 * transistors_);
+    rows.allocate(rows_);
+    std::vector<char> has_entry(b.list.slots);
+    for (std::size_t e = 0; e < entries; ++e) has_entry[static_cast<std::size_t>(slot_[e])] = 1;
     for (std::size_t k = 0; k < b.list.slots; ++k)
-        if (!stands[k]) fill_.push_back(static_cast<int>(k));
+        if (!has_entry[k]) fill_.push_back(static_cast<int>(k));
     b.fill = fill_.data(), b.fills = fill_.size();
     lines_.resize(lanes::chips * transistors_), of_.resize(lines_.size()), moved_.resize(transistors_);
     still_.resize(n + 2 * entries);
@@ -83,10 +84,11 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
 }
 
 bool ChipMemory::fits(const System& system) const {
-    return static_cast<std::size_t>(system.size()) == block.unknowns && terminals_of(system) == terminals_ && others_of(system) == alone_;
+    return static_cast<std::size_t>(system.size()) == block.unknowns && transistor_terminals(system) == terminals_ &&
+           other_unknowns(system) == alone_;
 }
 
-void ChipMemory::set_linear(const System& system, std::size_t chip, const Instant& at) {
+void ChipMemory::set_linear(const System& system, std::size_t chip, const Instant& context) {
     lanes::Row *const I = still_.data(), *const G = I + block.unknowns, *const C = G + block.entries;
     for (auto& row : still_) row.of[chip] = 0;
     others_[chip].clear();
@@ -101,7 +103,7 @@ void ChipMemory::set_linear(const System& system, std::size_t chip, const Instan
             continue;
         }
         const std::span<double> all(other.line);
-        d.eval(other.v, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        d.eval(other.v, context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
         for (std::size_t row = 0; row < n; ++row) {
             if (!d.varies() && d.unknowns[row] >= 0) I[d.unknowns[row]].of[chip] += all[row];
             for (std::size_t column = 0; column < n; ++column) {
@@ -114,11 +116,11 @@ void ChipMemory::set_linear(const System& system, std::size_t chip, const Instan
     }
 }
 
-void ChipMemory::seat(std::size_t chip, const System& system, const Instant& at) {
-    set_linear(system, chip, at);
-    auto* of = of_.data() + chip * transistors_;
+void ChipMemory::seat(std::size_t chip, const System& system, const Instant& context) {
+    set_linear(system, chip, context);
+    auto* constants = of_.data() + chip * transistors_;
     for (const auto& group : system.groups())
-        for (const auto* device : group.members) *of++ = &transistor_constants(*device);
+        for (const auto* device : group.members) *constants++ = &transistor_constants(*device);
     std::fill_n(lines_.begin() + static_cast<std::ptrdiff_t>(chip * transistors_), transistors_, StraightLine{});
     for (std::size_t k = 0; k < 4 * transistors_; ++k) block.looked[k].of[chip] = 1e30;
     for (std::size_t n = 0; n < block.unknowns; ++n) block.base[n].of[chip] = 0;
@@ -142,7 +144,7 @@ void ChipMemory::freshen(std::size_t chip) {
 }
 
 void ChipMemory::renew(const Picked& p, const StraightLine& now) {
-    constexpr std::size_t row = lanes::chips;  // from one row to the next
+    constexpr std::size_t row = lanes::chips;  // distance between rows
     StraightLine &old = lines_[p.chip * transistors_ + p.device], change;
     for (std::size_t k = 0; k < 4; ++k) change.i[k] = now.i[k] - old.i[k], change.q[k] = now.q[k] - old.q[k];
     for (std::size_t e = 0; e < 16; ++e) change.g[e] = now.g[e] - old.g[e], change.c[e] = now.c[e] - old.c[e];
@@ -152,7 +154,7 @@ void ChipMemory::renew(const Picked& p, const StraightLine& now) {
     const std::size_t* const place = places_.data() + 16 * p.device;
     for (std::size_t e = 0; e < 16; ++e) C[place[e] * row] += change.c[e];
     for (std::size_t e = 0; e < 16; ++e)
-        if (e / 4 != Terminals::G) G[place[e] * row] += change.g[e];  // no current goes into a gate
+        if (e / 4 != Terminals::G) G[place[e] * row] += change.g[e];  // the gate current is 0
     for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t u = static_cast<std::size_t>(terminals_[4 * p.device + k]);
         I[u * row] += change.i[k], Q[u * row] += change.q[k];
@@ -160,7 +162,7 @@ void ChipMemory::renew(const Picked& p, const StraightLine& now) {
     }
 }
 
-/// What renew() will need next: most of it stands in a farther cache.
+/// Prefetches the data of the next replace_linearization(), which is mostly in a slower cache.
 void ChipMemory::fetch(const Picked& p) const {
     const std::size_t* const place = places_.data() + 16 * p.device;
     for (std::size_t e = 0; e < 16; ++e) {
@@ -180,32 +182,32 @@ void ChipMemory::look(const lanes::ChipLanes& kernels, std::uint8_t chips, doubl
             picked_.push_back({d, chip}), picked_of_.push_back(of_[chip * transistors_ + d]);
         }
     if (picked_.empty()) return;
-    const std::size_t room = (picked_.size() + lanes::chips - 1) / lanes::chips * lanes::chips;
-    picked_of_.resize(room, picked_of_.back());
+    const std::size_t stride = (picked_.size() + lanes::chips - 1) / lanes::chips * lanes::chips;
+    picked_of_.resize(stride, picked_of_.back());
     double* const v = at_[0].of;
-    for (std::size_t k = 0; k < room; ++k) {
+    for (std::size_t k = 0; k < stride; ++k) {
         const auto& p = picked_[std::min(k, picked_.size() - 1)];
-        for (std::size_t j = 0; j < 4; ++j) v[j * room + k] = block.x[terminals_[4 * p.device + j]].of[p.chip];
+        for (std::size_t j = 0; j < 4; ++j) v[j * stride + k] = block.x[terminals_[4 * p.device + j]].of[p.chip];
     }
-    kernels.picked({picked_of_.data(), picked_.size(), room, v, gmin, fresh_.data()});
+    kernels.picked({picked_of_.data(), picked_.size(), stride, v, gmin, fresh_.data()});
     for (std::size_t k = 0; k < picked_.size(); ++k) {
         if (k + 1 < picked_.size()) fetch(picked_[k + 1]);
         renew(picked_[k], fresh_[k]);
     }
 }
 
-bool ChipMemory::look_at_others(std::size_t chip, const System& system, const Instant& at, std::vector<double>& memory) {
-    bool any = false;
+bool ChipMemory::look_at_others(std::size_t chip, const System& system, const Instant& context, std::vector<double>& limiting_state) {
+    bool limited = false;
     for (auto& o : others_[chip]) {
         const Device& d = *system.devices()[o.number];
         const auto n = o.unknowns.size();
         for (std::size_t j = 0; j < n; ++j) o.v[j] = o.unknowns[j] < 0 ? 0 : block.x[o.unknowns[j]].of[chip];
         o.looked = o.v;
-        any |= d.memory() > 0 && d.limit(o.looked, system.memory_of(o.number, memory));
+        limited |= d.memory() > 0 && d.limit(o.looked, system.memory_of(o.number, limiting_state));
         std::fill(o.line.begin(), o.line.end(), 0.0);
         const std::span<double> all(o.line);
         const auto i = all.first(n), q = all.subspan(n, n), g = all.subspan(2 * n, n * n), c = all.subspan(2 * n + n * n);
-        d.eval(o.looked, at, {i, q, g, c});
+        d.eval(o.looked, context, {i, q, g, c});
         for (std::size_t row = 0; row < n; ++row) {
             for (std::size_t column = 0; column < n; ++column) {
                 const auto e = row * n + column;
@@ -220,10 +222,10 @@ bool ChipMemory::look_at_others(std::size_t chip, const System& system, const In
         }
         std::swap(o.before, o.line);
     }
-    return any;
+    return limited;
 }
 
-bool ChipMemory::formulas_hold(std::size_t chip, const System& system, const Instant& at, const FormulaTolerance& tolerance) {
+bool ChipMemory::formulas_hold(std::size_t chip, const System& system, const Instant& context, const FormulaTolerance& tolerance) {
     for (auto& o : others_[chip]) {
         const Device& d = *system.devices()[o.number];
         if (!d.jumps()) continue;
@@ -232,13 +234,13 @@ bool ChipMemory::formulas_hold(std::size_t chip, const System& system, const Ins
         std::fill(o.line.begin(), o.line.end(), 0.0);
         const std::span<double> all(o.line);
         const auto f = all.first(n);
-        d.eval(o.v, at, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        d.eval(o.v, context, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
         for (std::size_t row = 0; row < n; ++row) {
-            double line = o.before[row];
-            for (std::size_t column = 0; column < n; ++column) line += o.before[2 * n + row * n + column] * o.v[column];
-            const bool volts = o.unknowns[row] >= 0 && !system.is_voltage(o.unknowns[row]);
-            const double size = volts ? std::abs(o.v[0] - o.v[1]) : std::max(std::abs(f[row]), std::abs(line));
-            if (!tolerance.holds(volts, f[row] - line, size)) return false;
+            double linear = o.before[row];
+            for (std::size_t column = 0; column < n; ++column) linear += o.before[2 * n + row * n + column] * o.v[column];
+            const bool is_voltage = o.unknowns[row] >= 0 && !system.is_voltage(o.unknowns[row]);
+            const double scale = is_voltage ? std::abs(o.v[0] - o.v[1]) : std::max(std::abs(f[row]), std::abs(linear));
+            if (!tolerance.holds(is_voltage, f[row] - linear, scale)) return false;
         }
     }
     return true;

@@ -12,147 +12,148 @@ namespace {
 
 using lanes::Row;
 
-/// A block of lanes at work: round by round, one of Newton's steps for every chip that stands in it.
+/// Simulates a block of lanes. Each round makes one Newton iteration for every chip in the block.
 class Batch {
     const lanes::ChipLanes& kernels_;
     const std::function<std::optional<Chip>()>& next_;
-    const std::function<void(const Chip&, ChipAnswer&&)>& told_;
+    const std::function<void(const Chip&, ChipAnswer&&)>& on_done_;
     const BatchOptions& options_;
     ChipMemory memory_;
-    std::vector<Seat> seats_;
+    std::vector<Seat> lanes_;
     std::vector<Row> value_, slope_, weights_;
     bool more_ = true;
     double gmin_;
     std::array<double, lanes::chips> error_{}, lower_{}, higher_{};
 
     void fill(std::size_t lane);
-    void alone(const Chip&, long tried);
-    void leave(std::size_t lane);
+    void run_scalar(const Chip&, long iterations);
+    void finish(std::size_t lane);
     void fail(std::size_t lane);
     std::uint8_t prepare(lanes::SolveCall&, lanes::StepCall&);
-    std::uint8_t strayed(std::uint8_t working, const lanes::SolveCall&);
+    std::uint8_t inaccurate(std::uint8_t working, const lanes::SolveCall&);
     void iterate(std::uint8_t working, lanes::SolveCall&, lanes::StepCall&);
-    void judge(std::uint8_t arrived, std::uint8_t lost, const Row& a);
-    template <class Wants, class OrderOf>
-    void errors(std::uint8_t of, const Wants& wants, const OrderOf& order_of, std::array<double, lanes::chips>& out);
+    void judge(std::uint8_t needs_error, std::uint8_t diverged, const Row& a);
+    template <class Needs, class OrderOf>
+    void errors(std::uint8_t of, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips>& out);
 
 public:
-    Batch(const lanes::ChipLanes& kernels, const System& system, const Elimination& list, double far, std::size_t points, double gmin,
-          const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipAnswer&&)>& told,
+    Batch(const lanes::ChipLanes& kernels, const System& system, const Elimination& list, double radius, std::size_t points, double gmin,
+          const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipAnswer&&)>& on_done,
           const BatchOptions& options)
-        : kernels_(kernels), next_(next), told_(told), options_(options), memory_(system, list, points), value_(points), slope_(points),
-          weights_(points), gmin_(gmin) {
-        memory_.far = far;
-        for (std::size_t l = 0; l < options.lanes; ++l) seats_.emplace_back(memory_, l);
+        : kernels_(kernels), next_(next), on_done_(on_done), options_(options), memory_(system, list, points), value_(points),
+          slope_(points), weights_(points), gmin_(gmin) {
+        memory_.far = radius;
+        for (std::size_t l = 0; l < options.lanes; ++l) lanes_.emplace_back(memory_, l);
     }
     Result<void> run();
 };
 
-constexpr double doubtful_growth = 1e6, doubtful_rest = 1e-9;  // of an elimination: when its answer is looked at, what it may leave over
+// A solution is checked if the pivot growth of its elimination exceeds the first value. The second is the allowed relative residual.
+constexpr double doubtful_lane_growth = 1e6, doubtful_lane_residual = 1e-9;
 
-bool has(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
-std::uint8_t only(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
+bool contains(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
+std::uint8_t bit(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
 
-/// The next chip that gets as far as its beginning takes the lane.
+/// Loads the next chip that has an initial condition into a free lane.
 void Batch::fill(std::size_t lane) {
-    while (more_ && !seats_[lane].taken()) {
+    while (more_ && !lanes_[lane].taken()) {
         auto chip = next_();
         more_ = chip.has_value();
         if (!chip) return;
-        const auto seated = seats_[lane].take(*chip, options_);
-        if (!seated) {
-            ChipAnswer answer;
-            answer.error = seated.error();
-            told_(*chip, std::move(answer));
-        } else if (!*seated) {
-            alone(*chip, 0);
+        const auto started = lanes_[lane].take(*chip, options_);
+        if (!started) {
+            ChipAnswer response;
+            response.error = started.error();
+            on_done_(*chip, std::move(response));
+        } else if (!*started) {
+            run_scalar(*chip, 0);
         }
     }
 }
 
-void Batch::alone(const Chip& chip, long tried) {
-    auto answer = run_chip_alone(chip, options_);
-    answer.alone = true, answer.work.iterations += tried;
-    told_(chip, std::move(answer));
+void Batch::run_scalar(const Chip& chip, long iterations) {
+    auto response = run_chip_alone(chip, options_);
+    response.alone = true, response.work.iterations += iterations;
+    on_done_(chip, std::move(response));
 }
 
-void Batch::leave(std::size_t lane) {
-    const Chip chip = seats_[lane].chip();
-    told_(chip, seats_[lane].leave());
+void Batch::finish(std::size_t lane) {
+    const Chip chip = lanes_[lane].chip();
+    on_done_(chip, lanes_[lane].leave());
     fill(lane);
 }
 
 void Batch::fail(std::size_t lane) {
-    const Chip chip = seats_[lane].chip();
-    alone(chip, seats_[lane].leave().work.iterations);
+    const Chip chip = lanes_[lane].chip();
+    run_scalar(chip, lanes_[lane].leave().work.iterations);
     fill(lane);
 }
 
 std::uint8_t Batch::prepare(lanes::SolveCall& solve, lanes::StepCall& step) {
     lanes::PredictCall predict{{}, value_.data(), slope_.data()};
     std::uint8_t working = 0;
-    for (std::size_t l = 0; l < seats_.size(); ++l)
-        if (seats_[l].prepare(predict, value_, slope_, solve, step) != Seat::Work::nothing) working |= only(l);
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (lanes_[l].prepare(predict, value_, slope_, solve, step) != Seat::Work::nothing) working |= bit(l);
     kernels_.predict(memory_.block, predict);
     return working;
 }
 
-template <class Wants, class OrderOf>
-void Batch::errors(std::uint8_t of, const Wants& wants, const OrderOf& order_of, std::array<double, lanes::chips>& out) {
+template <class Needs, class OrderOf>
+void Batch::errors(std::uint8_t of, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips>& out) {
     lanes::ErrorCall call{};
     call.of_past = weights_.data();
     std::fill(weights_.begin(), weights_.end(), Row{});
     bool any = false;
-    for (std::size_t l = 0; l < seats_.size(); ++l)
-        if (has(of, l) && wants(seats_[l])) seats_[l].weigh(order_of(seats_[l]), call, weights_), any = true;
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (contains(of, l) && needs(lanes_[l])) lanes_[l].weigh(order_of(lanes_[l]), call, weights_), any = true;
     if (!any) return;
     kernels_.error(memory_.block, call);
-    for (std::size_t l = 0; l < seats_.size(); ++l) out[l] = call.worst.of[l];
+    for (std::size_t l = 0; l < lanes_.size(); ++l) out[l] = call.worst.of[l];
 }
 
-/// Of those at work, whose elimination cannot be trusted.
-std::uint8_t Batch::strayed(std::uint8_t working, const lanes::SolveCall& solve) {
+/// The chips whose elimination was not accurate enough.
+std::uint8_t Batch::inaccurate(std::uint8_t working, const lanes::SolveCall& solve) {
     std::uint8_t doubtful = 0;
-    for (std::size_t l = 0; l < seats_.size(); ++l)
-        if (has(working, l) && !seats_[l].restarts() && !(solve.growth.of[l] < doubtful_growth)) doubtful |= only(l);
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (contains(working, l) && !lanes_[l].restarts() && !(solve.growth.of[l] < doubtful_lane_growth)) doubtful |= bit(l);
     if (doubtful == 0) return 0;
-    Row left;
-    kernels_.left_over(memory_.block, solve, left);
+    Row residual;
+    kernels_.left_over(memory_.block, solve, residual);
     std::uint8_t out = 0;
-    for (std::size_t l = 0; l < seats_.size(); ++l)
-        if (has(doubtful, l) && !(left.of[l] < doubtful_rest)) out |= only(l);
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (contains(doubtful, l) && !(residual.of[l] < doubtful_lane_residual)) out |= bit(l);
     return out;
 }
 
 void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCall& step) {
-    const auto astray = strayed(working, solve);
+    const auto failed = inaccurate(working, solve);
     kernels_.go(memory_.block, step);
-    std::uint8_t arrived = 0, lost = 0;
-    for (std::size_t l = 0; l < seats_.size(); ++l) {
-        if (!has(working, l)) continue;
-        if (has(astray, l)) {
+    std::uint8_t needs_error = 0, diverged = 0;
+    for (std::size_t l = 0; l < lanes_.size(); ++l) {
+        if (!contains(working, l)) continue;
+        if (contains(failed, l)) {
             fail(l);
             continue;
         }
-        const auto verdict = seats_[l].iterated(step.size.of[l], step.clamped.of[l] > 0, step.bad.of[l] == 0);
-        if (verdict == Seat::Verdict::wants_error) arrived |= only(l);
-        if (verdict == Seat::Verdict::fails) lost |= only(l);
+        const auto status = lanes_[l].iterated(step.size.of[l], step.clamped.of[l] > 0, step.bad.of[l] == 0);
+        if (status == Seat::Verdict::wants_error) needs_error |= bit(l);
+        if (status == Seat::Verdict::fails) diverged |= bit(l);
     }
-    judge(arrived, lost, solve.a);
+    judge(needs_error, diverged, solve.a);
 }
 
-void Batch::judge(std::uint8_t arrived, std::uint8_t lost, const Row& a) {
-    if ((arrived | lost) == 0) return;
+void Batch::judge(std::uint8_t needs_error, std::uint8_t diverged, const Row& a) {
+    if ((needs_error | diverged) == 0) return;
     kernels_.charges(memory_.block);
-    errors(arrived, [](const Seat&) { return true; }, [](const Seat& s) { return s.order(); }, error_);
+    errors(needs_error, [](const Seat&) { return true; }, [](const Seat& s) { return s.order(); }, error_);
     lanes::AcceptCall accept{{}, a};
     std::uint8_t accepted = 0, around = 0;
-    for (std::size_t l = 0; l < seats_.size(); ++l) {
-        if (!has(arrived | lost, l)) continue;
-        switch (seats_[l].judge(has(lost, l) ? std::numeric_limits<double>::infinity() : error_[l])) {
+    for (std::size_t l = 0; l < lanes_.size(); ++l) {
+        if (!contains(needs_error | diverged, l)) continue;
+        switch (lanes_[l].judge(contains(diverged, l) ? std::numeric_limits<double>::infinity() : error_[l])) {
             case Seat::Judged::accepted:
-                accepted |= only(l), accept.taken.of[l] = 1;
-                if (seats_[l].looks_around()) around |= only(l);
+                accepted |= bit(l), accept.taken.of[l] = 1;
+                if (lanes_[l].looks_around()) around |= bit(l);
                 break;
             case Seat::Judged::fails:
                 fail(l);
@@ -165,15 +166,15 @@ void Batch::judge(std::uint8_t arrived, std::uint8_t lost, const Row& a) {
     errors(around, [](const Seat& s) { return s.can_fall(); }, [](const Seat& s) { return s.order() - 1; }, lower_);
     errors(around, [](const Seat& s) { return s.can_rise(); }, [](const Seat& s) { return s.order() + 1; }, higher_);
     kernels_.accept(memory_.block, accept);
-    for (std::size_t l = 0; l < seats_.size(); ++l) {
-        if (!has(accepted, l)) continue;
-        seats_[l].choose(error_[l], lower_[l], higher_[l]);
-        if (!seats_[l].accepted()) leave(l);
+    for (std::size_t l = 0; l < lanes_.size(); ++l) {
+        if (!contains(accepted, l)) continue;
+        lanes_[l].choose(error_[l], lower_[l], higher_[l]);
+        if (!lanes_[l].accepted()) finish(l);
     }
 }
 
 Result<void> Batch::run() {
-    for (std::size_t l = 0; l < seats_.size(); ++l) fill(l);
+    for (std::size_t l = 0; l < lanes_.size(); ++l) fill(l);
     for (long round = 0;; ++round) {
         if (round % 64 == 0 && options_.stop && options_.stop()) return Error{Code::interrupted, "interrupted"};
         lanes::SolveCall solve{};
@@ -181,27 +182,27 @@ Result<void> Batch::run() {
         const auto working = prepare(solve, step);
         if (working == 0) return {};
         memory_.look(kernels_, working, gmin_);
-        for (std::size_t l = 0; l < seats_.size(); ++l)
-            if (has(working, l)) seats_[l].look_at_others();
+        for (std::size_t l = 0; l < lanes_.size(); ++l)
+            if (contains(working, l)) lanes_[l].look_at_others();
         kernels_.solve(memory_.block, solve);
         iterate(working, solve, step);
     }
 }
 
-/// V: how far a transistor may go along its straight line. What it is off there is a part of its current, (far / n phi_t)^2 / 2 or less,
-/// as if its gate stood that much of n phi_t elsewhere: a sixteenth of what a step may err.
-double far_of(const TransientPlan& plan) {
-    constexpr double phi_t = 0.026, part = 1.0 / 16;
-    return std::sqrt(2 * phi_t * part * (plan.reltol * 0.5 + plan.vntol));
+/// V: distance from its linearization point at which a transistor is linearized again. The relative error of its current there is at most
+/// (radius / n phi_t)^2 / 2. This equals an error of the gate voltage of that fraction of n phi_t, here a sixteenth of the allowed error.
+double linearization_radius(const TransientPlan& plan) {
+    constexpr double phi_t = 0.026, fraction = 1.0 / 16;
+    return std::sqrt(2 * phi_t * fraction * (plan.reltol * 0.5 + plan.vntol));
 }
 
-Result<void> one_by_one(const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipAnswer&&)>& told,
-                        const BatchOptions& options) {
+Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipAnswer&&)>& on_done,
+                            const BatchOptions& options) {
     while (const auto chip = next()) {
-        auto answer = run_chip_alone(*chip, options);
-        if (answer.error && answer.error->code == Code::interrupted) return *answer.error;
-        answer.alone = true;
-        told(*chip, std::move(answer));
+        auto response = run_chip_alone(*chip, options);
+        if (response.error && response.error->code == Code::interrupted) return *response.error;
+        response.alone = true;
+        on_done(*chip, std::move(response));
     }
     return {};
 }
@@ -209,17 +210,18 @@ Result<void> one_by_one(const std::function<std::optional<Chip>()>& next, const 
 }  // namespace
 
 Result<void> run_chips(const std::shared_ptr<const CircuitDesign>& nominal, const std::function<std::optional<Chip>()>& next,
-                       const std::function<void(const Chip&, ChipAnswer&&)>& told, const BatchOptions& options) {
+                       const std::function<void(const Chip&, ChipAnswer&&)>& on_done, const BatchOptions& options) {
     const auto kernels = chip_kernels();
     if (!kernels) return kernels.error();
     auto rig = Rig::make(*nominal, 1e-4, {});
     if (!rig) return rig.error();
     const auto& system = (*rig)->bench().system;
     const auto* list = (*rig)->transient().elimination();
-    if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf) return one_by_one(next, told, options);
-    return Batch(**kernels, system, *list, far_of(nominal->plan),
+    if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf)
+        return run_all_scalar(next, on_done, options);
+    return Batch(**kernels, system, *list, linearization_radius(nominal->plan),
                  static_cast<std::size_t>(std::max(nominal->plan.order + 1, StepControl::curve_points)), (*rig)->bench().tolerances.gmin,
-                 next, told, options)
+                 next, on_done, options)
         .run();
 }
 

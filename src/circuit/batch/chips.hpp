@@ -1,5 +1,5 @@
 #pragma once
-// Many chips of one netlist, each under its force: on lanes, each lane a chip with its own time.
+// Simulates many chips of one netlist, each with its own force, on SIMD lanes. Each lane is one chip with its own time.
 
 #include <functional>
 #include <memory>
@@ -11,41 +11,41 @@
 
 namespace corpuscle::circuit {
 
-/// A chip that is to be run.
+/// A chip to simulate.
 struct Chip {
-    std::int64_t number = 0;                      ///< the caller's
+    std::int64_t number = 0;                      ///< chosen by the caller
     std::shared_ptr<const CircuitDesign> design;  ///< all of one batch have the same devices at the same nodes
     std::optional<Draw> draw;
-    std::span<const double> force;  ///< N, samples T apart; it stays where it is until the chip has ended
+    std::span<const double> force;  ///< N, sampled at interval T; must stay valid until the chip is done
     double T = 1e-4;                ///< s
 };
 
-/// What it did.
+/// The result of one chip.
 struct ChipAnswer {
     std::vector<double> spikes;  ///< s
     TransientWork work;
     Spent spent;
-    std::vector<Outside> outside;           ///< of each of the design's ranges
-    std::vector<std::vector<float>> shown;  ///< what was asked to be shown: each of the design's probes at each sample asked for
-    std::optional<Error> error;             ///< it did not converge: when and where
-    bool capped = false;                    ///< it was stopped: more iterations than it may have
-    bool alone = false;                     ///< it left its lane, and was done again by itself
+    std::vector<Outside> outside;           ///< by range of the design
+    std::vector<std::vector<float>> shown;  ///< [probe of the design][recorded sample]
+    std::optional<Error> error;             ///< it did not converge: time and unknown
+    bool capped = false;                    ///< stopped at the iteration limit
+    bool alone = false;                     ///< simulated by the scalar code after its lane failed
 };
 
 struct BatchOptions {
-    std::size_t lanes = 8;       ///< 1, 4 or 8; the answers do not depend on it
-    long most_iterations = 0;    ///< of a chip; 0: as many as it takes
-    std::size_t show_every = 0;  ///< samples; 0: nothing is shown
+    std::size_t lanes = 8;       ///< 1, 4 or 8; results do not depend on it
+    long most_iterations = 0;    ///< limit for one chip; 0: no limit
+    std::size_t show_every = 0;  ///< records the probes at every n-th sample; 0: never
     std::function<bool()> stop = {};
 };
 
-/// Takes chips until `next` has none, and tells each as it ends, in any order. An answer depends on its chip alone, not on the chips beside
-/// it, on lanes or instruction set. One whose elimination or convergence fails on its lane is done again as one chip alone
-/// (CircuitDesign::make).
+/// Simulates chips until `next` returns none. Calls on_done for each finished chip, in any order. The result of a chip does not depend on
+/// the other chips, the number of lanes or the instruction set. If the elimination or the convergence fails on a lane, the chip is
+/// simulated again from its beginning by the scalar code (CircuitDesign::make). Errors: interrupted by should_stop.
 Result<void> run_chips(const std::shared_ptr<const CircuitDesign>& nominal, const std::function<std::optional<Chip>()>& next,
-                       const std::function<void(const Chip&, ChipAnswer&&)>& told, const BatchOptions&);
+                       const std::function<void(const Chip&, ChipAnswer&&)>& on_done, const BatchOptions&);
 
-/// The same for one chip by itself.
+/// Simulates one chip by the scalar code.
 ChipAnswer run_chip_alone(const Chip&, const BatchOptions&);
 
 }  // namespace corpuscle::circuit

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/solve/crossing.hpp"
 #include "circuit/solve/bend.hpp"
+#include "circuit/solve/crossing.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double shortest_part = 1e-15;       // of a transient's longest time, as in Transient
-constexpr double far_off = 20, hopeless = 2;  // allowed units: of an iteration that is looked at, of its error
-constexpr long fresh_for = 256;               // rounds
+// As in transient.cpp.
+constexpr double min_lane_step = 1e-15;  // relative to the end time
+constexpr double large_lane_step = 20, hopeless_lane_error = 2;
+constexpr long rounds_between_sums = 256;
 
 }  // namespace
 
@@ -30,15 +31,15 @@ Result<bool> Seat::take(const Chip& chip, const BatchOptions& options) {
     if (auto ok = rig_->begin(force); !ok) return ok.error();
     chip_ = chip;
 
-    auto& bench = rig_->bench();
+    auto& context = rig_->bench();
     const auto start = rig_->transient().save();
     plan_ = rig_->transient().plan();
     pace_ = {}, newton_ = {}, bent_ = false, work_ = Work::nothing, looks_ = 0;
     pace_.h = start.h, times_ = {}, points_ = seen_ = 1, newest_ = curve_ = 0, corner_ = -1, jumped_ = false;
     end_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
-    const Instant at{0, 1, bench.tolerances.gmin, true};
-    memory_.seat(lane_, bench.system, at);
-    bench.newton.memory = start.memory;
+    const Instant eval_context{0, 1, context.tolerances.gmin, true};
+    memory_.seat(lane_, context.system, eval_context);
+    context.newton.memory = start.memory;
     auto& b = memory_.block;
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         for (std::size_t s = 0; s < b.points; ++s) b.past_x[s * b.unknowns + n].of[lane_] = b.past_q[s * b.unknowns + n].of[lane_] = 0;
@@ -51,8 +52,8 @@ Result<bool> Seat::take(const Chip& chip, const BatchOptions& options) {
         b.per_allowed[n].of[lane_] = allowed > 0 ? 1 / allowed : 0;
     }
     sources_.clear();
-    for (const auto k : bench.system.alone())
-        if (const auto& d = *bench.system.devices()[k]; d.linear() && d.varies()) sources_.push_back(k);
+    for (const auto k : context.system.alone())
+        if (const auto& d = *context.system.devices()[k]; d.linear() && d.varies()) sources_.push_back(k);
     x_ = start.past[0].x;
     power_ = rig_->meter().delivered(x_, 0);
     answer_.outside.resize(chip_->design->kept.size());
@@ -74,10 +75,10 @@ ChipAnswer Seat::leave() {
     return std::move(answer_);
 }
 
-/// Currents of the sources at t, into the block's base.
+/// Writes the currents of the time-dependent sources at t to the block's base.
 void Seat::set_sources(double t) {
     const auto& system = rig_->bench().system;
-    Instant at{t, 1, rig_->bench().tolerances.gmin, true};
+    Instant eval_context{t, 1, rig_->bench().tolerances.gmin, true};
     for (const auto k : sources_)
         for (const int u : system.devices()[k]->unknowns)
             if (u >= 0) memory_.block.base[u].of[lane_] = 0;
@@ -86,13 +87,13 @@ void Seat::set_sources(double t) {
         const auto n = d.unknowns.size();
         v_.assign(n, 0), stamp_.assign(2 * n + 2 * n * n, 0);
         const std::span<double> all(stamp_);
-        d.eval(v_, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        d.eval(v_, eval_context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
         for (std::size_t row = 0; row < n; ++row)
             if (d.unknowns[row] >= 0) memory_.block.base[d.unknowns[row]].of[lane_] += stamp_[row];
     }
 }
 
-/// The next step's end, and how it is predicted: Transient::step and attempt.
+/// Chooses the end of the next step and its predictor, as Transient::step() and attempt() do.
 void Seat::attempt() {
     const double now = times_[0];
     if (!(now < corner_)) corner_ = std::min(plan_.stop, rig_->bench().system.next_corner(now));
@@ -110,7 +111,7 @@ Seat::Work Seat::prepare(lanes::PredictCall& call, std::span<lanes::Row> value, 
                          lanes::StepCall& step) {
     begins_ = false;
     if (!taken()) return work_ = Work::nothing;
-    if (work_ == Work::restart) {  // at the last point, with nothing of the past
+    if (work_ == Work::restart) {  // at the last point, without history
         a_ = 0;
         set_sources(times_[0]);
         for (std::size_t n = 0; n < memory_.unknowns(); ++n)
@@ -131,10 +132,10 @@ Seat::Work Seat::prepare(lanes::PredictCall& call, std::span<lanes::Row> value, 
 }
 
 void Seat::look_at_others() {
-    if (++looks_ % fresh_for == 0) memory_.freshen(lane_);
-    auto& bench = rig_->bench();
-    limited_ = memory_.look_at_others(lane_, bench.system, {work_ == Work::restart ? times_[0] : t_, 1, bench.tolerances.gmin, true},
-                                      bench.newton.memory);
+    if (++looks_ % rounds_between_sums == 0) memory_.freshen(lane_);
+    auto& context = rig_->bench();
+    limited_ = memory_.look_at_others(lane_, context.system, {work_ == Work::restart ? times_[0] : t_, 1, context.tolerances.gmin, true},
+                                      context.newton.memory);
 }
 
 Seat::Verdict Seat::iterated(double size, bool clamped, bool finite) {
@@ -151,15 +152,16 @@ Seat::Verdict Seat::iterated(double size, bool clamped, bool finite) {
         far_ = false;
         return Verdict::fails;
     }
-    auto way = newton_.after(size, limited_ || clamped);
-    if (way == NewtonControl::Way::arrived && !jump_) {
-        auto& bench = rig_->bench();
-        if (!memory_.formulas_hold(lane_, bench.system, {t_, 1, bench.tolerances.gmin, true}, {plan_.reltol, plan_.vntol, plan_.abstol}))
-            way = newton_.not_yet();
+    auto status = newton_.after(size, limited_ || clamped);
+    if (status == NewtonControl::Way::arrived && !jump_) {
+        auto& context = rig_->bench();
+        if (!memory_.formulas_hold(lane_, context.system, {t_, 1, context.tolerances.gmin, true},
+                                   {plan_.reltol, plan_.vntol, plan_.abstol}))
+            status = newton_.not_yet();
     }
-    if (way == NewtonControl::Way::lost) return Verdict::fails;
-    far_ = way == NewtonControl::Way::on;
-    return !far_ || newton_.before > far_off ? Verdict::wants_error : Verdict::goes_on;
+    if (status == NewtonControl::Way::lost) return Verdict::fails;
+    far_ = status == NewtonControl::Way::on;
+    return !far_ || newton_.before > large_lane_step ? Verdict::wants_error : Verdict::goes_on;
 }
 
 void Seat::weigh(int order, lanes::ErrorCall& call, std::span<lanes::Row> of_past) const {
@@ -176,7 +178,7 @@ void Seat::weigh(int order, lanes::ErrorCall& call, std::span<lanes::Row> of_pas
     for (int k = 0; k < points; ++k) of_past[ring(k)].of[lane_] = -per * weights[static_cast<std::size_t>(k)];
 }
 
-/// As Transient::bend.
+/// As in Transient.
 double Seat::bend() {
     const auto curves = rig_->transient().curves();
     curve_ = 0;
@@ -191,8 +193,8 @@ double Seat::bend() {
         for (const int n : curves) {
             double sum = 0;
             for (std::size_t k = 0; k <= static_cast<std::size_t>(points); ++k) sum += w[k] * rows[k][n].of[lane_];
-            const double may = plan_.reltol * b.scale[n].of[lane_] + (b.voltage[n] ? plan_.vntol : plan_.abstol);
-            worst = std::max(worst, std::abs(sum) / (b.voltage[n] ? may : Bend::current_may * may));
+            const double tolerance = plan_.reltol * b.scale[n].of[lane_] + (b.voltage[n] ? plan_.vntol : plan_.abstol);
+            worst = std::max(worst, std::abs(sum) / (b.voltage[n] ? tolerance : Bend::current_may * tolerance));
         }
         return worst;
     });
@@ -200,42 +202,42 @@ double Seat::bend() {
     return curve.off;
 }
 
-/// After Newton's steps have gone where they went; error infinite: they did not arrive.
+/// Decides about the step after the Newton iterations. error infinite: they diverged.
 Seat::Judged Seat::judge(double error) {
-    const bool lost = std::isinf(error);
-    if (!lost && far_ && !(error > hopeless)) return Judged::goes_on;
-    off_ = lost ? 0 : bend();
+    const bool diverged = std::isinf(error);
+    if (!diverged && far_ && !(error > hopeless_lane_error)) return Judged::goes_on;
+    off_ = diverged ? 0 : bend();
     const double worst = jump_ ? error : std::max(error, off_);
-    jumped_ = !lost && worst <= 1 && off_ > 1;
-    if (!lost && worst <= 1) return Judged::accepted;
+    jumped_ = !diverged && worst <= 1 && off_ > 1;
+    if (!diverged && worst <= 1) return Judged::accepted;
     ++answer_.work.rejected;
-    if (lost) ++answer_.work.lost;
+    if (diverged) ++answer_.work.lost;
     work_ = Work::nothing, bent_ = false;
-    if (pace_.shorten(t_ - times_[0], lost ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) work_ = Work::restart;
-    return pace_.h >= shortest_part * plan_.stop ? Judged::rejected : Judged::fails;
+    if (pace_.shorten(t_ - times_[0], diverged ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) work_ = Work::restart;
+    return pace_.h >= min_lane_step * plan_.stop ? Judged::rejected : Judged::fails;
 }
 
 void Seat::choose(double error, double lower, double higher) {
-    const double now = times_[0], wanted = pace_.h;
+    const double now = times_[0], planned = pace_.h;
     const int order = pace_.order;
     pace_.choose(t_ - now, error, points_, std::min(plan_.order, points_ - 1), [&](int other) { return other < order ? lower : higher; });
     if (!jump_) pace_.hold(t_ - now, off_, curve_);
     if (jumped_) curve_ = 2;
-    if (last_ && t_ - now < wanted) pace_.h = std::max(pace_.h, std::min(wanted, plan_.longest));
+    if (last_ && t_ - now < planned) pace_.h = std::max(pace_.h, std::min(planned, plan_.longest));
 }
 
-/// The step's end is the newest point.
+/// Makes the end of the step the newest point.
 void Seat::advance() {
     auto& b = memory_.block;
-    const int most = static_cast<int>(b.points);
+    const int capacity = static_cast<int>(b.points);
     pace_.took(t_ - times_[0]);
-    newest_ = (newest_ + most - 1) % most, points_ = std::min(points_ + 1, most), seen_ = std::min(seen_ + 1, most);
+    newest_ = (newest_ + capacity - 1) % capacity, points_ = std::min(points_ + 1, capacity), seen_ = std::min(seen_ + 1, capacity);
     std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
     times_[0] = t_;
-    const auto at = static_cast<std::size_t>(newest_) * b.unknowns;
+    const auto first = static_cast<std::size_t>(newest_) * b.unknowns;
     for (std::size_t n = 0; n < b.unknowns; ++n) {
-        x_[n] = b.past_x[at + n].of[lane_] = b.x[n].of[lane_];
-        b.past_q[at + n].of[lane_] = b.q[n].of[lane_];
+        x_[n] = b.past_x[first + n].of[lane_] = b.x[n].of[lane_];
+        b.past_q[first + n].of[lane_] = b.q[n].of[lane_];
     }
     bent_ = last_ || jumped_;
     ++answer_.work.steps, ++pace_.since_choice, pace_.failures = 0;
@@ -272,7 +274,7 @@ std::optional<double> Seat::spike() const {
                            [&](double t) { return sign * (between(t, o.of.plus) - between(t, o.of.minus) - o.level); });
 }
 
-/// Of samples that time has come to: what is to be shown, and whether it is where the circuit was designed to be.
+/// For all samples up to the current time: records the probes and checks the operating ranges.
 void Seat::look_at_samples() {
     const auto& design = *chip_->design;
     const auto every = static_cast<std::int64_t>(options_->show_every), count = static_cast<std::int64_t>(chip_->force.size());
@@ -291,12 +293,12 @@ void Seat::look_at_samples() {
     }
 }
 
-/// What the last step took, as if power went straight.
+/// Adds the energy of the last step, by the trapezoidal rule for the power.
 void Seat::spend(double from) {
     const double half = (times_[0] - from) / 2;
-    const auto then = power_;
+    const auto last = power_;
     power_ = rig_->meter().delivered(x_, times_[0]);
-    answer_.spent += {2 * half, half * (then.supplies + power_.supplies), half * (then.sensor + power_.sensor)};
+    answer_.spent += {2 * half, half * (last.supplies + power_.supplies), half * (last.sensor + power_.sensor)};
 }
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// One chip on its lane: its own time, step, order and Newton's state. The numbers of its unknowns stand in the block's column.
+// One chip on its lane, with its own time, step, order and Newton state. Its unknowns are a column of the block.
 
 #include <array>
 
@@ -11,39 +11,39 @@ namespace corpuscle::circuit {
 
 class Seat {
 public:
-    /// What a lane does in the next round.
+    /// The task of a lane in the next round.
     enum class Work { nothing, restart, iterate };
 
 private:
     ChipMemory& memory_;
     std::size_t lane_;
     std::optional<Chip> chip_;
-    std::unique_ptr<Rig> rig_;  // also of the last chip: the next one's, if only the draw differs
+    std::unique_ptr<Rig> rig_;  // reused for the next chip if only the sample differs
     std::shared_ptr<const CircuitDesign> design_;
     double T_ = 0;
     ChipAnswer answer_;
     const BatchOptions* options_ = nullptr;
 
-    // time: as in Transient
+    // the state of the integration, as in Transient
     TransientPlan plan_;
     StepControl pace_;
     NewtonControl newton_;
-    std::array<double, 8> times_{};  // of the past, newest first
-    int points_ = 0, newest_ = 0;    // how many; the ring's place of the newest
-    int seen_ = 0, curve_ = 0;       // points on one smooth curve; of the curve in the last step
-    double corner_ = 0;              // the next of the sources, once time_ is before it
+    std::array<double, 8> times_{};  // of the history, newest first
+    int points_ = 0, newest_ = 0;    // length of the history; slot of the newest point in the ring buffer
+    int seen_ = 0, curve_ = 0;       // points on one smooth curve; points of the last interpolation
+    double corner_ = 0;              // next breakpoint of the sources; outdated if not after the last time
     bool bent_ = false, last_ = false, jump_ = false, jumped_ = false;
-    double end_ = 0;  // s: of its force
+    double end_ = 0;  // s: end of the force
 
-    // the step at work
+    // the current step
     Work work_ = Work::nothing;
-    bool begins_ = false, limited_ = false, far_ = false;  // far: Newton is not there yet, but its error may tell enough
+    bool begins_ = false, limited_ = false, far_ = false;  // is_iterating_: not converged yet, but the error is estimated early
     double t_ = 0, a_ = 0, off_ = 0;
     PastWeights value_{};
-    std::vector<std::size_t> sources_;  // that go their course
+    std::vector<std::size_t> sources_;  // time-dependent sources
     std::vector<double> v_, stamp_, x_;
     PowerMeter::Delivered power_;
-    std::int64_t sample_ = 0;  // the next to be looked at
+    std::int64_t sample_ = 0;  // next sample to record
     long looks_ = 0;
 
     std::size_t ring(int k) const { return static_cast<std::size_t>((newest_ + k) % static_cast<int>(memory_.block.points)); }
@@ -64,20 +64,20 @@ public:
 
     bool taken() const { return chip_.has_value(); }
     const Chip& chip() const { return *chip_; }
-    /// At its beginning. False: a lane cannot hold it. Error: it does not get so far.
+    /// Loads a chip at its initial condition. Returns false if a lane cannot simulate it. Errors: no initial condition.
     Result<bool> take(const Chip&, const BatchOptions&);
-    /// Its answer, and the lane is free.
+    /// Returns the result and frees the lane.
     ChipAnswer leave();
 
-    /// What it wants of the next round, with its weights.
+    /// Chooses the task of the next round and writes its arguments and weights.
     Work prepare(lanes::PredictCall&, std::span<lanes::Row> value, std::span<lanes::Row> slope, lanes::SolveCall&, lanes::StepCall&);
-    /// Once its unknowns stand at x.
+    /// Call after x has been set.
     void look_at_others();
     bool restarts() const { return work_ == Work::restart; }
-    /// The round's equations are solved.
+    /// Call after the equations of a round are solved.
     enum class Verdict { goes_on, wants_error, fails };
     Verdict iterated(double size, bool clamped, bool finite);
-    /// Weights of the error of the step at work, had it been of this order.
+    /// Writes the weights that give the error of the current step for this order.
     void weigh(int order, lanes::ErrorCall&, std::span<lanes::Row> of_past) const;
     int order() const { return pace_.order; }
     enum class Judged { goes_on, rejected, accepted, fails };
@@ -85,8 +85,9 @@ public:
     bool looks_around() const { return pace_.looks_around(); }
     bool can_fall() const { return pace_.can_fall(); }
     bool can_rise() const { return pace_.can_rise(std::min(plan_.order, points_ - 1), points_); }
-    /// An accepted step: whether the chip goes on.
+    /// Chooses the next step after an accepted one, from its error and those for the next lower and higher order.
     void choose(double error, double lower, double higher);
+    /// Advances to the end of an accepted step. Returns false if the chip is done.
     bool accepted();
     double a() const { return a_; }
 };

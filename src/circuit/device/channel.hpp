@@ -4,59 +4,59 @@
 
 namespace corpuscle::circuit {
 
-/// A quantity of the channel, and how it changes with x at its source and at its drain.
+/// A quantity of the channel with its derivatives by x at the source and at the drain.
 template <class T>
 struct Sloped {
     T value, by_S, by_D;
 };
 
-/// The channel between two ends, in units: currents of I_S, charges of n phi_t C_ox W L (their amount; an electron's sign is the caller's).
+/// The channel between source and drain in normalized form. Units: currents I_S, charges n phi_t C_ox W L. Charges are magnitudes; the
+/// caller applies the sign of the carriers.
 template <class T>
 struct Channel {
-    T q_S, q_D;             ///< charge densities that the ends' voltages ask for
-    Sloped<T> i, Q_S, Q_D;  ///< current from drain to source; what of the channel's charge belongs to source and to drain
+    T q_S, q_D;             ///< inversion charge densities at the source and drain voltages
+    Sloped<T> i, Q_S, Q_D;  ///< current from drain to source; channel charge assigned to the source and to the drain
     T Q() const { return Q_S.value + Q_D.value; }
 };
 
-/// Unified current control model (thesis app. A), with velocity saturation as ACM2 has it. x = (V_P - V)/phi_t + 1 at either end:
+/// Unified current control model (thesis app. A) with the velocity saturation of ACM2. At each end x = (V_P - V)/phi_t + 1 and
 ///     q + ln q = x;     i = (q_S + q_D + 2)(q_S - q_D) / (1 + zeta |q_S - q_D|)
-/// Of the two charges the lower, l, does not fall below what saturated carriers need, q_sat = zeta i / 2, of the higher, h:
+/// With h the higher and l the lower of the two charges, l cannot fall below the charge q_sat = zeta i / 2 of saturated carriers:
 ///     s = q_sat / h = zeta (h + 2) / (zeta h + 1 + zeta + sqrt((1 + zeta)^2 + 2 zeta h));
-///     l' = (q_sat + (1 - 2 s) l) / (1 - s l / h) takes l's place
-/// ACM2 solves a third logarithm for l'. This rational one agrees with it where it matters (i = 2 q_sat / zeta in saturation, i never
-/// falls as V_DS grows) and is better at V_DS = 0: there the conductance is that of free carriers, so that noise is 4kTg, and the
-/// capacitances do not jump where source and drain change places. zeta = 0 is the plain model to the last bit, smooth to all
-/// orders; otherwise current and charges have continuous slopes, and a second one that jumps at V_DS = 0 by order zeta.
-/// In saturation i = 2 q_S / (1 + zeta) as q_S goes to 0: carriers do not diffuse faster than that velocity, either.
+///     l' = (q_sat + (1 - 2 s) l) / (1 - s l / h) replaces l
+/// ACM2 solves a third logarithm for l'. This rational form has the same limits: i = 2 q_sat / zeta in saturation, and i never falls as
+/// V_DS grows. It is better at V_DS = 0. There the conductance is that of free carriers, so the noise is 4kTg, and the capacitances are
+/// continuous where source and drain change places. zeta = 0 gives the plain model to the last bit, smooth to all orders. Otherwise
+/// current and charges have continuous first derivatives; the second derivative jumps at V_DS = 0 by order zeta.
+/// In saturation i = 2 q_S / (1 + zeta) as q_S goes to 0: the saturation velocity limits diffusion, too.
 ///
-/// Charges (ACM2; u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2), in a form that loses no digits as q goes to 0:
+/// Charges (ACM2; u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2), in a form without cancellation as q goes to 0:
 ///     Q_D = (2/15) (2u^3 + 4u^2 w + 6u w^2 + 3w^3) / (u + w)^2 - 1/2 + q_x / 2,   Q_S with u and w exchanged
 template <class T>
-class HalfChannels {  // by the higher and the lower end
+class HalfChannels {  // ordered: the higher end first
     T h, l;
     T zeta;
 
 public:
     struct By {
-        T high, low;  // slopes by x at the higher and at the lower end
+        T high, low;  // derivatives by x at the higher and at the lower end
     };
     T i, Q_high, Q_low;
     By di, dQ_high, dQ_low;
 
     [[gnu::always_inline]] HalfChannels(T higher, T lower, T zeta) : h(higher), l(lower), zeta(zeta) {
         const T one(1.0), two(2.0);
-        // the lower charge l', and delta = h - l'
-        // (Quotients share divisions: 1 / (x y) gives both 1/x and 1/y.)
+        // The lower charge l', and delta = h - l'. Divisions are combined: 1 / (x y) gives both 1/x and 1/y.
         const T root = num::sqrt((one + zeta) * (one + zeta) + two * zeta * h), sum = zeta * h + one + zeta + root;
         const T per_root_sum = one / (root * sum);
         const T s = zeta * (h + two) * (per_root_sum * root), hs = one - per_root_sum * sum - s;  // hs = h ds/dh
         const T h1 = one + h, l1 = one + l, per_ends = one / (h * (h1 * l1));
         const T per_h = per_ends * (h1 * l1), r = l * per_h, high_x = h * (h * per_ends * l1), low_x = l * (h * per_ends * h1);
-        const T part = one - s, D = one - s * r, F = D + zeta * part * (h - l), per_DF = one / (D * F);
+        const T factor = one - s, D = one - s * r, F = D + zeta * factor * (h - l), per_DF = one / (D * F);
         const T per_D = per_DF * F, per_E = per_DF * D * D;  // E = 1 + zeta delta = F / D
-        const T t = part * per_D, rest = (one - r) * per_D;
+        const T t = factor * per_D, remainder = (one - r) * per_D;
         const T low = (h * s + l * (one - two * s)) * per_D, low_l = t * t;
-        const T delta = t * (h - l), delta_h = t * (one - r) + r * low_l - rest * rest * hs;
+        const T delta = t * (h - l), delta_h = t * (one - r) + r * low_l - remainder * remainder * hs;
         // the current
         i = (h + low + two) * delta * per_E;
         const T drift = (two * (low + one) - zeta * i) * per_E;  // di/d(delta)
@@ -67,20 +67,20 @@ public:
         const T A = h - X, B = low - X;
         const T A_h = one - X_h, A_l = -X_l, B_h = (one - delta_h) - X_h, B_l = low_l - X_l;
         const T per_T = one / (two + A + B), per_T2 = per_T * per_T;
-        const Share high_share(A, B, per_T, per_T2), low_share(B, A, per_T, per_T2);
-        Q_high = high_share.value + T(0.5) * X;
-        Q_low = low_share.value + T(0.5) * X;
-        dQ_high = {(high_share.own * A_h + high_share.other * B_h + T(0.5) * X_h) * high_x,
-                   (high_share.own * A_l + high_share.other * B_l + T(0.5) * X_l) * low_x};
-        dQ_low = {(low_share.own * B_h + low_share.other * A_h + T(0.5) * X_h) * high_x,
-                  (low_share.own * B_l + low_share.other * A_l + T(0.5) * X_l) * low_x};
+        const EndCharge high_charge(A, B, per_T, per_T2), low_charge(B, A, per_T, per_T2);
+        Q_high = high_charge.value + T(0.5) * X;
+        Q_low = low_charge.value + T(0.5) * X;
+        dQ_high = {(high_charge.own * A_h + high_charge.other * B_h + T(0.5) * X_h) * high_x,
+                   (high_charge.own * A_l + high_charge.other * B_l + T(0.5) * X_l) * low_x};
+        dQ_low = {(low_charge.own * B_h + low_charge.other * A_h + T(0.5) * X_h) * high_x,
+                  (low_charge.own * B_l + low_charge.other * A_l + T(0.5) * X_l) * low_x};
     }
 
 private:
-    /// An end's share of the charge between two ends, and its slopes by either: a, at the end itself, and b, at the other.
-    struct Share {
+    /// The part of the channel charge assigned to one end, and its derivatives by a (that end) and by b (the other end).
+    struct EndCharge {
         T value, own, other;
-        [[gnu::always_inline]] Share(T a, T b, T per_T, T per_T2) {
+        [[gnu::always_inline]] EndCharge(T a, T b, T per_T, T per_T2) {
             constexpr double c = 2.0 / 15;
             const T aa = a * a, ab = a * b, bb = b * b;
             const T P = T(4.0 / 3) * a + T(2.0 / 3) * b + T(1.5) * aa + T(5.0 / 3) * ab + T(5.0 / 6) * bb +

@@ -1,5 +1,5 @@
 #pragma once
-// Constants of nature, SI (exact since 2019), and where Celsius begins.
+// Physical constants in SI units (exact since 2019), and 0 degrees Celsius in K.
 
 namespace corpuscle::circuit {
 

@@ -41,14 +41,14 @@ double Course::at(double t) const {
 
 /// v1 v2 td tr tf pw per np
 double Course::pulse(double t) const {
-    const auto given = [&](std::size_t k, double otherwise) { return number(k, 0) > 0 ? number(k, 0) : otherwise; };
-    const double v1 = number(0, 0), v2 = number(1, 0), rise = given(3, step_), fall = given(4, step_), width = number(5, stop_);
-    const double period = given(6, std::max(stop_, rise + width + fall));
+    const auto positive_or = [&](std::size_t k, double fallback) { return number(k, 0) > 0 ? number(k, 0) : fallback; };
+    const double v1 = number(0, 0), v2 = number(1, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);
+    const double period = positive_or(6, std::max(stop_, rise + width + fall));
     if (t < number(2, 0)) return v1;
-    const double round = std::floor((t - number(2, 0)) / period);
-    if (const double most = number(7, 0); most > 0 && round >= most) return v1;
-    // Times since a corner as next_corner() has it, which no rounding alters: a steep edge shows the last digit of a time.
-    const double start = number(2, 0) + round * period, down = start + (rise + width);
+    const double cycle = std::floor((t - number(2, 0)) / period);
+    if (const double cycles = number(7, 0); cycles > 0 && cycle >= cycles) return v1;
+    // Breakpoints are computed exactly as in next_breakpoint(): on a steep edge one unit in the last place of a time is visible.
+    const double start = number(2, 0) + cycle * period, down = start + (rise + width);
     if (t < start + rise) return v1 + (v2 - v1) * ((t - start) / rise);
     if (t < down) return v2;
     return t < start + (rise + width + fall) ? v2 + (v1 - v2) * ((t - down) / fall) : v1;
@@ -56,20 +56,20 @@ double Course::pulse(double t) const {
 
 /// vo va freq td theta phase
 double Course::sine(double t) const {
-    const double in = t - number(3, 0), turn = number(5, 0) / 360;
-    if (in < 0) return number(0, 0) + number(1, 0) * num::sin_turns(turn);
-    const double turns = frequency() * in + turn;
-    return number(0, 0) + number(1, 0) * num::sin_turns(turns - std::floor(turns)) * num::exp(-in * number(4, 0));
+    const double elapsed = t - number(3, 0), phase = number(5, 0) / 360;
+    if (elapsed < 0) return number(0, 0) + number(1, 0) * num::sin_turns(phase);
+    const double turns = frequency() * elapsed + phase;
+    return number(0, 0) + number(1, 0) * num::sin_turns(turns - std::floor(turns)) * num::exp(-elapsed * number(4, 0));
 }
 
 /// v1 v2 td1 tau1 td2 tau2
 double Course::exponential(double t) const {
     const double v1 = number(0, 0), v2 = number(1, 0), up = number(2, 0), down = number(4, up + step_);
-    const auto given = [&](std::size_t k) { return number(k, 0) > 0 ? number(k, 0) : step_; };
-    const auto part = [](double in) { return in * num::exprel(-in); };  // 1 - e^-in, to the last digits right after a corner, too
+    const auto positive_or = [&](std::size_t k) { return number(k, 0) > 0 ? number(k, 0) : step_; };
+    const auto approach = [](double s) { return s * num::exprel(-s); };  // 1 - e^-s, accurate also for small s
     double v = v1;
-    if (t > up) v += (v2 - v1) * part((t - up) / given(3));
-    if (t > down) v += (v1 - v2) * part((t - down) / given(5));
+    if (t > up) v += (v2 - v1) * approach((t - up) / positive_or(3));
+    if (t > down) v += (v1 - v2) * approach((t - down) / positive_or(5));
     return v;
 }
 
@@ -89,14 +89,14 @@ double Course::next_corner(double t) const {
         const auto next = std::upper_bound(corners_.begin(), corners_.end(), t);
         return next == corners_.end() ? never : *next;
     }
-    const auto given = [&](std::size_t k, double otherwise) { return number(k, 0) > 0 ? number(k, 0) : otherwise; };
-    const double delay = number(2, 0), rise = given(3, step_), fall = given(4, step_), width = number(5, stop_);
-    const double period = given(6, std::max(stop_, rise + width + fall)), most = number(7, 0);
+    const auto positive_or = [&](std::size_t k, double fallback) { return number(k, 0) > 0 ? number(k, 0) : fallback; };
+    const double delay = number(2, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);
+    const double period = positive_or(6, std::max(stop_, rise + width + fall)), cycles = number(7, 0);
     if (t < delay) return delay;
-    for (double round = std::max(0.0, std::floor((t - delay) / period) - 1);; ++round) {
-        if (most > 0 && round > most) return never;
-        for (const double corner : {0.0, rise, rise + width, rise + width + fall})
-            if (const double at = delay + round * period + corner; at > t) return at;
+    for (double cycle = std::max(0.0, std::floor((t - delay) / period) - 1);; ++cycle) {
+        if (cycles > 0 && cycle > cycles) return never;
+        for (const double offset : {0.0, rise, rise + width, rise + width + fall})
+            if (const double breakpoint = delay + cycle * period + offset; breakpoint > t) return breakpoint;
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How an independent source goes in time.
+// The waveform of an independent source.
 
 #include <vector>
 
@@ -7,14 +7,14 @@
 
 namespace corpuscle::circuit {
 
-/// PULSE, SIN, EXP and PWL as SPICE has them. What a netlist leaves out follows from the analysis: a rise and a fall take its step, a
-/// pulse and a period its end, a sine goes round once.
+/// PULSE, SIN, EXP and PWL as in SPICE. Defaults depend on the analysis: rise and fall times are its step, pulse width and period are its
+/// end, and a sine has one period.
 class Course {
     Waveform wave_;
     double step_ = 0, stop_ = 0;
-    std::vector<double> corners_;  // of what does not repeat, in order
+    std::vector<double> corners_;  // ascending; not used by PULSE
 
-    double number(std::size_t k, double otherwise) const { return k < wave_.numbers.size() ? wave_.numbers[k] : otherwise; }
+    double number(std::size_t k, double fallback) const { return k < wave_.numbers.size() ? wave_.numbers[k] : fallback; }
     double pulse(double t) const;
     double sine(double t) const;
     double frequency() const { return number(2, 0) > 0 ? number(2, 0) : 1 / stop_; }
@@ -25,9 +25,9 @@ public:
     Course(Waveform, double step, double stop);
 
     double at(double t) const;
-    /// The first time after t at which it bends or jumps; infinity: none.
+    /// The first time after t (s) with a kink or a jump; infinity if there is none.
     double next_corner(double t) const;
-    /// A part of a sine's period; infinity: corners are all there is.
+    /// A tenth of a sine's period, s; infinity for the other waveforms.
     double pace() const;
 };
 

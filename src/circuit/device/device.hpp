@@ -1,5 +1,5 @@
 #pragma once
-// A device says its currents, charges and slopes, once; operating points, sweeps, spectra and noise are uses of them.
+// A device defines its currents, charges and their derivatives once. All analyses (.op, .dc, .ac, .noise, .tran) use these.
 
 #include <complex>
 #include <cstdint>
@@ -18,16 +18,17 @@ namespace corpuscle::circuit {
 
 class Trace;
 
-/// Under what a device is looked at.
+/// The conditions under which a device is evaluated.
 struct Instant {
-    double time = 0;
-    double sources = 1;   ///< what part of their value sources give: less than 1 on the way to an operating point
-    double gmin = 0;      ///< S, beside every junction
-    bool charges = true;  ///< false: nobody asks for charges and capacitances
+    double time = 0;      ///< s
+    double sources = 1;   ///< factor of all sources: below 1 during source stepping
+    double gmin = 0;      ///< S, in parallel with every junction
+    bool charges = true;  ///< false: q and dq need not be evaluated
 };
 
-/// What a device adds: for each of its unknowns (terminals, then its own) the current out of the node into the device and the charge that
-/// follows it, A and C; of an unknown of its own that is no node, the two sides of its equation. Slopes row by row.
+/// The contribution of a device to the equations. The unknowns are the terminals, then the device's own unknowns. For a node, f is the
+/// current (A) out of the node into the device and q is the charge (C) of that current. For an own unknown that is not a node, f and q are
+/// the two parts of its equation f + dq/dt = 0. The derivatives df and dq are stored row by row.
 struct Stamp {
     std::span<double> f, q, df, dq;
     double& slope(std::size_t row, std::size_t column) const { return df[row * f.size() + column]; }
@@ -37,93 +38,95 @@ struct Stamp {
 /// A noise current between two unknowns of a device: its spectral density, A^2/Hz, is white + flicker / f.
 struct NoiseSource {
     std::string_view what;  ///< "thermal", "shot", "flicker" ...
-    std::size_t from, to;   ///< of the device's unknowns
+    std::size_t from, to;   ///< indices into the device's unknowns
     double white = 0, flicker = 0;
 };
 
-/// One line of the table of an operating point.
+/// One quantity of a device in the .op table.
 struct Reading {
     std::string_view name, unit;
     double value;
 };
 
-/// What makes one chip differ from the next, drawn for (seed, chip).
+/// The random process and mismatch sample of one chip, a function of (seed, chip).
 struct Draw {
     std::uint64_t seed = 0, chip = 0;
-    bool mismatch = true;    ///< whether each device draws its own
-    double process[4] = {};  ///< what all share, as normal deviates: V_T0 of NMOS and PMOS, then I_SQ of both
+    bool mismatch = true;    ///< each device has its own deviation
+    double process[4] = {};  ///< normal deviates common to all devices: V_T0 of NMOS and PMOS, then I_SQ of NMOS and PMOS
 };
 
 class Device {
 public:
     std::string name;
     Place place;
-    std::vector<int> unknowns;  ///< in the system; -1: ground
+    std::vector<int> unknowns;  ///< indices in the system; -1: ground
 
     virtual ~Device() = default;
-    /// Adds to a stamp that is zero. v: of its unknowns.
+    /// Writes f, q and their derivatives to a stamp that is zero. v: values of the device's unknowns.
     virtual void eval(std::span<const double> v, const Instant&, const Stamp&) const = 0;
     virtual bool linear() const { return true; }
-    /// Whether its currents may jump from one v to the next, as those of a formula.
+    /// True if the currents may be discontinuous in v, as those of an expression with conditions.
     virtual bool jumps() const { return false; }
 
-    /// How many numbers it keeps between the steps of an iteration, and what may become of a step: v is changed to where it is to be
-    /// looked at, if it would go too far at once. Returns whether it was.
+    /// Number of values that limit() keeps between Newton iterations.
     virtual std::size_t memory() const { return 0; }
-    virtual bool limit(std::span<double>, std::span<double>) const { return false; }
+    /// Limits the Newton step: changes v if it is too far from the last evaluation, which `state` holds. Returns true if v was changed.
+    virtual bool limit(std::span<double> /*v*/, std::span<double> /*state*/) const { return false; }
 
-    /// Of a source: the value that a sweep gives it, and what drives .ac.
+    /// The value that .dc sweeps: DC value of a source, resistance, gain ... Returns false (or nothing) if the device has none.
     virtual bool set(double) { return false; }
     virtual std::optional<double> setting() const { return {}; }
+    /// Adds the source's AC value to the right side of .ac.
     virtual void drive(std::span<std::complex<double>>) const {}
 
-    /// From now on a source goes its course in time, in an analysis of this step and end, s; 0: it stands as it did.
-    virtual void go(double, double) {}
-    /// From now on a source that carries force takes it from this trace; null: 0 N. False: it carries none.
+    /// Starts a transient with this step and end (s). An end of 0 freezes the source at its DC value again.
+    virtual void go(double /*step*/, double /*stop*/) {}
+    /// Sets the force waveform of a source with the keyword FORCE; null: 0 N. Returns false for any other device.
     virtual bool hear(const Trace*) { return false; }
-    /// The first time after t at which it bends or jumps, s.
-    virtual double next_corner(double) const { return std::numeric_limits<double>::infinity(); }
-    /// The longest step, s, that does not overlook what it does between its corners.
+    /// The first time after t (s) at which the waveform has a kink or a jump.
+    virtual double next_corner(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
+    /// The longest step (s) that resolves the waveform between its breakpoints.
     virtual double pace() const { return std::numeric_limits<double>::infinity(); }
-    /// Of a linear device: whether its currents change with time at all.
+    /// For a linear device: true if its currents depend on time.
     virtual bool varies() const { return false; }
 
-    /// Its own part of a draw, as the device of this number among those that draw; null: as designed. False: it never differs.
-    virtual bool draw(const Draw*, std::uint32_t) { return false; }
+    /// Applies the process and mismatch sample of a chip; null: nominal. `index` counts the devices that have variation. Returns false if
+    /// this kind of device has none.
+    virtual bool draw(const Draw*, std::uint32_t /*index*/) { return false; }
 
-    /// At the operating point; v as in eval.
+    // At the operating point; v as in eval.
     virtual std::vector<NoiseSource> noise(std::span<const double>) const { return {}; }
     virtual std::vector<Reading> readings(std::span<const double>) const { return {}; }
     virtual std::string state(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...
 };
 
-/// Where devices of one kind are looked at together: rows of `room` numbers, one a device, on 64 bytes; else as in Stamp.
+/// The stamps of several devices of one kind: rows of `stride` numbers, one for each device, aligned to 64 bytes. Otherwise as Stamp.
 struct BankStamp {
     std::size_t room;
     const double* v;
     double *f, *df;
-    double* most;     ///< of each f, what its last digit is of; null: not asked
-    double *q, *dq;   ///< null: not asked
-    double rate = 0;  ///< 1/s: f and df are wanted with rate times q and dq added
+    double* most;     ///< largest term of each f, the scale of its rounding error; null: not needed
+    double *q, *dq;   ///< null: not needed
+    double rate = 0;  ///< 1/s: f and df are returned with rate times q and dq added
 };
 
-/// Devices of one kind, side by side on lanes; `room` is a multiple of 8, and the last device fills what is over.
+/// Devices of one kind, evaluated together on SIMD lanes. The stride is a multiple of 8; copies of the last device fill the rest.
 class Bank {
 public:
     virtual ~Bank() = default;
-    virtual void take(std::span<const Device* const>) = 0;  ///< their numbers, at first and whenever they have changed
+    virtual void take(std::span<const Device* const>) = 0;  ///< copies the devices' constants; call again when they have changed
     virtual void eval(const Instant&, const BankStamp&) const = 0;
-    /// q along its slopes: q += dq dv.
-    virtual void follow(std::size_t room, const double* dv, const double* dq, double* q) const = 0;
+    /// Extrapolates the charges linearly: q += dq dv.
+    virtual void follow(std::size_t stride, const double* dv, const double* dq, double* q) const = 0;
 };
 
-/// Where a device gets its unknowns when it is made.
+/// Gives a new device the indices of its unknowns.
 class Setup {
 public:
     virtual ~Setup() = default;
-    virtual int node(int number) const = 0;                ///< the unknown of a node
-    virtual int branch(int element) const = 0;             ///< of the current through an element; -1: it has none
-    virtual int own(std::string_view name) = 0;            ///< a new one: "x1.d1#anode"
+    virtual int node(int number) const = 0;                ///< unknown of a node's voltage
+    virtual int branch(int element) const = 0;             ///< unknown of the current through an element; -1: none
+    virtual int own(std::string_view name) = 0;            ///< adds an unknown, e.g. "x1.d1#anode"
     virtual double temperature(const Element&) const = 0;  ///< K
     virtual const Circuit& circuit() const = 0;
 };

@@ -21,12 +21,12 @@ constexpr Field<DiodeCard> fields[] = {
     {"cjo", &DiodeCard::cjo, "F", 0, 1, "junction capacitance at 0 V"},
     {"vj", &DiodeCard::vj, "V", 0.1, 10, "junction potential"},
     {"m", &DiodeCard::m, "", 0, 0.95, "grading coefficient"},
-    {"fc", &DiodeCard::fc, "", 0, 0.95, "where the forward capacitance becomes a straight line, in vj"},
+    {"fc", &DiodeCard::fc, "", 0, 0.95, "fraction of vj above which the capacitance is extrapolated linearly"},
     {"tt", &DiodeCard::tt, "s", 0, 1, "transit time"},
     {"bv", &DiodeCard::bv, "V", 0, 1e6, "breakdown voltage; 0: none"},
     {"ibv", &DiodeCard::ibv, "A", 1e-15, 1e3, "current at the breakdown voltage"},
     {"eg", &DiodeCard::eg, "eV", 0.1, 10, "band gap"},
-    {"xti", &DiodeCard::xti, "", 0, 10, "exponent of the saturation current's temperature"},
+    {"xti", &DiodeCard::xti, "", 0, 10, "temperature exponent of the saturation current"},
     {"kf", &DiodeCard::kf, "", 0, 1, "flicker noise coefficient"},
     {"af", &DiodeCard::af, "", 0.1, 10, "flicker noise exponent"},
     {"tnom", &DiodeCard::tnom, "C", -273, 1000, "temperature at which the parameters were measured"},
@@ -35,11 +35,11 @@ constexpr Field<DiodeCard> fields[] = {
 /// Band gap of silicon, eV (Thurmond 1975, as SPICE has it).
 double band_gap(double kelvin) { return 1.16 - 7.02e-4 * kelvin * kelvin / (kelvin + 1108); }
 
-/// vj and cjo at another temperature, after SPICE.
-void warm(DiodeCard& c, double kelvin) {
+/// Changes is, vj and cjo to their values at another temperature, after SPICE.
+void adjust_to_temperature(DiodeCard& c, double kelvin) {
     const double nominal = c.tnom + zero_celsius, ratio = kelvin / nominal, vt = thermal_voltage(kelvin);
     c.is *= num::exp((ratio - 1) * c.eg / (c.n * vt) + c.xti / c.n * num::log(ratio));
-    const auto pb = [](double t) {  // built-in potential's own part, V
+    const auto pb = [](double t) {  // temperature-dependent part of the built-in potential, V
         const double reference = 300.15, v = thermal_voltage(t);
         const double arg = -band_gap(t) / (2 * v) + 1.1150877 / (2 * thermal_voltage(reference));
         return -2 * v * (1.5 * num::log(t / reference) + arg);
@@ -51,17 +51,17 @@ void warm(DiodeCard& c, double kelvin) {
     c.vj = vj;
 }
 
-/// Anode to cathode: i = is (exp(v / n V_t) - 1), flattening below -3 n V_t as SPICE has it, breakdown at -bv; the charge of its
-/// depletion layer (the integral of cjo / (1 - v/vj)^m, a parabola beyond fc vj) and of transit, tt i.
-/// Unknowns: anode, cathode and, where there is rs, the junction's inner side.
+/// Current from anode to cathode: i = is (exp(v / n V_t) - 1), flattened below -3 n V_t as in SPICE, breakdown at -bv.
+/// Charge: depletion charge (the integral of cjo / (1 - v/vj)^m, a parabola above fc vj) plus transit charge tt i.
+/// Unknowns: anode, cathode and, if rs > 0, the node between rs and the junction.
 class Diode final : public Device {
     DiodeCard c_;
     double area_, n_vt_, v_crit_, v_breakdown_;
 
-    struct Flow {
-        double i, g;
+    struct CurrentSlope {
+        double i, g;  // A, S
     };
-    Flow flow(double v) const {
+    CurrentSlope current(double v) const {
         const double is = c_.is * area_;
         if (v >= -3 * n_vt_) {
             const double e = std::exp(v / n_vt_);
@@ -83,76 +83,76 @@ class Diode final : public Device {
         const double f2 = std::pow(1 - c_.fc, 1 + c_.m), f3 = 1 - c_.fc * (1 + c_.m), slope = c_.m / c_.vj;
         return {charge(knee) + c0 / f2 * (f3 * (v - knee) + slope / 2 * (v * v - knee * knee)), c0 / f2 * (f3 + slope * v)};
     }
-    std::size_t inner() const { return c_.rs > 0 ? 2 : 0; }
+    std::size_t junction_anode() const { return c_.rs > 0 ? 2 : 0; }
 
 public:
     Diode(DiodeCard card, double area, double kelvin) : c_(card), area_(area) {
-        warm(c_, kelvin);
+        adjust_to_temperature(c_, kelvin);
         n_vt_ = c_.n * thermal_voltage(kelvin);
         v_crit_ = n_vt_ * std::log(n_vt_ / (1.4142135623730951 * c_.is * area_));
         v_breakdown_ = c_.bv;
-        if (c_.bv > 0 && c_.ibv > c_.is * area_)  // where the current of breakdown is ibv at bv
+        if (c_.bv > 0 && c_.ibv > c_.is * area_)  // so that the current at bv is ibv
             v_breakdown_ = c_.bv - n_vt_ * std::log(c_.ibv / (c_.is * area_));
     }
     bool linear() const override { return false; }
     std::size_t memory() const override { return 1; }
-    bool limit(std::span<double> v, std::span<double> memory) const override {
-        double u = v[inner()] - v[1];
-        const double wanted = u;
+    bool limit(std::span<double> v, std::span<double> state) const override {
+        double u = v[junction_anode()] - v[1];
+        const double unlimited = u;
         bool shortened = false;
         if (c_.bv > 0 && u < std::min(0.0, -c_.bv + 10 * n_vt_)) {
             double mirrored = -(u + c_.bv);
-            shortened = limit_junction(mirrored, -(memory[0] + c_.bv), n_vt_, v_crit_);
+            shortened = limit_junction(mirrored, -(state[0] + c_.bv), n_vt_, v_crit_);
             u = -(mirrored + c_.bv);
         } else {
-            shortened = limit_junction(u, memory[0], n_vt_, v_crit_);
+            shortened = limit_junction(u, state[0], n_vt_, v_crit_);
         }
-        memory[0] = u;
-        v[inner()] += u - wanted;
+        state[0] = u;
+        v[junction_anode()] += u - unlimited;
         return shortened;
     }
-    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
-        const std::size_t a = inner();
+    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
+        const std::size_t a = junction_anode();
         const double u = v[a] - v[1];
-        auto [i, g] = flow(u);
+        auto [i, g] = current(u);
         auto [q, c] = depletion(u);
         q += c_.tt * i, c += c_.tt * g;
-        i += at.gmin * u, g += at.gmin;
+        i += context.gmin * u, g += context.gmin;
         out.f[a] += i, out.f[1] -= i, out.q[a] += q, out.q[1] -= q;
         out.slope(a, a) += g, out.slope(a, 1) -= g, out.slope(1, a) -= g, out.slope(1, 1) += g;
         out.capacitance(a, a) += c, out.capacitance(a, 1) -= c, out.capacitance(1, a) -= c, out.capacitance(1, 1) += c;
         if (a == 0) return;
-        const double series = area_ / c_.rs, through = series * (v[0] - v[2]);
-        out.f[0] += through, out.f[2] -= through;
+        const double series = area_ / c_.rs, current_rs = series * (v[0] - v[2]);
+        out.f[0] += current_rs, out.f[2] -= current_rs;
         out.slope(0, 0) += series, out.slope(0, 2) -= series, out.slope(2, 0) -= series, out.slope(2, 2) += series;
     }
     std::vector<NoiseSource> noise(std::span<const double> v) const override {
-        const double i = std::abs(flow(v[inner()] - v[1]).i);
-        std::vector<NoiseSource> out = {{"shot", inner(), 1, 2 * electron_charge * i, 0}};
-        if (c_.kf > 0) out.push_back({"flicker", inner(), 1, 0, c_.kf * std::pow(i, c_.af)});
+        const double i = std::abs(current(v[junction_anode()] - v[1]).i);
+        std::vector<NoiseSource> out = {{"shot", junction_anode(), 1, 2 * electron_charge * i, 0}};
+        if (c_.kf > 0) out.push_back({"flicker", junction_anode(), 1, 0, c_.kf * std::pow(i, c_.af)});
         if (c_.rs > 0) out.push_back({"thermal", 0, 2, 4 * boltzmann * (n_vt_ / c_.n * electron_charge / boltzmann) * area_ / c_.rs, 0});
         return out;
     }
     std::vector<Reading> readings(std::span<const double> v) const override {
-        const double u = v[inner()] - v[1];
-        const auto [i, g] = flow(u);
+        const double u = v[junction_anode()] - v[1];
+        const auto [i, g] = current(u);
         return {{"v", "V", u}, {"i", "A", i}, {"g", "S", g}, {"c", "F", depletion(u).second + c_.tt * g}};
     }
 };
 
 }  // namespace
 
-bool limit_junction(double& v, double before, double n_vt, double v_crit) {
-    const double wanted = v;
-    if (v > v_crit && std::abs(v - before) > 2 * n_vt) {
-        if (before > 0) {
-            const double arg = 1 + (v - before) / n_vt;
-            v = arg > 0 ? before + n_vt * std::log(arg) : v_crit;
+bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
+    const double unlimited = v;
+    if (v > v_crit && std::abs(v - v_before) > 2 * n_vt) {
+        if (v_before > 0) {
+            const double arg = 1 + (v - v_before) / n_vt;
+            v = arg > 0 ? v_before + n_vt * std::log(arg) : v_crit;
         } else {
             v = n_vt * std::log(v / n_vt);
         }
     }
-    return v != wanted;
+    return v != unlimited;
 }
 
 Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
@@ -160,18 +160,18 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
     if (auto wrong = unknown_value(e.name, e.values, known, e.place)) return *wrong;
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(e.values, "pj", 0) != 0)
-        return bad_input(fmt::format("{}: pj is not part of this diode (level 1 without sidewalls)", e.name), e.place);
+        return bad_input(fmt::format("{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name), e.place);
     if (const double level = value_or(model.values, "level", 1); level != 1)
-        return bad_input(fmt::format("{}: a diode of level {:g}; diodes here are of level=1", model.name, level), model.place);
+        return bad_input(fmt::format("{}: diode level {:g} is not supported; use level=1", model.name, level), model.place);
     const auto card = card_from<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});
     if (!card) return card.error();
     DiodeCard c = *card;
-    if (const auto other = model.values.find("cj0"); other != model.values.end()) c.cjo = other->second;
+    if (const auto alias = model.values.find("cj0"); alias != model.values.end()) c.cjo = alias->second;
     for (const std::string_view name : {"jsw", "ikf", "trs", "rsw"})
         if (value_or(model.values, name, 0) != 0)
-            return bad_input(
-                fmt::format("{}: {} is not part of this diode (level 1 without sidewalls and high injection)", model.name, name),
-                model.place);
+            return bad_input(fmt::format("{}: {} is not supported (this level 1 diode has no sidewalls and no high injection); remove it",
+                                         model.name, name),
+                             model.place);
     auto device = std::make_unique<Diode>(c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
     device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     if (c.rs > 0) device->unknowns.push_back(setup.own(e.name + "#junction"));

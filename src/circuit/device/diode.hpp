@@ -7,9 +7,9 @@ namespace corpuscle::circuit {
 
 Result<std::unique_ptr<Device>> make_diode(const Element&, Setup&);
 
-/// Where Newton's next look at a junction's exponential may be: a step far up is shortened to where the current grows as the step's
-/// straight line says (after Nagel's SPICE2). v: wanted, V; before: the last look; n_vt: of the exponential; v_crit: where it bends.
-/// Returns whether it was shortened.
-bool limit_junction(double& v, double before, double n_vt, double v_crit);
+/// Limits the Newton step of a junction voltage v (V), after Nagel's SPICE2. A large forward step is shortened to the voltage at which the
+/// exponential reaches the current that the linearization predicts. v_before: voltage of the last evaluation; n_vt: n kT/q of the
+/// exponential; v_crit: voltage of its largest curvature. Returns true if the step was shortened.
+bool limit_junction(double& v, double v_before, double n_vt, double v_crit);
 
 }  // namespace corpuscle::circuit

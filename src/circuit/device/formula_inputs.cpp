@@ -16,23 +16,23 @@ std::string suggestion(std::string_view typed, const std::vector<std::string>& k
 
 }  // namespace
 
-int FormulaInputs::local(int unknown) {
+int FormulaInputs::local_index(int unknown) {
     if (unknown < 0) return -1;
     const auto at = std::find(unknowns_.begin(), unknowns_.end(), unknown);
     if (at == unknowns_.end()) unknowns_.push_back(unknown);
     return static_cast<int>(std::find(unknowns_.begin(), unknowns_.end(), unknown) - unknowns_.begin());
 }
 
-Result<FormulaInputs> FormulaInputs::make(const Formula& formula, const Element& e, const Setup& setup, std::vector<int> first) {
+Result<FormulaInputs> FormulaInputs::make(const Formula& expression, const Element& e, const Setup& setup, std::vector<int> first) {
     FormulaInputs out;
     out.unknowns_ = std::move(first);
     const Circuit& circuit = setup.circuit();
-    for (const auto& in : formula.inputs()) {
-        Input found;
+    for (const auto& in : expression.inputs()) {
+        Input input;
         const auto node = [&](const std::string& name) -> Result<int> {
             const int number = circuit.node(name);
             if (number < 0)
-                return bad_input(fmt::format("{}: no node is called '{}'{}", e.name, name, suggestion(name, circuit.nodes)), e.place);
+                return bad_input(fmt::format("{}: unknown node '{}'{}", e.name, name, suggestion(name, circuit.nodes)), e.place);
             return setup.node(number);
         };
         switch (in.kind) {
@@ -40,25 +40,24 @@ Result<FormulaInputs> FormulaInputs::make(const Formula& formula, const Element&
                 const auto plus = node(in.name), minus = in.minus.empty() ? Result<int>(-1) : node(in.minus);
                 if (!plus) return plus.error();
                 if (!minus) return minus.error();
-                found.plus = out.local(*plus), found.minus = out.local(*minus);
+                input.plus = out.local_index(*plus), input.minus = out.local_index(*minus);
                 break;
             }
             case FormulaInput::Kind::current: {
                 const int element = circuit.element(in.name);
                 if (element < 0 || setup.branch(element) < 0)
-                    return bad_input(fmt::format("{}: i({}): there is no voltage source or inductor of this name", e.name, in.name),
-                                     e.place);
-                found.plus = out.local(setup.branch(element));
+                    return bad_input(fmt::format("{}: i({}): no voltage source or inductor has this name", e.name, in.name), e.place);
+                input.plus = out.local_index(setup.branch(element));
                 break;
             }
             case FormulaInput::Kind::time:
-                found.is_time = true;
+                input.is_time = true;
                 break;
             case FormulaInput::Kind::temperature:
-                found.constant = setup.temperature(e) - zero_celsius;
+                input.constant = setup.temperature(e) - zero_celsius;
                 break;
         }
-        out.inputs_.push_back(found);
+        out.inputs_.push_back(input);
     }
     return out;
 }

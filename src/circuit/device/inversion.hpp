@@ -1,5 +1,5 @@
 #pragma once
-// The charge at one end of a channel from the voltage there: q of q + ln q = x, in constant time and without a branch.
+// Inversion charge density at one end of a channel from the voltage there: solves q + ln q = x in constant time, without branches.
 
 #include "circuit/device/short_log.hpp"
 
@@ -9,26 +9,26 @@ num::Dual inversion(num::Dual x);
 
 namespace detail {
 
-/// e^x to 8e-5 of itself.
+/// e^x with a relative error below 8e-5.
 template <class T>
 [[gnu::always_inline]] inline T rough_exp(T x) {
     const T y = x * T(1.4426950408889634), k = num::nearest(y), f = y - k;
     return num::times_power_of_two(T(0.99992807) + f * (T(0.69326099) + f * (T(0.24261112) + f * T(0.05517166))), k);
 }
 
-/// ln x to 5e-4, for a normal x > 0.
+/// ln x with an absolute error below 5e-4, for a normal x > 0.
 template <class T>
 [[gnu::always_inline]] inline T rough_log(T x) {
     const T m = num::mantissa(x);
     return num::exponent(x) * T(0.6931471805599453) + (T(-1.49277583) + m * (T(2.11263167) + m * (T(-0.72910377) + m * T(0.10968954))));
 }
 
-/// q to about 3e-4 of itself: a series in e^x below -2.5, one in ln x above 6, a polynomial between.
+/// q with a relative error of about 3e-4: a series in e^x below -2.5, one in ln x above 6, a polynomial between.
 template <class T>
 [[gnu::always_inline]] inline T inversion_seed(T x) {
     const auto far = x > T(6.0);
     const T y = num::max(x, T(6.0)), L = rough_log(y);
-    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_reach<T>))));  // 1/x where x is far
+    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_reach<T>))));  // 1/x for x > 6
     const T low = E * (T(1.0) - E * (T(1.0) - E * (T(1.5) - E * T(8.0 / 3))));
     const T high = y - L + L * E * (T(1.0) + E * (T(0.5) * L - T(1.0)));
 
@@ -42,8 +42,8 @@ template <class T>
 
 }  // namespace detail
 
-/// q of q + ln q = x: the seed, and one step of Fritsch, Shafer and Crowley (algorithm 443, Comm. ACM 16, 1973), of fourth order.
-/// Within 1e-13 of itself for |x| <= 700 (most of it from x's own last digit); below that e^-700. What is no number stays none.
+/// Solves q + ln q = x for q: the seed, then one fourth-order step of Fritsch, Shafer and Crowley (algorithm 443, Comm. ACM 16, 1973).
+/// Relative error below 1e-13 for |x| <= 700, mostly from the rounding of x. Returns e^-700 for smaller x. NaN in, NaN out.
 template <class T>
 [[gnu::always_inline]] inline T inversion(T x) {
     const T q = detail::inversion_seed(x), r = num::max(T(-num::exp_reach<T>), x) - q - short_log(q);

@@ -9,23 +9,23 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Value times scale and 1 + tc1 dT + tc2 dT^2, dT from the model's tnom, that of .options, or 27 C.
+/// Value times scale times (1 + tc1 dT + tc2 dT^2). dT is relative to tnom of the model, of .options, or 27 C.
 double at_temperature(double value, const Element& e, const Setup& setup) {
     const Model* model = e.model < 0 ? nullptr : &setup.circuit().models[static_cast<std::size_t>(e.model)];
-    const auto said = [&](std::string_view name, double otherwise) {
-        return value_or(e.values, name, model ? value_or(model->values, name, otherwise) : otherwise);
+    const auto parameter = [&](std::string_view name, double fallback) {
+        return value_or(e.values, name, model ? value_or(model->values, name, fallback) : fallback);
     };
-    const double dT = setup.temperature(e) - zero_celsius - said("tnom", value_or(setup.circuit().options, "tnom", 27));
-    return value * value_or(e.values, "scale", 1) * (1 + said("tc1", 0) * dT + said("tc2", 0) * dT * dT);
+    const double dT = setup.temperature(e) - zero_celsius - parameter("tnom", value_or(setup.circuit().options, "tnom", 27));
+    return value * value_or(e.values, "scale", 1) * (1 + parameter("tc1", 0) * dT + parameter("tc2", 0) * dT * dT);
 }
 
 constexpr std::string_view passive_values[] = {"m", "tc1", "tc2", "temp", "dtemp", "ic", "tnom", "scale"};
 constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
 
-/// What its line or its model says and is not read here.
-std::optional<Error> unread(const Element& e, const Setup& setup) {
+/// Rejects parameters of the element or its model that these devices do not have.
+std::optional<Error> check_parameters(const Element& e, const Setup& setup) {
     if (auto wrong = unknown_value(e.name, e.values, passive_values, e.place)) return wrong;
-    if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale = 0 leaves nothing of it", e.name), e.place);
+    if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale must not be 0", e.name), e.place);
     if (e.model < 0) return {};
     const Model& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     return unknown_value(model.name, model.values, model_values, model.place);
@@ -65,24 +65,25 @@ public:
     std::optional<double> setting() const override { return c_; }
 };
 
-/// q = a formula of voltages
-class ChargeFormula final : public Device {
-    Formula formula_;
-    FormulaInputs inputs_;
+/// q = an expression of voltages
+class ChargeExpression final : public Device {
+    Formula expression_;
+    FormulaInputs binding_;
     double m_;
 
 public:
-    ChargeFormula(Formula formula, FormulaInputs inputs, double m) : formula_(std::move(formula)), inputs_(std::move(inputs)), m_(m) {}
+    ChargeExpression(Formula expression, FormulaInputs binding, double m)
+        : expression_(std::move(expression)), binding_(std::move(binding)), m_(m) {}
     bool linear() const override { return false; }
-    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
-        inputs_.eval(formula_, v, at, [&](double q, std::span<const FormulaInputs::Slope> slopes) {
+    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
+        binding_.eval(expression_, v, context, [&](double q, std::span<const FormulaInputs::Slope> slopes) {
             out.q[0] += m_ * q, out.q[1] -= m_ * q;
             for (const auto& s : slopes) out.capacitance(0, s.unknown) += m_ * s.value, out.capacitance(1, s.unknown) -= m_ * s.value;
         });
     }
 };
 
-/// v = L di/dt: the element's own unknown is its current, its own equation v - d(L i)/dt = 0
+/// v = L di/dt. The third unknown is the current; its equation is v - d(L i)/dt = 0.
 class Inductor final : public Device {
     double l_;
 
@@ -103,26 +104,26 @@ public:
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, Setup& setup) {
-    if (auto wrong = unread(e, setup)) return *wrong;
+    if (auto wrong = check_parameters(e, setup)) return *wrong;
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
-    if (r == 0) return bad_input(fmt::format("{}: a resistance of 0 ohm; a voltage source of 0 V is a wire", e.name), e.place);
+    if (r == 0) return bad_input(fmt::format("{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name), e.place);
     auto device = std::make_unique<Resistor>(r, m, setup.temperature(e));
     device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     return std::unique_ptr<Device>(std::move(device));
 }
 
 Result<std::unique_ptr<Device>> make_capacitor(const Element& e, Setup& setup) {
-    if (auto wrong = unread(e, setup)) return *wrong;
+    if (auto wrong = check_parameters(e, setup)) return *wrong;
     const double m = value_or(e.values, "m", 1);
     for (const std::string_view name : {"scale", "tc1", "tc2"})
         if (e.formula && e.values.contains(name))
-            return bad_input(fmt::format("{}: {} does not go with a formula of its charge; write it into q=", e.name, name), e.place);
+            return bad_input(fmt::format("{}: {} has no effect on a charge expression; put it into q=", e.name, name), e.place);
     const std::vector<int> ends = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     if (e.formula) {
-        auto inputs = FormulaInputs::make(*e.formula, e, setup, ends);
-        if (!inputs) return inputs.error();
-        const auto unknowns = inputs->unknowns();
-        auto device = std::make_unique<ChargeFormula>(*e.formula, std::move(*inputs), m);
+        auto binding = FormulaInputs::make(*e.formula, e, setup, ends);
+        if (!binding) return binding.error();
+        const auto unknowns = binding->unknowns();
+        auto device = std::make_unique<ChargeExpression>(*e.formula, std::move(*binding), m);
         device->unknowns = unknowns;
         return std::unique_ptr<Device>(std::move(device));
     }
@@ -132,7 +133,7 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, Setup& setup) {
 }
 
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, Setup& setup) {
-    if (auto wrong = unread(e, setup)) return *wrong;
+    if (auto wrong = check_parameters(e, setup)) return *wrong;
     auto device = std::make_unique<Inductor>(at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
     device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))};
     return std::unique_ptr<Device>(std::move(device));

@@ -12,8 +12,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// An independent source before any time has passed: its DC value, or where its course begins.
-double at_rest(const Waveform& w) {
+/// The DC value of an independent source; without one, the first value of its waveform.
+double dc_value(const Waveform& w) {
     if (w.has_dc || w.numbers.empty()) return w.dc;
     switch (w.shape) {
         case Waveform::Shape::pulse:
@@ -33,48 +33,47 @@ std::complex<double> phasor(const Waveform& w) {
     return {w.ac_magnitude * num::cos_turns(turns), w.ac_magnitude * num::sin_turns(turns)};
 }
 
-/// With the word FORCE it carries its DC value and, times a scale, a force that somebody hands in.
+/// With the keyword FORCE its value is the DC value plus a scale factor times the force input.
 class IndependentSource : public Device {
     Waveform wave_;
     double value_;
-    std::optional<Course> course_;
+    std::optional<Course> waveform_;
     const Trace* force_ = nullptr;
 
-    double now(double t) const { return course_ ? course_->at(t) : force_ ? value_ + wave_.numbers[0] * force_->at(t) : value_; }
+    double value_at(double t) const { return waveform_ ? waveform_->at(t) : force_ ? value_ + wave_.numbers[0] * force_->at(t) : value_; }
 
 protected:
     std::complex<double> phasor_;
-    double value(const Instant& at) const { return at.sources * now(at.time); }
+    double value(const Instant& context) const { return context.sources * value_at(context.time); }
 
 public:
-    explicit IndependentSource(const Waveform& wave) : wave_(wave), value_(at_rest(wave)), phasor_(phasor(wave)) {}
+    explicit IndependentSource(const Waveform& wave) : wave_(wave), value_(dc_value(wave)), phasor_(phasor(wave)) {}
     bool set(double value) override { return value_ = value, true; }
     std::optional<double> setting() const override { return value_; }
     void go(double step, double stop) override {
-        course_.reset();
-        if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) course_.emplace(wave_, step, stop);
+        waveform_.reset();
+        if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) waveform_.emplace(wave_, step, stop);
     }
     bool hear(const Trace* force) override {
-        const bool carries = wave_.shape == Waveform::Shape::force;
-        if (carries) force_ = force;
-        return carries;
+        const bool has_force = wave_.shape == Waveform::Shape::force;
+        if (has_force) force_ = force;
+        return has_force;
     }
-    double pace() const override { return course_ ? course_->pace() : Device::pace(); }
-    bool varies() const override { return course_ || force_; }
+    double pace() const override { return waveform_ ? waveform_->pace() : Device::pace(); }
+    bool varies() const override { return waveform_ || force_; }
     double next_corner(double t) const override {
-        return course_ ? course_->next_corner(t) : force_ ? force_->next_corner(t) : Device::next_corner(t);
+        return waveform_ ? waveform_->next_corner(t) : force_ ? force_->next_corner(t) : Device::next_corner(t);
     }
 };
 
-/// Unknowns: two nodes, and the current from the first through the source to the second.
-/// v(+) - v(-) = V
+/// v(+) - v(-) = V. Unknowns: two nodes, and the current from the first through the source to the second.
 class VoltageSource final : public IndependentSource {
 public:
     using IndependentSource::IndependentSource;
-    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
+    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
-        out.f[2] += v[0] - v[1] - value(at);
+        out.f[2] += v[0] - v[1] - value(context);
         out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
     }
     void drive(std::span<std::complex<double>> out) const override { out[2] += phasor_; }
@@ -85,19 +84,19 @@ class CurrentSource final : public IndependentSource {
 
 public:
     CurrentSource(const Waveform& wave, double m) : IndependentSource(wave), m_(m) {}
-    void eval(std::span<const double>, const Instant& at, const Stamp& out) const override {
-        const double i = value(at) * m_;
+    void eval(std::span<const double>, const Instant& context, const Stamp& out) const override {
+        const double i = value(context) * m_;
         out.f[0] += i, out.f[1] -= i;
     }
     void drive(std::span<std::complex<double>> out) const override { out[0] -= m_ * phasor_, out[1] += m_ * phasor_; }
 };
 
 /// v(+) - v(-) = gain times a voltage (E: unknowns 3 and 4) or a current (H: unknown 3)
-class ControlledVoltage final : public Device {
+class ControlledVoltageSource final : public Device {
     double gain_;
 
 public:
-    explicit ControlledVoltage(double gain) : gain_(gain) {}
+    explicit ControlledVoltageSource(double gain) : gain_(gain) {}
     void eval(std::span<const double> v, const Instant&, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
@@ -110,11 +109,11 @@ public:
 };
 
 /// i = gain times a voltage (G: unknowns 2 and 3) or a current (F: unknown 2)
-class ControlledCurrent final : public Device {
+class ControlledCurrentSource final : public Device {
     double gain_;
 
 public:
-    explicit ControlledCurrent(double gain) : gain_(gain) {}
+    explicit ControlledCurrentSource(double gain) : gain_(gain) {}
     void eval(std::span<const double> v, const Instant&, const Stamp& out) const override {
         const double i = gain_ * (v[2] - (v.size() > 3 ? v[3] : 0));
         out.f[0] += i, out.f[1] -= i;
@@ -125,51 +124,52 @@ public:
     std::optional<double> setting() const override { return gain_; }
 };
 
-/// Whether it compares, chooses or counts, as its text shows; one that cannot be written is taken to.
-bool has_jumps(const Formula& formula) {
-    const auto text = formula.text([](const FormulaInput&) { return std::string("x"); });
+/// True if the text of an expression contains a comparison, a condition or a rounding function. An expression without text counts as such.
+bool contains_jumps(const Formula& expression) {
+    const auto text = expression.text([](const FormulaInput&) { return std::string("x"); });
     if (!text) return true;
     constexpr std::string_view signs[] = {"?", "<", ">", "==", "!=", "&&", "||", "sgn(", "u(", "floor(", "ceil(", "int("};
     return std::any_of(std::begin(signs), std::end(signs), [&](auto sign) { return text->find(sign) != std::string::npos; });
 }
 
-class FormulaCurrent final : public Device {
-    Formula formula_;
-    FormulaInputs inputs_;
+class ExpressionCurrentSource final : public Device {
+    Formula expression_;
+    FormulaInputs binding_;
     double m_;
-    bool jumps_ = has_jumps(formula_);
+    bool jumps_ = contains_jumps(expression_);
 
 public:
-    FormulaCurrent(Formula formula, FormulaInputs inputs, double m) : formula_(std::move(formula)), inputs_(std::move(inputs)), m_(m) {}
+    ExpressionCurrentSource(Formula expression, FormulaInputs binding, double m)
+        : expression_(std::move(expression)), binding_(std::move(binding)), m_(m) {}
     bool linear() const override { return false; }
     bool jumps() const override { return jumps_; }
-    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
-        inputs_.eval(formula_, v, at, [&](double i, std::span<const FormulaInputs::Slope> slopes) {
-            out.f[0] += m_ * i * at.sources, out.f[1] -= m_ * i * at.sources;
+    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
+        binding_.eval(expression_, v, context, [&](double i, std::span<const FormulaInputs::Slope> slopes) {
+            out.f[0] += m_ * i * context.sources, out.f[1] -= m_ * i * context.sources;
             for (const auto& s : slopes) {
-                out.slope(0, s.unknown) += m_ * s.value * at.sources;
-                out.slope(1, s.unknown) -= m_ * s.value * at.sources;
+                out.slope(0, s.unknown) += m_ * s.value * context.sources;
+                out.slope(1, s.unknown) -= m_ * s.value * context.sources;
             }
         });
     }
 };
 
-class FormulaVoltage final : public Device {
-    Formula formula_;
-    FormulaInputs inputs_;
-    bool jumps_ = has_jumps(formula_);
+class ExpressionVoltageSource final : public Device {
+    Formula expression_;
+    FormulaInputs binding_;
+    bool jumps_ = contains_jumps(expression_);
 
 public:
-    FormulaVoltage(Formula formula, FormulaInputs inputs) : formula_(std::move(formula)), inputs_(std::move(inputs)) {}
+    ExpressionVoltageSource(Formula expression, FormulaInputs binding) : expression_(std::move(expression)), binding_(std::move(binding)) {}
     bool linear() const override { return false; }
     bool jumps() const override { return jumps_; }
-    void eval(std::span<const double> v, const Instant& at, const Stamp& out) const override {
+    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
-        inputs_.eval(formula_, v, at, [&](double value, std::span<const FormulaInputs::Slope> slopes) {
-            out.f[2] += v[0] - v[1] - value * at.sources;
+        binding_.eval(expression_, v, context, [&](double value, std::span<const FormulaInputs::Slope> slopes) {
+            out.f[2] += v[0] - v[1] - value * context.sources;
             out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
-            for (const auto& s : slopes) out.slope(2, s.unknown) -= s.value * at.sources;
+            for (const auto& s : slopes) out.slope(2, s.unknown) -= s.value * context.sources;
         });
     }
 };
@@ -177,7 +177,7 @@ public:
 constexpr std::string_view source_values[] = {"m", "temp", "dtemp"};
 
 template <class D>
-std::unique_ptr<Device> with(std::unique_ptr<D> device, std::vector<int> unknowns) {
+std::unique_ptr<Device> with_unknowns(std::unique_ptr<D> device, std::vector<int> unknowns) {
     device->unknowns = std::move(unknowns);
     return device;
 }
@@ -186,13 +186,14 @@ std::unique_ptr<Device> with(std::unique_ptr<D> device, std::vector<int> unknown
 
 Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, Setup& setup) {
     if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
-    return with(std::make_unique<VoltageSource>(e.waveform),
-                {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))});
+    return with_unknowns(std::make_unique<VoltageSource>(e.waveform),
+                         {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))});
 }
 
 Result<std::unique_ptr<Device>> make_current_source(const Element& e, Setup& setup) {
     if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
-    return with(std::make_unique<CurrentSource>(e.waveform, value_or(e.values, "m", 1)), {setup.node(e.nodes[0]), setup.node(e.nodes[1])});
+    return with_unknowns(std::make_unique<CurrentSource>(e.waveform, value_or(e.values, "m", 1)),
+                         {setup.node(e.nodes[0]), setup.node(e.nodes[1])});
 }
 
 Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, Setup& setup) {
@@ -204,25 +205,27 @@ Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, Setup& 
     if (by_current) {
         const int control = setup.circuit().element(e.control);
         if (control < 0 || setup.branch(control) < 0)
-            return bad_input(fmt::format("{}: there is no voltage source '{}' whose current could control it", e.name, e.control), e.place);
+            return bad_input(fmt::format("{}: unknown voltage source '{}'; its current is the control", e.name, e.control), e.place);
         unknowns.push_back(setup.branch(control));
     } else {
         unknowns.push_back(setup.node(e.nodes[2]));
         unknowns.push_back(setup.node(e.nodes[3]));
     }
-    if (voltage) return with(std::make_unique<ControlledVoltage>(e.value), std::move(unknowns));
-    return with(std::make_unique<ControlledCurrent>(e.value * value_or(e.values, "m", 1)), std::move(unknowns));
+    if (voltage) return with_unknowns(std::make_unique<ControlledVoltageSource>(e.value), std::move(unknowns));
+    return with_unknowns(std::make_unique<ControlledCurrentSource>(e.value * value_or(e.values, "m", 1)), std::move(unknowns));
 }
 
 Result<std::unique_ptr<Device>> make_formula_source(const Element& e, Setup& setup) {
     if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
     std::vector<int> first = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     if (e.formula_is_voltage) first.push_back(setup.branch(setup.circuit().element(e.name)));
-    auto inputs = FormulaInputs::make(*e.formula, e, setup, std::move(first));
-    if (!inputs) return inputs.error();
-    auto unknowns = inputs->unknowns();
-    if (e.formula_is_voltage) return with(std::make_unique<FormulaVoltage>(*e.formula, std::move(*inputs)), std::move(unknowns));
-    return with(std::make_unique<FormulaCurrent>(*e.formula, std::move(*inputs), value_or(e.values, "m", 1)), std::move(unknowns));
+    auto binding = FormulaInputs::make(*e.formula, e, setup, std::move(first));
+    if (!binding) return binding.error();
+    auto unknowns = binding->unknowns();
+    if (e.formula_is_voltage)
+        return with_unknowns(std::make_unique<ExpressionVoltageSource>(*e.formula, std::move(*binding)), std::move(unknowns));
+    return with_unknowns(std::make_unique<ExpressionCurrentSource>(*e.formula, std::move(*binding), value_or(e.values, "m", 1)),
+                         std::move(unknowns));
 }
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// Independent sources, controlled sources, sources by formula.
+// Independent sources, controlled sources, expression sources.
 
 #include "circuit/device/device.hpp"
 
@@ -8,6 +8,6 @@ namespace corpuscle::circuit {
 Result<std::unique_ptr<Device>> make_voltage_source(const Element&, Setup&);
 Result<std::unique_ptr<Device>> make_current_source(const Element&, Setup&);
 Result<std::unique_ptr<Device>> make_controlled_source(const Element&, Setup&);  ///< E F G H
-Result<std::unique_ptr<Device>> make_formula_source(const Element&, Setup&);     ///< B, and E and G by formula
+Result<std::unique_ptr<Device>> make_formula_source(const Element&, Setup&);     ///< B, and E and G with an expression
 
 }  // namespace corpuscle::circuit

@@ -4,19 +4,20 @@
 
 namespace corpuscle::circuit {
 
-/// M: drain, gate, source, bulk, a model of level=80; its equations are uicm.hpp's.
+/// M: drain, gate, source, bulk, with a model of level=80. The equations are in uicm.hpp.
 Result<std::unique_ptr<Device>> make_transistor(const Element&, Setup&);
-/// On the lanes of this machine's best instruction set; the answers are the same bits on all. Error: see instruction_set().
+/// Transistors on SIMD lanes of the best instruction set of this machine. Results are bit-identical on all instruction sets. Errors: see
+/// instruction_set().
 Result<std::unique_ptr<Bank>> make_transistor_bank();
 
-/// The numbers of a transistor as it is drawn now; they live where it does.
+/// The constants of a transistor, with its variation applied. The reference is valid as long as the device.
 struct UicmConstants;
 const UicmConstants& transistor_constants(const Device&);
 
 namespace lanes {
 struct ChipLanes;
 }
-/// The kernels for many chips, of this machine's best instruction set.
+/// The kernels for blocks of chips, for the best instruction set of this machine.
 Result<const lanes::ChipLanes*> chip_kernels();
 
 }  // namespace corpuscle::circuit

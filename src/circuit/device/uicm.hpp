@@ -6,50 +6,51 @@
 
 namespace corpuscle::circuit {
 
-/// Their order, in an M line and in every array below.
+/// The order of the terminals in an M line and in all arrays below.
 struct Terminals {
     enum { D, G, S, B };
 };
 
-/// Currents from the nodes into the device and charges on it, at drain, gate, source, bulk; and how they change: di[a][b] is the
-/// slope of i[a] with the voltage of b.
+/// Currents from the nodes into the device (A) and charges on it (C), at drain, gate, source, bulk. di[a][b] is the derivative of i[a] by
+/// the voltage of b; dq likewise.
 template <class T>
 struct UicmAnswer : Terminals {
     T i[4], q[4], di[4][4], dq[4][4];
 };
 
-/// Powers of noise, A^2/Hz: the channel's between drain and source (flicker at 1 Hz; it goes with 1/f), and of the two junctions.
+/// Noise power densities, A^2/Hz: of the channel between drain and source (flicker at 1 Hz, proportional to 1/f), and of the two junctions.
 template <class T>
 struct UicmNoise {
     T thermal, flicker, shot_s, shot_d;
 };
 
-/// What lies behind a transistor's currents, in its own polarity.
+/// Internal quantities of a transistor, for the polarity of an NMOS.
 template <class T>
 struct UicmInside {
-    T q_S, q_D;     ///< of the two ends; i_f = q_S (q_S + 2), i_r = q_D (q_D + 2)
-    T I, I_s, I_d;  ///< of the channel, drain to source, and of the junctions, bulk to source and to drain
+    T q_S, q_D;     ///< inversion charges at source and drain; i_f = q_S (q_S + 2), i_r = q_D (q_D + 2)
+    T I, I_s, I_d;  ///< A: channel current, drain to source; junction currents, bulk to source and bulk to drain
 };
 
-/// Transistor, after the unified current control model (thesis app. A; channel.hpp has its equations and ACM2's part in them):
+/// MOS transistor: unified current control model (thesis app. A; equations and the parts from ACM2 are in mos_channel.hpp).
 ///     V_P = (V_GB - V_T + sigma (V_DB + V_SB)) / n;     x_S(D) = (V_P - V_S(D)B) / phi_t + 1
 ///     I_D = I_S i(x_S, x_D) (1 + (sqrt(V_DS^2 + knee^2) - knee) / V_A),   knee = 4 phi_t, V_A = V_E L:
-/// beyond the knee, where weak inversion saturates, the conductance is I_D / V_A; at V_DS = 0 the factor is 1 and even, so that source and
-/// drain may change places: that negates I_D to the last bit.
-/// Charges: Q_S, Q_D of the channel; Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion that a constant n implies (ACM2's charges leave
-/// its first part out, though its capacitances have it), Q_G = -(Q_S + Q_D + Q_B); overlaps; junctions (junction.hpp) to source and drain.
+/// Above the knee, where weak inversion saturates, the conductance is I_D / V_A. At V_DS = 0 the factor is 1 and even in V_DS, so that
+/// exchanging source and drain negates I_D to the last bit.
+/// Charges: Q_S, Q_D of the channel; Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion charge that a constant n implies (ACM2 has its
+/// first term in the capacitances but not in the charges); Q_G = -(Q_S + Q_D + Q_B); overlaps; junctions (junction.hpp).
 /// Noise: thermal 4kT mu |Q_I| / L^2; flicker q^2 N_ot mu I_D / (L^2 n C_ox) ln((1 + q_S) / (1 + q_D)) / f; shot 2q (I + 2 I_sat).
-/// Temperature: V_T linear, I_S as a power of T, phi_t, the junctions' saturation current; n, sigma, zeta, V_E and capacitances stay.
-/// Left out: gate leakage, impact ionisation and drain leakage by the gate, accumulation, quasi-static lag, self-heating, series
+/// Temperature: V_T is linear in T, I_S a power of T; phi_t and the saturation current of the junctions vary, too. n, sigma, zeta, V_E and
+/// the capacitances are constant.
+/// Left out: gate leakage, impact ionisation, gate-induced drain leakage, accumulation, non-quasi-static effects, self-heating, series
 /// resistance.
 template <class T>
 class Uicm : public Terminals {
     T polarity, V_T, per_n, per_phi_t, sigma_n, zeta, I_S, lambda, knee, Q_0, C_dep, C_gs, C_gd, C_gb;
-    T I_sat_s, I_sat_d, top_s, top_d, C_js, C_jd, thermal, flicker;
-    JunctionLaw<T> law;
+    T I_sat_s, I_sat_d, exp_limit_s, exp_limit_d, C_js, C_jd, thermal, flicker;
+    JunctionLaw<T> junction_constants;
 
 public:
-    /// `value(&UicmConstants::x)` gives each constant; they may differ from lane to lane.
+    /// `value(&UicmConstants::x)` returns each constant, which may differ between lanes.
     template <class Values>
     explicit Uicm(const Values& value)
         : polarity(value(&UicmConstants::polarity)), V_T(value(&UicmConstants::V_T)), per_n(value(&UicmConstants::per_n)),
@@ -57,29 +58,33 @@ public:
           I_S(value(&UicmConstants::I_S)), lambda(value(&UicmConstants::lambda)), knee(value(&UicmConstants::knee)),
           Q_0(value(&UicmConstants::Q_0)), C_dep(value(&UicmConstants::C_dep)), C_gs(value(&UicmConstants::C_gs)),
           C_gd(value(&UicmConstants::C_gd)), C_gb(value(&UicmConstants::C_gb)), I_sat_s(value(&UicmConstants::I_sat_s)),
-          I_sat_d(value(&UicmConstants::I_sat_d)), top_s(value(&UicmConstants::top_s)), top_d(value(&UicmConstants::top_d)),
+          I_sat_d(value(&UicmConstants::I_sat_d)), exp_limit_s(value(&UicmConstants::top_s)), exp_limit_d(value(&UicmConstants::top_d)),
           C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)), thermal(value(&UicmConstants::thermal)),
-          flicker(value(&UicmConstants::flicker)),
-          law{value(&UicmConstants::per_n_phi_t), value(&UicmConstants::per_P_B),      value(&UicmConstants::v_top),
-              value(&UicmConstants::rest),        value(&UicmConstants::P_B_per_rest), value(&UicmConstants::per_P_B_M_J)} {}
+          flicker(value(&UicmConstants::flicker)), junction_constants{
+                                                       value(&UicmConstants::per_n_phi_t),  value(&UicmConstants::per_P_B),
+                                                       value(&UicmConstants::v_top),        value(&UicmConstants::rest),
+                                                       value(&UicmConstants::P_B_per_rest), value(&UicmConstants::per_P_B_M_J)} {}
 
     /// One transistor, or the same in all lanes.
-    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::* at) { return T(c.*at); }) {}
+    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::*member) { return T(c.*member); }) {}
 
-    /// The answer to the voltages of drain, gate, source and bulk. Inlined so that an answer whose slopes nobody reads costs no slopes.
+    /// Evaluates currents, charges and derivatives at the voltages of drain, gate, source and bulk. Inlined so that the compiler removes
+    /// derivatives that are not used.
     [[gnu::always_inline]] void eval(const T (&v)[4], UicmAnswer<T>& out) const {
         const Voltages at(v, polarity);
-        const Channel<T> c = between(at);
+        const Channel<T> c = evaluate_at(at);
         const T early = num::sqrt(at.ds * at.ds + knee * knee), factor = I_S * (T(1.0) + lambda * (early - knee));
-        const auto b_s = junction(-at.sb, I_sat_s, top_s, C_js, law), b_d = junction(-at.db, I_sat_d, top_d, C_jd, law);
+        const auto b_s = junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants),
+                   b_d = junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants);
         currents(c.i, factor, I_S * c.i.value * lambda * (at.ds / early), b_s, b_d, out);
         charges(at, c, b_s, b_d, out);
     }
 
     UicmNoise<T> noise(const T (&v)[4]) const {
         const Voltages at(v, polarity);
-        const Channel<T> c = between(at);
-        const auto b_s = junction(-at.sb, I_sat_s, top_s, C_js, law), b_d = junction(-at.db, I_sat_d, top_d, C_jd, law);
+        const Channel<T> c = evaluate_at(at);
+        const auto b_s = junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants),
+                   b_d = junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants);
         const auto shot = [](const T& i, const T& I_sat) { return T(2 * 1.602176634e-19) * num::abs(i + T(2.0) * I_sat); };
         const T span = num::abs(num::log((T(1.0) + c.q_S) / (T(1.0) + c.q_D)));
         return {thermal * c.Q(), flicker * I_S * num::abs(c.i.value) * span, shot(b_s.i, I_sat_s), shot(b_d.i, I_sat_d)};
@@ -87,26 +92,27 @@ public:
 
     UicmInside<T> inside(const T (&v)[4]) const {
         const Voltages at(v, polarity);
-        const Channel<T> c = between(at);
+        const Channel<T> c = evaluate_at(at);
         const T early = num::sqrt(at.ds * at.ds + knee * knee);
-        return {c.q_S, c.q_D, I_S * (T(1.0) + lambda * (early - knee)) * c.i.value, junction(-at.sb, I_sat_s, top_s, C_js, law).i,
-                junction(-at.db, I_sat_d, top_d, C_jd, law).i};
+        return {c.q_S, c.q_D, I_S * (T(1.0) + lambda * (early - knee)) * c.i.value,
+                junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants).i,
+                junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants).i};
     }
 
 private:
-    /// Against the bulk, as an NMOS sees them.
+    /// Terminal voltages relative to the bulk, for the polarity of an NMOS.
     struct Voltages {
         T gb, sb, db, ds;
         Voltages(const T (&v)[4], T polarity)
             : gb(polarity * (v[G] - v[B])), sb(polarity * (v[S] - v[B])), db(polarity * (v[D] - v[B])), ds(polarity * (v[D] - v[S])) {}
     };
 
-    [[gnu::always_inline]] Channel<T> between(const Voltages& at) const {
+    [[gnu::always_inline]] Channel<T> evaluate_at(const Voltages& at) const {
         const T V_P = (at.gb - V_T) * per_n + sigma_n * (at.db + at.sb);
         return channel((V_P - at.sb) * per_phi_t + T(1.0), (V_P - at.db) * per_phi_t + T(1.0), zeta);
     }
 
-    /// Slopes of what changes with x at source and drain by the four voltages; they sum to zero.
+    /// Derivatives by the four terminal voltages, from the derivatives by x at source and drain. They sum to zero.
     struct Slopes {
         T d, g, s, b;
     };
@@ -116,7 +122,7 @@ private:
         return {d, g, s, -(d + g + s)};
     }
 
-    /// `early_d`: the slope of I_D that its Early factor makes.
+    /// `early_d`: derivative of I_D by V_DS that comes from the Early factor.
     [[gnu::always_inline]] void currents(const Sloped<T>& i, T factor, T early_d, const JunctionAnswer<T>& b_s,
                                          const JunctionAnswer<T>& b_d, UicmAnswer<T>& out) const {
         const T I = factor * i.value, zero(0.0);
@@ -139,12 +145,12 @@ private:
 
         const Slopes d_by = by_voltages(-(Q_0 * c.Q_D.by_S), -(Q_0 * c.Q_D.by_D)),
                      s_by = by_voltages(-(Q_0 * c.Q_S.by_S), -(Q_0 * c.Q_S.by_D));
-        const T part = per_n - T(1.0), C_b = C_gb + C_dep;
+        const T factor = per_n - T(1.0), C_b = C_gb + C_dep;
         const Slopes both{d_by.d + s_by.d, d_by.g + s_by.g, d_by.s + s_by.s, d_by.b + s_by.b};
         put(out.dq[D], d_by.d + C_gd + b_d.c, d_by.g - C_gd, d_by.s, d_by.b - b_d.c);
         put(out.dq[G], -(per_n * both.d) - C_gd, C_gd + C_gs + C_b - per_n * both.g, -(per_n * both.s) - C_gs, -(per_n * both.b) - C_b);
         put(out.dq[S], s_by.d, s_by.g - C_gs, s_by.s + C_gs + b_s.c, s_by.b - b_s.c);
-        put(out.dq[B], part * both.d - b_d.c, part * both.g - C_b, part * both.s - b_s.c, part * both.b + C_b + b_s.c + b_d.c);
+        put(out.dq[B], factor * both.d - b_d.c, factor * both.g - C_b, factor * both.s - b_s.c, factor * both.b + C_b + b_s.c + b_d.c);
     }
 
     [[gnu::always_inline]] static void put(T (&row)[4], T d, T g, T s, T b) { row[D] = d, row[G] = g, row[S] = s, row[B] = b; }

@@ -9,70 +9,72 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// x^p, by our own exp and log: the same on every machine.
+/// x^p with the project's exp and log: bit-identical on every machine.
 double power(double x, double p) { return num::exp(p * num::log(x)); }
 
-/// What a source or drain is made of, all columns together.
+/// A source or drain region: total area (m^2) and perimeter (m) of all columns.
 struct Diffusion {
     double area, perimeter;
 };
-Diffusion diffusion(const UicmCard& card, const UicmInstance& at, double area, double perimeter) {
-    return {at.m * (area < 0 ? at.W * card.L_dif : area), at.m * (perimeter < 0 ? 2 * (at.W + card.L_dif) : perimeter)};
+Diffusion diffusion(const UicmCard& card, const UicmInstance& instance, double area, double perimeter) {
+    return {instance.m * (area < 0 ? instance.W * card.L_dif : area),
+            instance.m * (perimeter < 0 ? 2 * (instance.W + card.L_dif) : perimeter)};
 }
 
-/// As SPICE has it: I_sat goes as T^(XTI / n_dio) exp((T / T_nom - 1) E_g / (n_dio phi_t)).
+/// Temperature factor of I_sat, as in SPICE: T^(XTI / n_dio) exp((T / T_nom - 1) E_g / (n_dio phi_t)).
 double junction_growth(const UicmCard& card, double T, double T_nom, double phi_t) {
     return power(T / T_nom, card.XTI / card.n_dio) * num::exp((T / T_nom - 1) * card.E_g / (card.n_dio * phi_t));
 }
 
-/// exp's argument at which a junction carries junction_current_top.
-double top_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_top / I_sat), 0.0, 600.0) : 0; }
+/// Argument of exp at which the junction current is junction_current_limit.
+double exp_limit_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_top / I_sat), 0.0, 600.0) : 0; }
 
-enum Purpose : std::uint32_t { of_mismatch = 0x75690001, of_process };  // of Philox's draws
+enum RandomPurpose : std::uint32_t { mismatch_purpose = 0x75690001, process_purpose };  // separates the streams of the Philox generator
 
 }  // namespace
 
-UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& at, double temperature, bool pmos) {
+UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance, double temperature, bool pmos) {
     const double T = temperature + zero_celsius, T_nom = card.T_nom + zero_celsius, phi_t = boltzmann * T / electron_charge;
-    const double length = at.L * at.stack, width = at.W * at.m, gate = card.C_ox * at.area();
-    const double I_S = card.I_SQ * at.mulu0 * power(T / T_nom, card.I_S_exponent) * width / length;
+    const double length = instance.L * instance.stack, width = instance.W * instance.m, gate = card.C_ox * instance.area();
+    const double I_S = card.I_SQ * instance.mulu0 * power(T / T_nom, card.I_S_exponent) * width / length;
     const double growth = junction_growth(card, T, T_nom, phi_t);
-    const Diffusion source = diffusion(card, at, at.AS, at.PS), drain = diffusion(card, at, at.AD, at.PD);
+    const Diffusion source = diffusion(card, instance, instance.AS, instance.PS),
+                    drain = diffusion(card, instance, instance.AD, instance.PD);
     const auto I_sat = [&](const Diffusion& d) { return growth * (card.J_S * d.area + card.J_SSW * d.perimeter); };
     const auto C_0 = [&](const Diffusion& d) { return card.C_J * d.area + card.C_JSW * d.perimeter; };
 
     UicmConstants c{};
     c.polarity = pmos ? -1 : 1;
-    c.V_T = card.V_T0 + at.delvto + card.alpha_VT * (temperature - card.T_nom);
+    c.V_T = card.V_T0 + instance.delvto + card.alpha_VT * (temperature - card.T_nom);
     c.per_n = 1 / card.n, c.per_phi_t = 1 / phi_t;
-    c.sigma_n = card.sigma_L / length / card.n, c.zeta = card.zeta_L * at.mulu0 / length;
+    c.sigma_n = card.sigma_L / length / card.n, c.zeta = card.zeta_L * instance.mulu0 / length;
     c.I_S = I_S, c.lambda = 1 / (card.V_E * length), c.knee = 4 * phi_t;
     c.Q_0 = card.n * phi_t * gate, c.C_dep = (card.n - 1) / card.n * gate;
-    c.C_gs = card.C_GSO * width, c.C_gd = card.C_GDO * width, c.C_gb = card.C_GBO * length * at.m;
-    c.I_sat_s = I_sat(source), c.I_sat_d = I_sat(drain), c.top_s = top_of(c.I_sat_s), c.top_d = top_of(c.I_sat_d);
+    c.C_gs = card.C_GSO * width, c.C_gd = card.C_GDO * width, c.C_gb = card.C_GBO * length * instance.m;
+    c.I_sat_s = I_sat(source), c.I_sat_d = I_sat(drain), c.top_s = exp_limit_of(c.I_sat_s), c.top_d = exp_limit_of(c.I_sat_d);
     c.C_js = C_0(source), c.C_jd = C_0(drain);
     c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.per_P_B = 1 / card.P_B, c.v_top = card.F_C * card.P_B;
     c.rest = 1 - card.M_J, c.P_B_per_rest = card.P_B / c.rest, c.per_P_B_M_J = card.M_J / card.P_B;
     c.thermal = 8 * boltzmann * T * I_S / phi_t;
     const double e_n = electron_charge / (card.n * card.C_ox * phi_t);
-    c.flicker = card.C_ox > 0 ? 2 * e_n * e_n * card.N_ot * I_S / at.area() : 0;
+    c.flicker = card.C_ox > 0 ? 2 * e_n * e_n * card.N_ot * I_S / instance.area() : 0;
     return c;
 }
 
-UicmShift mismatch(const UicmCard& card, const UicmInstance& at, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
-    const double per_side = 1 / num::sqrt(at.area());
-    const auto drawn = normals(seed, device, of_mismatch, chip);
-    return {card.A_VT * per_side * drawn.first, num::exp(card.A_IS * per_side * drawn.second)};
+UicmShift mismatch(const UicmCard& card, const UicmInstance& instance, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
+    const double per_side = 1 / num::sqrt(instance.area());
+    const auto deviates = normals(seed, device, mismatch_purpose, chip);
+    return {card.A_VT * per_side * deviates.first, num::exp(card.A_IS * per_side * deviates.second)};
 }
 
-UicmInstance with_mismatch(UicmInstance at, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
-    const UicmShift own = mismatch(card, at, seed, device, chip);
-    at.delvto += own.V_T, at.mulu0 *= own.factor;
-    return at;
+UicmInstance with_mismatch(UicmInstance instance, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
+    const UicmShift shift = mismatch(card, instance, seed, device, chip);
+    instance.delvto += shift.V_T, instance.mulu0 *= shift.factor;
+    return instance;
 }
 
 ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip) {
-    const auto n = normals(seed, 0, of_process, chip), p = normals(seed, 1, of_process, chip);
+    const auto n = normals(seed, 0, process_purpose, chip), p = normals(seed, 1, process_purpose, chip);
     return {n.first, p.first, n.second, p.second};
 }
 
@@ -81,16 +83,16 @@ UicmShift process(const UicmCard& card, bool pmos, const double (&deviates)[4]) 
 }
 
 UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_t chip) {
-    const UicmShift all = process(card, pmos, process_deviates(seed, chip).of);
-    card.V_T0 += all.V_T, card.I_SQ *= all.factor;
+    const UicmShift shift = process(card, pmos, process_deviates(seed, chip).of);
+    card.V_T0 += shift.V_T, card.I_SQ *= shift.factor;
     return card;
 }
 
-UicmConstants shifted(UicmConstants c, const UicmShift& own, const UicmShift& process) {
-    const double factor = own.factor * process.factor;
-    c.V_T += own.V_T + process.V_T;
+UicmConstants shifted(UicmConstants c, const UicmShift& mismatch, const UicmShift& process) {
+    const double factor = mismatch.factor * process.factor;
+    c.V_T += mismatch.V_T + process.V_T;
     c.I_S *= factor, c.thermal *= factor, c.flicker *= factor;
-    c.zeta *= own.factor;
+    c.zeta *= mismatch.factor;
     return c;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a netlist says of a transistor: its process card (.model) and its size (the M line); and the numbers that follow from both.
+// The parameters of a transistor: its model card (.model) and its instance (M line); and the constants computed from both.
 
 #include <cstdint>
 
@@ -8,10 +8,10 @@
 
 namespace corpuscle::circuit {
 
-/// A process card: `.model nch nmos (level=80 isq=112n vto=0.461 ...)`. The two polarities are mirror images, so the same numbers mean
-/// the same for both: vto > 0 is an enhancement device, also for PMOS.
-/// Effects of length: DIBL and velocity saturation go with 1/L, the Early voltage with L. For zeta = mu phi_t / (L v_sat) that is what
-/// it means; for all three it is what makes a stack of units the one device of their summed length.
+/// A process card: `.model nch nmos (level=80 isq=112n vto=0.461 ...)`. The two polarities are mirror images: parameters have the same
+/// sign for both, and vto > 0 is an enhancement device, also for PMOS.
+/// Effects of length: DIBL and velocity saturation are proportional to 1/L, the Early voltage to L. For zeta = mu phi_t / (L v_sat) this
+/// is the definition. For all three it makes a stack of elements equal to one device of their total length.
 struct UicmCard {
     double I_SQ = 112e-9, V_T0 = 0.461, n = 1.27, sigma_L = 0, zeta_L = 0, V_E = 8e6, C_ox = 8.42e-3;
     double C_GSO = 0, C_GDO = 0, C_GBO = 0;
@@ -19,91 +19,93 @@ struct UicmCard {
     double alpha_VT = -0.4e-3, I_S_exponent = 0.5, T_nom = 27, N_ot = 0;
     double A_VT = 0, A_IS = 0, S_VT0 = 0, S_IS = 0;
 
-    static constexpr double level = 80;  ///< the level= of this model in a .model line: one that no SPICE has given away
-    static constexpr std::string_view name = "uicm", sentence = "UICM transistor, all regions (ACM2 for what UICM leaves out)";
+    static constexpr double level = 80;  ///< level= of this model in a .model line; no SPICE uses it for another model
+    static constexpr std::string_view name = "uicm", sentence = "UICM transistor, all regions (with extensions from ACM2)";
     static constexpr std::string_view source = "choice: circuits of 0.18 um; see process/tsmc180.lib";
     static constexpr Field<UicmCard> fields[] = {
-        {"isq", &UicmCard::I_SQ, "A", 1e-15, 1, "specific current of a square, mu C_ox n phi_t^2 / 2"},
+        {"isq", &UicmCard::I_SQ, "A", 1e-15, 1, "specific current per square, mu C_ox n phi_t^2 / 2"},
         {"vto", &UicmCard::V_T0, "V", -5, 5, "threshold: V_GB where V_P = 0; positive for enhancement devices of both polarities"},
         {"n", &UicmCard::n, "", 1.000001, 5, "slope factor"},
         {"sigmal", &UicmCard::sigma_L, "m", 0, 1e-3, "DIBL times length: V_T falls by sigmal / L times V_DB + V_SB"},
         {"zetal", &UicmCard::zeta_L, "m", 0, 1e-3, "velocity saturation times length, mu phi_t / v_sat"},
-        {"ve", &UicmCard::V_E, "V/m", 1, 1e30, "Early voltage of a metre of channel: V_A = V_E L"},
-        {"cox", &UicmCard::C_ox, "F/m^2", 0, 10, "gate capacitance of an area"},
-        {"cgso", &UicmCard::C_GSO, "F/m", 0, 1, "overlap of gate and source, of a width"},
-        {"cgdo", &UicmCard::C_GDO, "F/m", 0, 1, "overlap of gate and drain, of a width"},
-        {"cgbo", &UicmCard::C_GBO, "F/m", 0, 1, "overlap of gate and bulk, of a length"},
-        {"cj", &UicmCard::C_J, "F/m^2", 0, 10, "junction capacitance at 0 V, of an area"},
-        {"cjsw", &UicmCard::C_JSW, "F/m", 0, 1, "junction capacitance at 0 V, of a perimeter; with pb and mj of the area"},
+        {"ve", &UicmCard::V_E, "V/m", 1, 1e30, "Early voltage per metre of channel length: V_A = V_E L"},
+        {"cox", &UicmCard::C_ox, "F/m^2", 0, 10, "gate capacitance per area"},
+        {"cgso", &UicmCard::C_GSO, "F/m", 0, 1, "gate-source overlap capacitance per width"},
+        {"cgdo", &UicmCard::C_GDO, "F/m", 0, 1, "gate-drain overlap capacitance per width"},
+        {"cgbo", &UicmCard::C_GBO, "F/m", 0, 1, "gate-bulk overlap capacitance per length"},
+        {"cj", &UicmCard::C_J, "F/m^2", 0, 10, "junction capacitance at 0 V per area"},
+        {"cjsw", &UicmCard::C_JSW, "F/m", 0, 1, "junction capacitance at 0 V per perimeter; pb and mj apply to it, too"},
         {"pb", &UicmCard::P_B, "V", 0.1, 5, "built-in potential of the junctions"},
-        {"mj", &UicmCard::M_J, "", 0, 0.95, "grading of the junctions"},
-        {"fc", &UicmCard::F_C, "", 0, 0.95, "part of pb above which the junction capacitance follows its tangent"},
-        {"js", &UicmCard::J_S, "A/m^2", 0, 1, "saturation current of the junctions, of an area"},
-        {"jssw", &UicmCard::J_SSW, "A/m", 0, 1, "saturation current of the junctions, of a perimeter"},
-        {"nj", &UicmCard::n_dio, "", 0.5, 10, "ideality of the junctions (n_dio)"},
-        {"eg", &UicmCard::E_g, "V", 0.1, 5, "band gap, for the junctions' temperature law"},
-        {"xti", &UicmCard::XTI, "", -10, 20, "power of T in the junctions' saturation current"},
-        {"ldif", &UicmCard::L_dif, "m", 0, 1, "length of a source or drain that says neither area nor perimeter"},
-        {"tcv", &UicmCard::alpha_VT, "V/K", -0.1, 0.1, "change of vto with temperature"},
-        {"tis", &UicmCard::I_S_exponent, "", -5, 5, "power of T in isq: 2 from phi_t^2, less the mobility's"},
-        {"tnom", &UicmCard::T_nom, "C", -273, 500, "temperature at which the card's numbers hold"},
-        {"nt", &UicmCard::N_ot, "1/m^2", 0, 1e25, "effective traps of an area, for flicker noise"},
+        {"mj", &UicmCard::M_J, "", 0, 0.95, "grading coefficient of the junctions"},
+        {"fc", &UicmCard::F_C, "", 0, 0.95, "fraction of pb above which the junction capacitance follows its tangent"},
+        {"js", &UicmCard::J_S, "A/m^2", 0, 1, "saturation current of the junctions per area"},
+        {"jssw", &UicmCard::J_SSW, "A/m", 0, 1, "saturation current of the junctions per perimeter"},
+        {"nj", &UicmCard::n_dio, "", 0.5, 10, "ideality factor of the junctions (n_dio)"},
+        {"eg", &UicmCard::E_g, "V", 0.1, 5, "band gap, for the temperature dependence of the junctions"},
+        {"xti", &UicmCard::XTI, "", -10, 20, "temperature exponent of the junctions' saturation current"},
+        {"ldif", &UicmCard::L_dif, "m", 0, 1, "length of a source or drain region without given area and perimeter"},
+        {"tcv", &UicmCard::alpha_VT, "V/K", -0.1, 0.1, "temperature coefficient of vto"},
+        {"tis", &UicmCard::I_S_exponent, "", -5, 5, "temperature exponent of isq: 2 from phi_t^2, minus that of the mobility"},
+        {"tnom", &UicmCard::T_nom, "C", -273, 500, "temperature at which the parameters are valid"},
+        {"nt", &UicmCard::N_ot, "1/m^2", 0, 1e25, "effective trap density, for flicker noise"},
         {"avt", &UicmCard::A_VT, "V m", 0, 1, "mismatch of vto between devices, times the root of the gate area (Pelgrom)"},
         {"ais", &UicmCard::A_IS, "m", 0, 1, "relative mismatch of isq between devices, times the root of the gate area"},
-        {"svt0", &UicmCard::S_VT0, "V", 0, 5, "spread of vto from run to run of the process (deviation)"},
-        {"sis", &UicmCard::S_IS, "", 0, 5, "relative spread of isq from run to run of the process (deviation)"},
+        {"svt0", &UicmCard::S_VT0, "V", 0, 5, "process variation of vto between runs (standard deviation)"},
+        {"sis", &UicmCard::S_IS, "", 0, 5, "relative process variation of isq between runs (standard deviation)"},
     };
 };
 
-/// A transistor's size: `m1 d g s b nch w=1.5u l=0.5u m=2 stack=8`. It is m parallel columns of `stack` units in series under one gate,
-/// W and L those of a unit, taken as one device of I_S = I_SQ m W / (stack L). The series identity (thesis eq. 31) makes this exact for
-/// the currents of the plain model. Not exact: charges of inner nodes in motion, sigma, zeta and Early voltage (each of the array is that
-/// of the summed length, where really the unit at the drain bears most of it), and what is left out: junctions and overlaps of inner nodes.
+/// The size of a transistor: `m1 d g s b nch w=1.5u l=0.5u m=2 stack=8`. It is an array of m parallel columns, each of `stack` elements in
+/// series under one gate. W and L are those of an element. The array is modelled as one device with I_S = I_SQ m W / (stack L), which is
+/// exact for the currents of the plain model by the series identity (thesis eq. 31).
+/// Not exact: dynamic charges of inner nodes; sigma, zeta and Early voltage, which are those of the total length although the element at
+/// the drain carries most of the effect. Left out: junctions and overlaps of inner nodes.
 struct UicmInstance {
     double W = 1e-6, L = 1e-6, m = 1, stack = 1, delvto = 0, mulu0 = 1, AS = -1, AD = -1, PS = -1, PD = -1;
 
     static constexpr Field<UicmInstance> fields[] = {
-        {"w", &UicmInstance::W, "m", 1e-9, 1, "width of a unit"},
-        {"l", &UicmInstance::L, "m", 1e-9, 1, "length of a unit"},
+        {"w", &UicmInstance::W, "m", 1e-9, 1, "width of an element"},
+        {"l", &UicmInstance::L, "m", 1e-9, 1, "length of an element"},
         {"m", &UicmInstance::m, "", 1e-6, 1e9, "columns in parallel"},
-        {"stack", &UicmInstance::stack, "", 1, 1e6, "units in series in each column"},
-        {"delvto", &UicmInstance::delvto, "V", -5, 5, "added to vto; positive is slower, for both polarities"},
-        {"mulu0", &UicmInstance::mulu0, "", 1e-6, 1e6, "factor of the mobility: of isq and zetal"},
-        {"as", &UicmInstance::AS, "m^2", -1, 1, "area of a column's source; below 0: w ldif"},
-        {"ad", &UicmInstance::AD, "m^2", -1, 1, "area of a column's drain; below 0: w ldif"},
-        {"ps", &UicmInstance::PS, "m", -1, 1, "perimeter of a column's source; below 0: 2 (w + ldif)"},
-        {"pd", &UicmInstance::PD, "m", -1, 1, "perimeter of a column's drain; below 0: 2 (w + ldif)"},
+        {"stack", &UicmInstance::stack, "", 1, 1e6, "elements in series in each column"},
+        {"delvto", &UicmInstance::delvto, "V", -5, 5, "added to vto; a positive value means less current, for both polarities"},
+        {"mulu0", &UicmInstance::mulu0, "", 1e-6, 1e6, "factor of the mobility; multiplies isq and zetal"},
+        {"as", &UicmInstance::AS, "m^2", -1, 1, "source area of a column; negative: w ldif"},
+        {"ad", &UicmInstance::AD, "m^2", -1, 1, "drain area of a column; negative: w ldif"},
+        {"ps", &UicmInstance::PS, "m", -1, 1, "source perimeter of a column; negative: 2 (w + ldif)"},
+        {"pd", &UicmInstance::PD, "m", -1, 1, "drain perimeter of a column; negative: 2 (w + ldif)"},
     };
     double area() const { return W * L * m * stack; }
 };
 
-/// Junction currents beyond this go on along their tangents: far above all these devices carry, and Newton cannot overflow.
+/// A: above this current a junction follows its tangent, so that Newton iterations cannot overflow. Real currents are far lower.
 inline constexpr double junction_current_top = 10e-3;
 
-/// temperature in C.
+/// temperature: degrees Celsius.
 UicmConstants uicm_constants(const UicmCard&, const UicmInstance&, double temperature, bool pmos);
 
-/// How a transistor differs from its design.
+/// The deviation of a transistor from its nominal parameters.
 struct UicmShift {
-    double V_T = 0, factor = 1;  ///< V; of I_SQ
+    double V_T = 0, factor = 1;  ///< added to the threshold, V; factor of I_SQ
 };
 
-/// A transistor's own part, drawn for (seed, device, chip): A_VT / sqrt(area) times a normal deviate, and exp(A_IS / sqrt(area) times
-/// another), over the gate area of the whole array. `device` numbers the transistors of a netlist.
+/// The mismatch of one transistor, a random sample for (seed, device, chip): A_VT / sqrt(area) times a normal deviate, and the factor
+/// exp(A_IS / sqrt(area) times another). The area is the total gate area of the array. `device`: index of the transistor in the netlist.
 UicmShift mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
-/// The same as the instance's delvto and mulu0.
+/// The same mismatch as changes of delvto and mulu0.
 UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 
-/// What all transistors of a chip share, as normal deviates drawn for (seed, chip): V_T0 of NMOS and of PMOS, then I_SQ of both.
+/// Normal deviates common to all transistors of a chip, a random sample for (seed, chip): V_T0 of NMOS and PMOS, then I_SQ of NMOS and
+/// PMOS.
 struct ProcessDeviates {
     double of[4];
 };
 ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip);
 UicmShift process(const UicmCard&, bool pmos, const double (&deviates)[4]);
-/// The card as the process made it on one chip.
+/// The card with the process variation of one chip.
 UicmCard with_process(UicmCard, bool pmos, std::uint64_t seed, std::uint64_t chip);
 
-/// The numbers of a transistor that its own part and the process have shifted: those of with_mismatch and with_process, to rounding.
-UicmConstants shifted(UicmConstants, const UicmShift& own, const UicmShift& process);
+/// Constants with mismatch and process shifts applied: equal to those of with_mismatch and with_process, except for rounding.
+UicmConstants shifted(UicmConstants, const UicmShift& mismatch, const UicmShift& process);
 
 }  // namespace corpuscle::circuit

@@ -1,17 +1,17 @@
 #pragma once
-// Plain numbers alone: this header is also read where code is compiled for one instruction set, and nothing else may be there.
+// Plain data only: files that are compiled once for each instruction set include this header and must not define shared inline functions.
 
 namespace corpuscle::circuit {
 
-/// The numbers that a transistor's equations use, worked out once: see uicm.hpp.
+/// Constants of the transistor's equations, computed once: see uicm.hpp.
 struct UicmConstants {
     double polarity;                              // 1: NMOS, -1: PMOS
     double V_T, per_n, per_phi_t, sigma_n, zeta;  // V, -, 1/V, -, -; sigma_n is sigma / n
     double I_S, lambda, knee;                     // A, 1/V, V
     double Q_0, C_dep, C_gs, C_gd, C_gb;          // n phi_t C_ox W L; (n - 1)/n C_ox W L; overlaps
     double I_sat_s, I_sat_d, top_s, top_d, C_js, C_jd;
-    double per_n_phi_t, per_P_B, v_top, rest, P_B_per_rest, per_P_B_M_J;  // of the junctions: JunctionLaw
-    double thermal, flicker;                                              // noise powers: see uicm.hpp
+    double per_n_phi_t, per_P_B, v_top, rest, P_B_per_rest, per_P_B_M_J;  // junctions: see JunctionConstants
+    double thermal, flicker;                                              // noise power densities: see uicm.hpp
 };
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// The values that an element or a model was given by name.
+// Named parameter values of an element or a model.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,21 +10,21 @@
 
 namespace corpuscle::circuit {
 
-inline double value_or(const Values& values, std::string_view name, double otherwise) {
+inline double value_or(const Values& values, std::string_view name, double fallback) {
     const auto at = values.find(name);
-    return at == values.end() ? otherwise : at->second;
+    return at == values.end() ? fallback : at->second;
 }
 
-/// Refuses a name that is not among those known.
-inline std::optional<Error> unknown_value(std::string_view of, const Values& values, std::span<const std::string_view> known,
+/// Rejects a parameter name that is not in `known`. `owner`: name of the element or model.
+inline std::optional<Error> unknown_value(std::string_view owner, const Values& values, std::span<const std::string_view> known,
                                           const Place& place) {
     for (const auto& [name, value] : values)
         if (std::find(known.begin(), known.end(), name) == known.end())
-            return bad_input(fmt::format("{}: no parameter is called '{}'{}", of, name, did_you_mean(name, known)), place);
+            return bad_input(fmt::format("{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known)), place);
     return {};
 }
 
-/// A model's card from what its .model line says; names in `others` are known, and left to the caller.
+/// Reads a model card from a .model line. Names in `others` are accepted but not read.
 template <class P, std::size_t N>
 Result<P> card_from(const Field<P> (&fields)[N], const Model& model, std::initializer_list<std::string_view> others) {
     P card;
@@ -34,11 +34,11 @@ Result<P> card_from(const Field<P> (&fields)[N], const Model& model, std::initia
     known.insert(known.end(), names.begin(), names.end());
     if (auto wrong = unknown_value(model.name, model.values, known, model.place)) return *wrong;
     for (std::size_t k = 0; k < N; ++k) {
-        const auto said = model.values.find(names[k]);
-        if (said == model.values.end()) continue;
+        const auto given = model.values.find(names[k]);
+        if (given == model.values.end()) continue;
         const Row row{fields[k].name, fields[k].unit, card.*fields[k].at, fields[k].low, fields[k].high, fields[k].sentence, {}};
-        if (auto wrong = outside(model.name, row, said->second)) return bad_input(wrong->sentence, model.place);
-        card.*fields[k].at = said->second;
+        if (auto wrong = outside(model.name, row, given->second)) return bad_input(wrong->sentence, model.place);
+        card.*fields[k].at = given->second;
     }
     return card;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Between many chips of one circuit, and their equations on SIMD lanes, compiled once for each instruction set: plain data and pointers
-// only. A row has one number of each chip; what happens in one chip's column depends on that column alone.
+// Interface between batches of chips of one circuit and their kernels on SIMD lanes, compiled once for each instruction set. Plain data
+// and pointers only. A row has one number for each chip. The results in a chip's column depend on that column alone.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,89 +9,92 @@
 
 namespace corpuscle::circuit::lanes {
 
-inline constexpr std::size_t chips = 8;  ///< side by side, whatever the width of an instruction set
+inline constexpr std::size_t chips = 8;  ///< the same for every instruction set
 
 struct alignas(64) Row {
     double of[chips];
 };
 
-/// Gaussian elimination as a list: see Elimination, whose numbers these are.
+/// Gaussian elimination as a list of operations; a view into an Elimination.
 struct EliminationList {
     struct Pivot {
         int u_begin, u_end, l_begin, l_end;
     };
     std::size_t size, entries, slots;
     const Pivot* pivots;
-    const int *updates, *l_rows, *u_columns;  // l_rows: from slot l_from on
+    const int *updates, *l_rows, *u_columns;  // l_rows[0] belongs to slot l_first_slot
     const int *entry_slot, *entry_row, *rows, *columns;
     const double* scale;
     int l_from;
 };
 
-/// Chips as straight lines, I + G x + d/dt (Q + C x) = 0, each true near where its devices were last looked at; and where they are in time.
+/// A block of chips: linearized equations I + G x + d/dt (Q + C x) = 0 about the points at which the devices were last evaluated, and the
+/// state of each transient. The last index of x, I, Q, G, C is for ground.
 struct ChipBlock {
     std::size_t unknowns, entries, points, devices;
     EliminationList list;
-    const int *row, *column, *slot;  // of each entry; entries are in the order of their slots
-    const char* voltage;             // of each unknown: it is one
-    const int* fill;                 // slots of the list that no entry stands in
+    const int *row, *column, *slot;  // of each matrix entry; entries are in the order of their slots
+    const char* voltage;             // [unknowns]: not 0 if the unknown is a voltage
+    const int* fill;                 // slots of the list without an entry (fill-in)
     std::size_t fills;
-    const int* terminals;        // [devices][4]: unknowns; ground is the last of x
-    Row *I, *Q, *G, *C;          // [unknowns], [entries], and one more, of ground
-    Row *x, *q;                  // of the step at work; x has one row more, of ground, 0
-    Row *base, *history, *rate;  // currents of sources at its end; what dq/dt has beside a q; dq/dt at the last point
-    Row *r, *step, *error;       // what is left over, Newton's step, a step's error
+    const int* terminals;        // [devices][4]: unknowns; ground is the last index of x
+    Row *I, *Q, *G, *C;          // [unknowns + 1], [entries + 1]; the last is for ground
+    Row *x, *q;                  // unknowns [unknowns + 1] and charges at the end of the current step; ground is 0
+    Row *base, *history, *rate;  // source currents at the end of the step; dq/dt - a q; dq/dt at the last point
+    Row *r, *step, *error;       // residual, Newton step, error of the time step
     Row *slots, *per_pivot, *work;
-    Row *scale, *per_allowed;  // of each unknown: the largest so far; 1 over its allowed error, 0 if it holds no charge
-    Row *relative, *floor;     // its allowed error is relative scale + floor
+    Row *scale, *per_allowed;  // of each unknown: largest magnitude so far; 1 / allowed error, 0 if it has no charge
+    Row *relative, *floor;     // allowed error = relative * scale + floor
     Row *past_x, *past_q;      // [points][unknowns]
-    Row* looked;               // [devices][4]: where each device was last looked at
+    Row* looked;               // [devices][4]: voltages at which each device was last evaluated
 };
 
-/// Which chips, 1 or 0; numbers for each.
+// Arguments of the kernels. A flag is 1 or 0 for each chip.
 struct PredictCall {
-    Row begins;
+    Row begins;                // flag
     const Row *value, *slope;  // [points]: weights
 };
 struct SolveCall {
     Row a;       // dq/dt = a q + history
-    Row growth;  // out: the largest multiplier
+    Row growth;  // out: the largest multiplier of the elimination
 };
 struct StepCall {
-    Row moves;               // whether x goes along
-    Row size, clamped, bad;  // out: the largest part in allowed units; > 0: cut to half a volt; not 0: not finite
+    Row moves;               // flag: add the step to x
+    Row size, clamped, bad;  // out: largest component / allowed error; > 0 if limited to 0.5 V; not 0 if NaN or infinite
 };
 struct ErrorCall {
     Row of_q, of_rate;
     const Row* of_past;  // [points]
-    Row worst;           // out
+    Row worst;           // out: largest error / allowed error
 };
 struct AcceptCall {
-    Row taken, a;
+    Row taken, a;  // flag; dq/dt = a q + history
 };
 
-/// A transistor's currents and charges about where it was looked at: i + g v + d/dt (q + c v); g[4 a + b]: of a by the voltage of b.
+/// Linearized currents and charges of a transistor: i + g v + d/dt (q + c v). g[4 a + b] is the derivative at terminal a by the voltage of
+/// b.
 struct StraightLine {
     double i[4], q[4], g[16], c[16];
 };
 
-/// Transistors picked here and there: `of` points to each one's numbers, rounded up to all lanes.
+/// Linearizes selected transistors of several chips. `constants` points to the constants of each; the list is padded to full lanes.
 struct PickedCall {
     const UicmConstants* const* of;
     std::size_t count, room;
-    const double* v;  // [4][room]
-    double gmin;
-    StraightLine* out;  // [room]
+    const double* v;    // [4][stride], V
+    double gmin;        // S
+    StraightLine* out;  // [stride]
 };
 
-/// What one instruction set offers.
+/// The chip kernels of one instruction set.
 struct ChipLanes {
     std::size_t lanes;
     void (*predict)(const ChipBlock&, const PredictCall&);
-    /// A bit for each chip in which a terminal is `far` volts or more from where its device was looked at.
-    void (*moved)(const ChipBlock&, double far, std::uint8_t* of_device);
+    /// For each device, sets a bit for each chip in which a terminal is at least `radius` (V) from the device's linearization point.
+    void (*moved)(const ChipBlock&, double radius, std::uint8_t* of_device);
     void (*solve)(const ChipBlock&, SolveCall&);
-    /// Of the last solve(): the largest part of a row of J step + r that is left, of the largest number in it. Uses `work` and `error`.
+    /// The largest relative residual of J step + r after the last solve(), relative to the largest term of its row. Overwrites `work` and
+    /// `error`.
     void (*left_over)(const ChipBlock&, const SolveCall&, Row& worst);
     void (*go)(const ChipBlock&, StepCall&);
     void (*charges)(const ChipBlock&);

@@ -1,5 +1,5 @@
 #pragma once
-// The work on a block of chips, T at a time: one number, or a vector of lanes.
+// Kernels for a block of chips. T is double or a vector of lanes.
 
 #include <utility>
 
@@ -9,52 +9,52 @@
 namespace corpuscle::circuit::lanes {
 namespace {
 
-/// A row in as many T as it takes.
+/// A row as an array of T.
 template <class T>
 struct Wide {
     static constexpr std::size_t parts = chips / width<T>();
-    T of[parts];
+    T part[parts];
 
     Wide() = default;
     [[gnu::always_inline]] explicit Wide(double x) {
-        for (auto& t : of) t = T(x);
+        for (auto& t : part) t = T(x);
     }
     [[gnu::always_inline]] explicit Wide(const Row& row) {
-        for (std::size_t k = 0; k < parts; ++k) of[k] = loaded<T>(row.of + k * width<T>());
+        for (std::size_t k = 0; k < parts; ++k) part[k] = load<T>(row.of + k * width<T>());
     }
     [[gnu::always_inline]] void to(Row& row) const {
-        for (std::size_t k = 0; k < parts; ++k) store(of[k], row.of + k * width<T>());
+        for (std::size_t k = 0; k < parts; ++k) store(part[k], row.of + k * width<T>());
     }
     template <class F>
-    [[gnu::always_inline]] static Wide each(const F& f) {
+    [[gnu::always_inline]] static Wide for_each_part(const F& f) {
         Wide out;
-        for (std::size_t k = 0; k < parts; ++k) out.of[k] = f(k);
+        for (std::size_t k = 0; k < parts; ++k) out.part[k] = f(k);
         return out;
     }
     [[gnu::always_inline]] friend Wide operator+(const Wide& a, const Wide& b) {
-        return each([&](std::size_t k) { return a.of[k] + b.of[k]; });
+        return for_each_part([&](std::size_t k) { return a.part[k] + b.part[k]; });
     }
     [[gnu::always_inline]] friend Wide operator-(const Wide& a, const Wide& b) {
-        return each([&](std::size_t k) { return a.of[k] - b.of[k]; });
+        return for_each_part([&](std::size_t k) { return a.part[k] - b.part[k]; });
     }
     [[gnu::always_inline]] friend Wide operator*(const Wide& a, const Wide& b) {
-        return each([&](std::size_t k) { return a.of[k] * b.of[k]; });
+        return for_each_part([&](std::size_t k) { return a.part[k] * b.part[k]; });
     }
     [[gnu::always_inline]] friend Wide operator/(const Wide& a, const Wide& b) {
-        return each([&](std::size_t k) { return a.of[k] / b.of[k]; });
+        return for_each_part([&](std::size_t k) { return a.part[k] / b.part[k]; });
     }
     [[gnu::always_inline]] Wide abs() const {
-        return each([&](std::size_t k) { return num::abs(of[k]); });
+        return for_each_part([&](std::size_t k) { return num::abs(part[k]); });
     }
     [[gnu::always_inline]] friend Wide max(const Wide& a, const Wide& b) {
-        return each([&](std::size_t k) { return num::max(a.of[k], b.of[k]); });
+        return for_each_part([&](std::size_t k) { return num::max(a.part[k], b.part[k]); });
     }
     [[gnu::always_inline]] friend Wide min(const Wide& a, const Wide& b) {
-        return each([&](std::size_t k) { return num::min(a.of[k], b.of[k]); });
+        return for_each_part([&](std::size_t k) { return num::min(a.part[k], b.part[k]); });
     }
-    /// Where which is 1, yes; else no.
-    [[gnu::always_inline]] static Wide where(const Wide& which, const Wide& yes, const Wide& no) {
-        return each([&](std::size_t k) { return num::select(which.of[k] > T(0.5), yes.of[k], no.of[k]); });
+    /// if_true where condition is 1, else if_false.
+    [[gnu::always_inline]] static Wide where(const Wide& condition, const Wide& if_true, const Wide& if_false) {
+        return for_each_part([&](std::size_t k) { return num::select(condition.part[k] > T(0.5), if_true.part[k], if_false.part[k]); });
     }
 };
 
@@ -65,16 +65,16 @@ template <class T>
 
 template <class T>
 void predict(const ChipBlock& block, const PredictCall& call) {
-    const ChipBlock b = block;  // a copy, which no store can reach
-    const Wide<T> begins(call.begins);
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
+    const Wide<T> is_new_step(call.begins);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         Wide<T> x(0.0), q(0.0);
         for (std::size_t s = 0; s < b.points; ++s) {
             x = x + row<T>(call.value[s]) * row<T>(b.past_x[s * b.unknowns + n]);
             q = q + row<T>(call.slope[s]) * row<T>(b.past_q[s * b.unknowns + n]);
         }
-        Wide<T>::where(begins, x, row<T>(b.x[n])).to(b.x[n]);
-        Wide<T>::where(begins, q, row<T>(b.history[n])).to(b.history[n]);
+        Wide<T>::where(is_new_step, x, row<T>(b.x[n])).to(b.x[n]);
+        Wide<T>::where(is_new_step, q, row<T>(b.history[n])).to(b.history[n]);
     }
 }
 
@@ -84,40 +84,41 @@ inline std::uint8_t bits_of(xsimd::batch_bool<double> m) { return static_cast<st
 #endif
 
 template <class T>
-void moved(const ChipBlock& block, double far, std::uint8_t* of_device) {
-    const ChipBlock b = block;  // a copy, which no store can reach
+void find_moved(const ChipBlock& block, double radius, std::uint8_t* of_device) {
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
     for (std::size_t d = 0; d < b.devices; ++d) {
-        Wide<T> most(0.0);
-        for (std::size_t j = 0; j < 4; ++j) most = max((row<T>(b.x[b.terminals[4 * d + j]]) - row<T>(b.looked[4 * d + j])).abs(), most);
+        Wide<T> distance(0.0);
+        for (std::size_t j = 0; j < 4; ++j)
+            distance = max((row<T>(b.x[b.terminals[4 * d + j]]) - row<T>(b.looked[4 * d + j])).abs(), distance);
         std::uint8_t bits = 0;
         for (std::size_t k = 0; k < Wide<T>::parts; ++k)
-            bits = static_cast<std::uint8_t>(bits | bits_of(most.of[k] >= T(far)) << (k * width<T>()));
+            bits = static_cast<std::uint8_t>(bits | bits_of(distance.part[k] >= T(radius)) << (k * width<T>()));
         of_device[d] = bits;
     }
 }
 
-/// L U of what stands in the slots, along the list; growth.
+/// Factors the matrix in the slots into L U by the elimination list. Returns the largest multiplier.
 template <class T>
 [[gnu::always_inline]] inline Wide<T> factor(const ChipBlock& b) {
     const EliminationList list = b.list;
     Row* const s = b.slots;
-    Wide<T> most(0.0);
+    Wide<T> max_multiplier(0.0);
     const int* target = list.updates;
     for (std::size_t k = 0; k < list.size; ++k) {
         const auto p = list.pivots[k];
-        const Wide<T> per = Wide<T>(1.0) / row<T>(s[p.u_begin - 1]);
-        per.to(b.per_pivot[k]);
+        const Wide<T> inverse = Wide<T>(1.0) / row<T>(s[p.u_begin - 1]);
+        inverse.to(b.per_pivot[k]);
         for (int l = p.l_begin; l < p.l_end; ++l) {
-            const Wide<T> m = row<T>(s[l]) * per;
+            const Wide<T> m = row<T>(s[l]) * inverse;
             m.to(s[l]);
-            most = max(m.abs(), most);
+            max_multiplier = max(m.abs(), max_multiplier);
             for (int u = p.u_begin; u < p.u_end; ++u, ++target) (row<T>(s[*target]) - m * row<T>(s[u])).to(s[*target]);
         }
     }
-    return most;
+    return max_multiplier;
 }
 
-/// x with J x = v, in place.
+/// Solves J x = v in place.
 template <class T>
 [[gnu::always_inline]] inline void solve_for(const ChipBlock& b, Row* v) {
     const EliminationList list = b.list;
@@ -140,10 +141,10 @@ template <class T>
     }
 }
 
-/// r at x and its slopes J, and step with J step + r = 0.
+/// Computes the residual r and the Jacobian J at x, and solves J step + r = 0.
 template <class T>
 void solve(const ChipBlock& block, SolveCall& call) {
-    const ChipBlock b = block;  // a copy, which no store can reach
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
     const Wide<T> a(call.a);
     for (std::size_t n = 0; n < b.unknowns; ++n)
         (row<T>(b.base[n]) + row<T>(b.history[n]) + row<T>(b.I[n]) + a * row<T>(b.Q[n])).to(b.r[n]);
@@ -159,8 +160,8 @@ void solve(const ChipBlock& block, SolveCall& call) {
 }
 
 template <class T>
-void left_over(const ChipBlock& block, const SolveCall& call, Row& worst) {
-    const ChipBlock b = block;  // a copy, which no store can reach
+void residual(const ChipBlock& block, const SolveCall& call, Row& worst) {
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
     const Wide<T> a(call.a);
     Row *const left = b.error, *const largest = b.work;
     for (std::size_t n = 0; n < b.unknowns; ++n) left[n] = b.r[n], row<T>(b.r[n]).abs().to(largest[n]);
@@ -169,44 +170,45 @@ void left_over(const ChipBlock& block, const SolveCall& call, Row& worst) {
         (row<T>(left[b.row[e]]) + part).to(left[b.row[e]]);
         max(part.abs(), row<T>(largest[b.row[e]])).to(largest[b.row[e]]);
     }
-    Wide<T> most(0.0);
-    for (std::size_t n = 0; n < b.unknowns; ++n) most = max(row<T>(left[n]).abs() / max(row<T>(largest[n]), Wide<T>(1e-300)), most);
-    most.to(worst);
+    Wide<T> max_residual(0.0);
+    for (std::size_t n = 0; n < b.unknowns; ++n)
+        max_residual = max(row<T>(left[n]).abs() / max(row<T>(largest[n]), Wide<T>(1e-300)), max_residual);
+    max_residual.to(worst);
 }
 
 template <class T>
-void go(const ChipBlock& block, StepCall& call) {
-    const ChipBlock b = block;  // a copy, which no store can reach
-    constexpr double most_volts = 0.5;
-    const Wide<T> moves(call.moves), zero(0.0);
-    Wide<T> size(0.0), clamped(0.0), bad(0.0);
+void apply_step(const ChipBlock& block, StepCall& call) {
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
+    constexpr double max_volts = 0.5;
+    const Wide<T> updates_x(call.moves), zero(0.0);
+    Wide<T> size(0.0), clamped(0.0), non_finite(0.0);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
         Wide<T> d(b.step[n]);
-        bad = bad + (d - d);
+        non_finite = non_finite + (d - d);  // NaN or infinite d gives NaN
         if (b.voltage[n]) {
-            const Wide<T> cut = min(max(d, Wide<T>(-most_volts)), Wide<T>(most_volts));
+            const Wide<T> cut = min(max(d, Wide<T>(-max_volts)), Wide<T>(max_volts));
             clamped = max((d - cut).abs(), clamped);
             d = cut;
         }
         size = max(d.abs() * row<T>(b.per_allowed[n]), size);
-        (row<T>(b.x[n]) + Wide<T>::where(moves, d, zero)).to(b.x[n]);
+        (row<T>(b.x[n]) + Wide<T>::where(updates_x, d, zero)).to(b.x[n]);
     }
-    size.to(call.size), clamped.to(call.clamped), bad.to(call.bad);
+    size.to(call.size), clamped.to(call.clamped), non_finite.to(call.bad);
 }
 
 template <class T>
-void charges(const ChipBlock& block) {
-    const ChipBlock b = block;  // a copy, which no store can reach
+void evaluate_charges(const ChipBlock& block) {
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
     for (std::size_t n = 0; n < b.unknowns; ++n) row<T>(b.Q[n]).to(b.q[n]);
     for (std::size_t e = 0; e < b.entries; ++e) (row<T>(b.q[b.row[e]]) + row<T>(b.C[e]) * row<T>(b.x[b.column[e]])).to(b.q[b.row[e]]);
 }
 
 template <class T>
-void error(const ChipBlock& block, ErrorCall& call) {
-    const ChipBlock b = block;  // a copy, which no store can reach
-    const Wide<T> of_q(call.of_q), of_rate(call.of_rate);
+void estimate_error(const ChipBlock& block, ErrorCall& call) {
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
+    const Wide<T> charge_weight(call.of_q), rate_weight(call.of_rate);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
-        Wide<T> e = of_q * row<T>(b.q[n]) + of_rate * row<T>(b.rate[n]);
+        Wide<T> e = charge_weight * row<T>(b.q[n]) + rate_weight * row<T>(b.rate[n]);
         for (std::size_t s = 0; s < b.points; ++s) e = e + row<T>(call.of_past[s]) * row<T>(b.past_q[s * b.unknowns + n]);
         e.to(b.error[n]);
     }
@@ -218,54 +220,55 @@ void error(const ChipBlock& block, ErrorCall& call) {
 
 template <class T>
 void accept(const ChipBlock& block, const AcceptCall& call) {
-    const ChipBlock b = block;  // a copy, which no store can reach
-    const Wide<T> taken(call.taken), a(call.a), none(0.0);
+    const ChipBlock b = block;  // a local copy cannot alias the stores below
+    const Wide<T> is_accepted(call.taken), a(call.a), none(0.0);
     for (std::size_t n = 0; n < b.unknowns; ++n) {
-        Wide<T>::where(taken, a * row<T>(b.q[n]) + row<T>(b.history[n]), row<T>(b.rate[n])).to(b.rate[n]);
-        const Wide<T> scale = Wide<T>::where(taken, max(row<T>(b.x[n]).abs(), row<T>(b.scale[n])), row<T>(b.scale[n]));
+        Wide<T>::where(is_accepted, a * row<T>(b.q[n]) + row<T>(b.history[n]), row<T>(b.rate[n])).to(b.rate[n]);
+        const Wide<T> scale = Wide<T>::where(is_accepted, max(row<T>(b.x[n]).abs(), row<T>(b.scale[n])), row<T>(b.scale[n]));
         scale.to(b.scale[n]);
         const Wide<T> allowed = row<T>(b.relative[n]) * scale + row<T>(b.floor[n]);
-        Wide<T>::each([&](std::size_t k) {
-            return num::select(allowed.of[k] > T(0.0), T(1.0) / allowed.of[k], none.of[k]);
+        Wide<T>::for_each_part([&](std::size_t k) {
+            return num::select(allowed.part[k] > T(0.0), T(1.0) / allowed.part[k], none.part[k]);
         }).to(b.per_allowed[n]);
     }
 }
 
 template <class T, std::size_t... l>
-[[gnu::always_inline]] inline T gathered(const UicmConstants* const* of, double UicmConstants::* field, std::index_sequence<l...>) {
-    return T{of[l]->*field...};
+[[gnu::always_inline]] inline T gather(const UicmConstants* const* constants, double UicmConstants::*field, std::index_sequence<l...>) {
+    return T{constants[l]->*field...};
 }
 
-/// Four numbers of each lane, side by side: at `first` of the first lane, in the next StraightLine of the next.
+/// Transposes four vectors of lanes into memory: four consecutive numbers for each lane, one Linearization apart. `first`: first lane.
 template <class T>
 [[gnu::always_inline]] inline void store_across(const T (&x)[4], double* first) {
-    constexpr std::size_t far = sizeof(StraightLine) / sizeof(double);
+    constexpr std::size_t distance = sizeof(StraightLine) / sizeof(double);
 #if defined(__AVX2__) && !defined(__AVX512F__)
     if constexpr (width<T>() == 4) {
         const __m256d a = _mm256_unpacklo_pd(x[0], x[1]), b = _mm256_unpackhi_pd(x[0], x[1]);
         const __m256d c = _mm256_unpacklo_pd(x[2], x[3]), d = _mm256_unpackhi_pd(x[2], x[3]);
         _mm256_storeu_pd(first, _mm256_permute2f128_pd(a, c, 0x20));
-        _mm256_storeu_pd(first + far, _mm256_permute2f128_pd(b, d, 0x20));
-        _mm256_storeu_pd(first + 2 * far, _mm256_permute2f128_pd(a, c, 0x31));
-        _mm256_storeu_pd(first + 3 * far, _mm256_permute2f128_pd(b, d, 0x31));
+        _mm256_storeu_pd(first + distance, _mm256_permute2f128_pd(b, d, 0x20));
+        _mm256_storeu_pd(first + 2 * distance, _mm256_permute2f128_pd(a, c, 0x31));
+        _mm256_storeu_pd(first + 3 * distance, _mm256_permute2f128_pd(b, d, 0x31));
         return;
     }
 #endif
     alignas(64) double lanes[4][width<T>()];
     for (std::size_t j = 0; j < 4; ++j) store(x[j], lanes[j]);
     for (std::size_t l = 0; l < width<T>(); ++l)
-        for (std::size_t j = 0; j < 4; ++j) first[l * far + j] = lanes[j][l];
+        for (std::size_t j = 0; j < 4; ++j) first[l * distance + j] = lanes[j][l];
 }
 
 template <class T>
-void picked(const PickedCall& call) {
-    const std::size_t room = call.room;
+void linearize(const PickedCall& call) {
+    const std::size_t stride = call.room;
     const T gmin(call.gmin);
     for (std::size_t k = 0; k < call.count; k += width<T>()) {
-        const UicmConstants* const* of = call.of + k;
-        const Uicm<T> model([of](double UicmConstants::* field) { return gathered<T>(of, field, std::make_index_sequence<width<T>()>()); });
-        const T v[4] = {loaded<T>(call.v + k), loaded<T>(call.v + room + k), loaded<T>(call.v + 2 * room + k),
-                        loaded<T>(call.v + 3 * room + k)};
+        const UicmConstants* const* constants = call.of + k;
+        const Uicm<T> model(
+            [constants](double UicmConstants::*field) { return gather<T>(constants, field, std::make_index_sequence<width<T>()>()); });
+        const T v[4] = {load<T>(call.v + k), load<T>(call.v + stride + k), load<T>(call.v + 2 * stride + k),
+                        load<T>(call.v + 3 * stride + k)};
         UicmAnswer<T> a;
         model.eval(v, a);
         add_gmin(a, v, gmin);
@@ -281,8 +284,8 @@ void picked(const PickedCall& call) {
 }
 
 template <class T>
-constexpr ChipLanes chip_lanes_of{width<T>(), predict<T>, moved<T>, solve<T>,  left_over<T>,
-                                  go<T>,      charges<T>, error<T>, accept<T>, picked<T>};
+constexpr ChipLanes chip_kernels_for{width<T>(),    predict<T>,          find_moved<T>,     solve<T>,  residual<T>,
+                                     apply_step<T>, evaluate_charges<T>, estimate_error<T>, accept<T>, linearize<T>};
 
 }  // namespace
 }  // namespace corpuscle::circuit::lanes

@@ -1,6 +1,6 @@
 #pragma once
-// Between a circuit, compiled for every machine, and its transistors on SIMD lanes, compiled once for each instruction set: plain
-// data and pointers only.
+// Interface between circuit code, compiled for every machine, and transistor kernels on SIMD lanes, compiled once for each instruction
+// set. Plain data and pointers only.
 
 #include <cstddef>
 
@@ -8,27 +8,27 @@
 
 namespace corpuscle::circuit::lanes {
 
-inline constexpr std::size_t widest = 8;  ///< lanes of any instruction set divide it
+inline constexpr std::size_t widest = 8;  ///< a multiple of the number of lanes of every instruction set
 
-/// Transistors side by side. Every array has rows of `room` numbers, one a transistor, and stands on 64 bytes; unknowns are drain,
-/// gate, source, bulk.
+/// A batch of transistors. Every array has rows of `stride` numbers, one for each transistor, and is aligned to 64 bytes. The unknowns are
+/// drain, gate, source, bulk.
 struct TransistorCall {
     const std::byte* models;
-    std::size_t count, room;  ///< `room` is not below `count` rounded up to the lanes
-    const double* v;          ///< [4][room], V
-    double gmin;              ///< S, beside every junction
-    double *f, *df;           ///< [4][room], A; [4 * 4][room], S
-    double* most;             ///< [4][room], A: the largest slope of each row times its voltage, or phi_t if that is more; null: not asked
-    double *q, *dq;           ///< charges and capacitances, the same; null: not asked
-    double rate;              ///< 1/s: f and df are given with rate times q and dq added
+    std::size_t count, room;  ///< the stride is at least `count` rounded up to the number of lanes
+    const double* v;          ///< [4][stride], V
+    double gmin;              ///< S, in parallel with every junction
+    double *f, *df;           ///< [4][stride], A; [4 * 4][stride], S
+    double* most;             ///< [4][stride], A: largest derivative of each row times max(voltage, phi_t); null: not needed
+    double *q, *dq;           ///< charges and capacitances, same shapes; null: not needed
+    double rate;              ///< 1/s: f and df are returned with rate times q and dq added
 };
 
-/// What one instruction set offers.
+/// The transistor kernels of one instruction set.
 struct TransistorLanes {
     std::size_t lanes, model_bytes;
-    void (*build)(std::byte* at, const UicmConstants*);  ///< the models of as many transistors as there are lanes
+    void (*build)(std::byte* to, const UicmConstants*);  ///< constructs the models of one transistor per lane
     void (*eval)(const TransistorCall&);
-    void (*follow)(std::size_t room, const double* dv, const double* dq, double* q);  ///< q += dq dv, of all `room`
+    void (*follow)(std::size_t stride, const double* dv, const double* dq, double* q);  ///< q += dq dv for the whole stride
 };
 
 extern const TransistorLanes one_by_one;

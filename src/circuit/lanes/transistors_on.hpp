@@ -1,5 +1,5 @@
 #pragma once
-// The transistor's equations along the arrays of a call, T at a time: one number, or a vector of lanes.
+// Transistor kernels: the equations applied to the arrays of a call. T is double or a vector of lanes.
 
 #include <new>
 #include <type_traits>
@@ -18,73 +18,73 @@ constexpr std::size_t width() {
         return T::size;
 }
 template <class T>
-[[gnu::always_inline]] inline T loaded(const double* at) {
+[[gnu::always_inline]] inline T load(const double* from) {
     if constexpr (std::is_same_v<T, double>)
-        return *at;
+        return *from;
     else
-        return T::load_aligned(at);
+        return T::load_aligned(from);
 }
 template <class T>
-[[gnu::always_inline]] inline void store(const T& x, double* at) {
+[[gnu::always_inline]] inline void store(const T& x, double* to) {
     if constexpr (std::is_same_v<T, double>)
-        *at = x;
+        *to = x;
     else
-        x.store_aligned(at);
+        x.store_aligned(to);
 }
 
 template <class T>
-void build(std::byte* at, const UicmConstants* of) {
-    new (at) Uicm<T>([of](double UicmConstants::* field) {
+void build(std::byte* to, const UicmConstants* constants) {
+    new (to) Uicm<T>([constants](double UicmConstants::*field) {
         alignas(64) double lanes[width<T>()];
-        for (std::size_t l = 0; l < width<T>(); ++l) lanes[l] = of[l].*field;
-        return loaded<T>(lanes);
+        for (std::size_t l = 0; l < width<T>(); ++l) lanes[l] = constants[l].*field;
+        return load<T>(lanes);
     });
 }
 
-constexpr double phi_t = 0.026;  // V: rounding is of what exponents hold, and they hold no less
+constexpr double phi_t = 0.026;  // V: smallest voltage scale of the rounding error, since exponents are relative to phi_t
 
-/// A small conductance beside both junctions.
+/// Adds the conductance gmin in parallel with both junctions.
 template <class T>
 [[gnu::always_inline]] inline void add_gmin(UicmAnswer<T>& a, const T (&v)[4], T gmin) {
-    using Of = Terminals;
-    const T i_d = gmin * (v[Of::B] - v[Of::D]), i_s = gmin * (v[Of::B] - v[Of::S]);
-    a.i[Of::B] = a.i[Of::B] + i_d + i_s, a.i[Of::D] = a.i[Of::D] - i_d, a.i[Of::S] = a.i[Of::S] - i_s;
-    a.di[Of::B][Of::B] = a.di[Of::B][Of::B] + gmin + gmin;
-    for (const int end : {Of::D, Of::S}) {
+    using Terminal = Terminals;
+    const T i_d = gmin * (v[Terminal::B] - v[Terminal::D]), i_s = gmin * (v[Terminal::B] - v[Terminal::S]);
+    a.i[Terminal::B] = a.i[Terminal::B] + i_d + i_s, a.i[Terminal::D] = a.i[Terminal::D] - i_d, a.i[Terminal::S] = a.i[Terminal::S] - i_s;
+    a.di[Terminal::B][Terminal::B] = a.di[Terminal::B][Terminal::B] + gmin + gmin;
+    for (const int end : {Terminal::D, Terminal::S}) {
         a.di[end][end] = a.di[end][end] + gmin;
-        a.di[Of::B][end] = a.di[Of::B][end] - gmin, a.di[end][Of::B] = a.di[end][Of::B] - gmin;
+        a.di[Terminal::B][end] = a.di[Terminal::B][end] - gmin, a.di[end][Terminal::B] = a.di[end][Terminal::B] - gmin;
     }
 }
 
 template <class T, bool charges>
 [[gnu::always_inline]] inline void eval_as(const TransistorCall& call) {
-    const std::size_t room = call.room;
+    const std::size_t stride = call.room;
     const auto* model = reinterpret_cast<const Uicm<T>*>(call.models);
     const T gmin(call.gmin), rate(call.rate);
     for (std::size_t k = 0; k < call.count; k += width<T>(), ++model) {
-        const T v[4] = {loaded<T>(call.v + k), loaded<T>(call.v + room + k), loaded<T>(call.v + 2 * room + k),
-                        loaded<T>(call.v + 3 * room + k)};
+        const T v[4] = {load<T>(call.v + k), load<T>(call.v + stride + k), load<T>(call.v + 2 * stride + k),
+                        load<T>(call.v + 3 * stride + k)};
         UicmAnswer<T> a;
         model->eval(v, a);
         add_gmin(a, v, gmin);
         if constexpr (charges) {
             for (std::size_t row = 0; row < 4; ++row) {
-                store(a.q[row], call.q + row * room + k);
+                store(a.q[row], call.q + row * stride + k);
                 a.i[row] = a.i[row] + rate * a.q[row];
                 for (std::size_t column = 0; column < 4; ++column) {
-                    store(a.dq[row][column], call.dq + (4 * row + column) * room + k);
+                    store(a.dq[row][column], call.dq + (4 * row + column) * stride + k);
                     a.di[row][column] = a.di[row][column] + rate * a.dq[row][column];
                 }
             }
         }
         for (std::size_t row = 0; row < 4; ++row) {
-            store(a.i[row], call.f + row * room + k);
-            for (std::size_t column = 0; column < 4; ++column) store(a.di[row][column], call.df + (4 * row + column) * room + k);
+            store(a.i[row], call.f + row * stride + k);
+            for (std::size_t column = 0; column < 4; ++column) store(a.di[row][column], call.df + (4 * row + column) * stride + k);
             if (call.most == nullptr) continue;
-            T most(0.0);
+            T max_term(0.0);
             for (std::size_t column = 0; column < 4; ++column)
-                most = num::max(most, num::abs(a.di[row][column]) * num::max(num::abs(v[column]), T(phi_t)));
-            store(most, call.most + row * room + k);
+                max_term = num::max(max_term, num::abs(a.di[row][column]) * num::max(num::abs(v[column]), T(phi_t)));
+            store(max_term, call.most + row * stride + k);
         }
     }
 }
@@ -95,19 +95,19 @@ void eval(const TransistorCall& call) {
 }
 
 template <class T>
-void follow(std::size_t room, const double* dv, const double* dq, double* q) {
-    for (std::size_t k = 0; k < room; k += width<T>()) {
-        const T d[4] = {loaded<T>(dv + k), loaded<T>(dv + room + k), loaded<T>(dv + 2 * room + k), loaded<T>(dv + 3 * room + k)};
+void extrapolate(std::size_t stride, const double* dv, const double* dq, double* q) {
+    for (std::size_t k = 0; k < stride; k += width<T>()) {
+        const T d[4] = {load<T>(dv + k), load<T>(dv + stride + k), load<T>(dv + 2 * stride + k), load<T>(dv + 3 * stride + k)};
         for (std::size_t row = 0; row < 4; ++row) {
-            T sum = loaded<T>(q + row * room + k);
-            for (std::size_t column = 0; column < 4; ++column) sum = sum + loaded<T>(dq + (4 * row + column) * room + k) * d[column];
-            store(sum, q + row * room + k);
+            T sum = load<T>(q + row * stride + k);
+            for (std::size_t column = 0; column < 4; ++column) sum = sum + load<T>(dq + (4 * row + column) * stride + k) * d[column];
+            store(sum, q + row * stride + k);
         }
     }
 }
 
 template <class T>
-constexpr TransistorLanes transistor_lanes{width<T>(), sizeof(Uicm<T>), build<T>, eval<T>, follow<T>};
+constexpr TransistorLanes transistor_kernels_for{width<T>(), sizeof(Uicm<T>), build<T>, eval<T>, extrapolate<T>};
 
 }  // namespace
 }  // namespace corpuscle::circuit::lanes

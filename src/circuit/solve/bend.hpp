@@ -1,5 +1,5 @@
 #pragma once
-// Which polynomial is the curve between the two newest points, and how far it is off there.
+// Chooses the polynomial that interpolates between the two newest points, and estimates its error there.
 
 #include "circuit/solve/past.hpp"
 #include "circuit/solve/step_control.hpp"
@@ -8,23 +8,25 @@ namespace corpuscle::circuit {
 
 struct Bend {
     int points = 2;
-    double off = 0;  ///< half way, of what it may be
+    double off = 0;  ///< error at mid-step, relative to the allowed error
 
-    /// Of an afferent, whose currents are only drawn; on lanes a transistor's current is a straight line that is off by more than `reltol`.
-    static constexpr double current_may = 10;  ///< times what a voltage may
+    /// Factor of the tolerance of currents in an afferent, where they are only plotted. On lanes the linearized current of a transistor has
+    /// an error above `reltol`.
+    static constexpr double current_may = 10;
 };
 
-/// times: the newest point, then `seen` that lie on one smooth curve with it. worst_of(weights, points): the largest part, of what it may
-/// be, that these weights leave of an unknown's values at the newest points. Of two points in all nothing tells how far off a line is.
+/// times: the newest point, then the `smooth_count` points that lie on one smooth curve with it. worst_of(weights, points): the largest
+/// weighted sum of an unknown's values at the newest points, relative to its allowed error. With only two points there is no estimate; the
+/// error is 0.
 template <class WorstOf>
-Bend least_bend(std::span<const double> times, int seen, const WorstOf& worst_of) {
+Bend least_bend(std::span<const double> times, int smooth_count, const WorstOf& worst_of) {
     constexpr double good_enough = 0.05;
     Bend best;
     bool found = false;
     for (const int points : {4, 3, 2, StepControl::curve_points}) {
-        if (points > seen) continue;
-        const double off = worst_of(weights_of_bend(times.first(static_cast<std::size_t>(points) + 1)), points) / StepControl::curved;
-        if (!found || off < best.off) best = {points, off}, found = true;
+        if (points > smooth_count) continue;
+        const double error = worst_of(weights_of_bend(times.first(static_cast<std::size_t>(points) + 1)), points) / StepControl::curved;
+        if (!found || error < best.off) best = {points, error}, found = true;
         if (best.off < good_enough) break;
     }
     return best;

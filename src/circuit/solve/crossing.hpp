@@ -1,5 +1,5 @@
 #pragma once
-// Where something that is known at any time between two begins to be above nothing.
+// Finds the time at which a function of time crosses zero upwards.
 
 #include <algorithm>
 #include <cmath>
@@ -7,27 +7,27 @@
 
 namespace corpuscle::circuit {
 
-/// Nothing: it is not below at `from` and above at `to`.
-template <class Above>
-std::optional<double> crossing_between(double from, double to, const Above& above) {
-    if (!(above(from) <= 0 && above(to) > 0)) return {};
+/// By bisection. Returns nothing unless f(from) <= 0 and f(to) > 0.
+template <class Function>
+std::optional<double> crossing_between(double from, double to, const Function& f) {
+    if (!(f(from) <= 0 && f(to) > 0)) return {};
     for (int k = 0; k < 50; ++k) {
         const double half = from + (to - from) / 2;
-        above(half) > 0 ? to = half : from = half;
+        f(half) > 0 ? to = half : from = half;
     }
     return to;
 }
 
-/// The same where its values at both ends are known. It may also come to be above and go again, or the other way round, where an end is
-/// nearer to nothing than the ends are to each other: then it is looked at between them, too.
-template <class Above>
-std::optional<double> crossing_within(double from, double to, double at_from, double at_to, const Above& above) {
-    if (at_from <= 0 && at_to > 0) return crossing_between(from, to, above);
-    if (std::min(std::abs(at_from), std::abs(at_to)) > std::abs(at_to - at_from)) return {};
+/// The same with known values at both ends. Without a sign change, f may still cross zero twice in the interval. If an end is closer to
+/// zero than the ends are to each other, four subintervals are searched, too.
+template <class Function>
+std::optional<double> crossing_within(double from, double to, double f_from, double f_to, const Function& f) {
+    if (f_from <= 0 && f_to > 0) return crossing_between(from, to, f);
+    if (std::min(std::abs(f_from), std::abs(f_to)) > std::abs(f_to - f_from)) return {};
     constexpr int parts = 4;
     for (int k = 0; k < parts; ++k) {
         const double a = from + (to - from) * k / parts, b = k + 1 < parts ? from + (to - from) * (k + 1) / parts : to;
-        if (const auto found = crossing_between(a, b, above)) return found;
+        if (const auto found = crossing_between(a, b, f)) return found;
     }
     return {};
 }

@@ -9,31 +9,31 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double largest_multiplier = 1e7;  // of scaled rows; KLU's own pivots keep below 1e3
+constexpr double max_multiplier = 1e7;  // of scaled rows; the pivots that KLU chooses stay below 1e3
 
-std::vector<int> inverse(std::span<const int> of) {
-    std::vector<int> out(of.size());
-    for (std::size_t k = 0; k < of.size(); ++k) out[static_cast<std::size_t>(of[k])] = static_cast<int>(k);
+std::vector<int> inverse_permutation(std::span<const int> permutation) {
+    std::vector<int> out(permutation.size());
+    for (std::size_t k = 0; k < permutation.size(); ++k) out[static_cast<std::size_t>(permutation[k])] = static_cast<int>(k);
     return out;
 }
 
-/// Which columns each row holds, in steps of elimination, once all fill is there.
-std::vector<std::vector<int>> filled(const Pattern& p, std::span<const int> step_of_row, std::span<const int> step_of_column) {
+/// The columns in each row of the factored matrix, including fill-in. Rows and columns are numbered by elimination step.
+std::vector<std::vector<int>> pattern_with_fill(const Pattern& p, std::span<const int> step_of_row, std::span<const int> step_of_column) {
     const auto n = static_cast<std::size_t>(p.size());
-    std::vector<std::vector<char>> there(n, std::vector<char>(n));
+    std::vector<std::vector<char>> occupied(n, std::vector<char>(n));
     for (std::size_t column = 0; column < n; ++column)
         for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e)
-            there[static_cast<std::size_t>(step_of_row[static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)])])]
-                 [static_cast<std::size_t>(step_of_column[column])] = 1;
+            occupied[static_cast<std::size_t>(step_of_row[static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)])])]
+                    [static_cast<std::size_t>(step_of_column[column])] = 1;
     for (std::size_t k = 0; k < n; ++k) {
-        there[k][k] = 1;
+        occupied[k][k] = 1;
         for (std::size_t i = k + 1; i < n; ++i)
-            for (std::size_t j = k + 1; there[i][k] && j < n; ++j) there[i][j] = static_cast<char>(there[i][j] | there[k][j]);
+            for (std::size_t j = k + 1; occupied[i][k] && j < n; ++j) occupied[i][j] = static_cast<char>(occupied[i][j] | occupied[k][j]);
     }
     std::vector<std::vector<int>> out(n);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
-            if (there[i][j]) out[i].push_back(static_cast<int>(j));
+            if (occupied[i][j]) out[i].push_back(static_cast<int>(j));
     return out;
 }
 
@@ -42,30 +42,30 @@ std::vector<std::vector<int>> filled(const Pattern& p, std::span<const int> step
 Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<const int> columns, std::span<const double> values)
     : rows_(rows.begin(), rows.end()), columns_(columns.begin(), columns.end()) {
     const auto n = static_cast<std::size_t>(p.size());
-    const auto step_of_row = inverse(rows), step_of_column = inverse(columns);
-    const auto there = filled(p, step_of_row, step_of_column);
+    const auto step_of_row = inverse_permutation(rows), step_of_column = inverse_permutation(columns);
+    const auto columns_of_row = pattern_with_fill(p, step_of_row, step_of_column);
 
-    std::map<std::pair<int, int>, int> slot;  // of (row, column), in steps
+    std::map<std::pair<int, int>, int> slot;  // by (row, column), numbered by elimination step
     const auto put = [&](int i, int j) {
-        const int at = static_cast<int>(slot.size());
-        slot[{i, j}] = at;
-        return at;
+        const int index = static_cast<int>(slot.size());
+        slot[{i, j}] = index;
+        return index;
     };
     pivots_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         put(static_cast<int>(k), static_cast<int>(k));
         pivots_[k].u_begin = static_cast<int>(slot.size());
-        for (const int j : there[k])
+        for (const int j : columns_of_row[k])
             if (j > static_cast<int>(k)) put(static_cast<int>(k), j);
         pivots_[k].u_end = static_cast<int>(slot.size());
     }
     l_from_ = static_cast<int>(slot.size());
     u_columns_.resize(slot.size());
-    for (const auto& [place, at] : slot) u_columns_[static_cast<std::size_t>(at)] = place.second;
+    for (const auto& [position, index] : slot) u_columns_[static_cast<std::size_t>(index)] = position.second;
     for (std::size_t k = 0; k < n; ++k) {
         pivots_[k].l_begin = static_cast<int>(slot.size());
         for (std::size_t i = k + 1; i < n; ++i)
-            if (std::binary_search(there[i].begin(), there[i].end(), static_cast<int>(k))) {
+            if (std::binary_search(columns_of_row[i].begin(), columns_of_row[i].end(), static_cast<int>(k))) {
                 put(static_cast<int>(i), static_cast<int>(k));
                 l_rows_.push_back(static_cast<int>(i));
             }
@@ -98,21 +98,21 @@ bool Elimination::factor(std::span<const double> values) {
     std::fill(slots_.begin(), slots_.end(), 0.0);
     double* const s = slots_.data();
     for (std::size_t e = 0; e < entry_slot_.size(); ++e) s[entry_slot_[e]] = values[e] * scale_[static_cast<std::size_t>(entry_row_[e])];
-    double most = 0;
+    double largest = 0;
     const int* target = updates_.data();
     for (std::size_t k = 0; k < pivots_.size(); ++k) {
         const Pivot& p = pivots_[k];
-        const double per = 1 / s[p.u_begin - 1];
-        per_pivot_[k] = per;
+        const double inverse = 1 / s[p.u_begin - 1];
+        per_pivot_[k] = inverse;
         for (int l = p.l_begin; l < p.l_end; ++l) {
-            const double m = s[l] *= per;
-            most = std::max(most, std::abs(m));
+            const double m = s[l] *= inverse;
+            largest = std::max(largest, std::abs(m));
             for (int u = p.u_begin; u < p.u_end; ++u) s[*target++] -= m * s[u];
         }
-        if (!(std::abs(per) < 1e300)) return false;
+        if (!(std::abs(inverse) < 1e300)) return false;
     }
-    growth_ = most;
-    return most <= largest_multiplier;
+    growth_ = largest;
+    return largest <= max_multiplier;
 }
 
 void Elimination::solve(std::span<double> b) const {

@@ -1,6 +1,6 @@
 #pragma once
-// Gaussian elimination of one matrix pattern, written out once as a flat list: the same operations in the same order whatever the
-// numbers, so that one circuit, or many on lanes, do exactly the same.
+// Gaussian elimination of one sparsity pattern as a flat list of operations. The operations and their order do not depend on the values,
+// so one circuit and many circuits on lanes compute the same bits.
 
 #include <optional>
 #include <span>
@@ -12,13 +12,13 @@ namespace corpuscle::circuit {
 
 class Pattern;
 
-/// P R A Q = L U with the row scales R, rows P and columns Q chosen beforehand. Slots hold U, row by row, each beginning with its pivot,
-/// then L, column by column.
+/// P R A Q = L U with row scales R, row order P and column order Q chosen in advance. The slots hold U row by row, each row starting with
+/// its pivot, then L column by column.
 class Elimination {
-    using Pivot = lanes::EliminationList::Pivot;  // slots of U's row, after its pivot; slots of L's column
+    using Pivot = lanes::EliminationList::Pivot;  // slots of a row of U without its pivot; slots of a column of L
     std::vector<Pivot> pivots_;
-    std::vector<int> updates_;             // target slots, pivot by pivot: for each of L's slots as many as U's row has
-    std::vector<int> l_rows_, u_columns_;  // of the slots: steps of elimination
+    std::vector<int> updates_;             // target slots, pivot by pivot: for each slot of L one target for each slot in the row of U
+    std::vector<int> l_rows_, u_columns_;  // row or column of each slot, numbered by elimination step
     std::vector<int> entry_slot_, entry_row_;
     std::vector<int> rows_, columns_;  // P, Q
     std::vector<double> scale_, slots_, per_pivot_;
@@ -27,18 +27,18 @@ class Elimination {
     mutable std::vector<double> work_;
 
 public:
-    /// rows[k], columns[k]: of A, eliminated in step k. values: those that scale the rows.
+    /// rows[k], columns[k]: row and column of A that step k eliminates. values: matrix values from which the row scales are computed.
     Elimination(const Pattern&, std::span<const int> rows, std::span<const int> columns, std::span<const double> values);
 
-    /// False: with these numbers the order does not serve (a pivot is far too small against its column).
+    /// Returns false if the pivot order is not stable for these values (a pivot is far too small compared with its column).
     bool factor(std::span<const double> values);
     void solve(std::span<double> b) const;     ///< A x = b, in place
-    double growth() const { return growth_; }  ///< the largest multiplier of the last matrix, of scaled rows
+    double growth() const { return growth_; }  ///< the largest multiplier of the last factorization, for scaled rows
 
-    /// For many matrices at once; it lives as long as this does.
+    /// The list for the lane kernels, which is valid as long as this object.
     lanes::EliminationList list() const;
 
-    std::size_t multiplications() const { return updates_.size(); }  ///< and as many additions, in one factor()
+    std::size_t multiplications() const { return updates_.size(); }  ///< multiplications in one factor(); as many additions
     std::size_t slots() const { return slots_.size(); }
 };
 

@@ -24,7 +24,7 @@ std::size_t Pattern::place(int row, int column) const {
 }
 
 template <class T>
-struct Solver<T>::Held {
+struct Solver<T>::Impl {
     static constexpr bool is_complex = !std::is_same_v<T, double>;
     const Pattern& pattern;
     int size;
@@ -33,19 +33,19 @@ struct Solver<T>::Held {
     klu_symbolic* symbolic;
     klu_numeric* numeric = nullptr;
     std::optional<Elimination> list;
-    bool by_list = false;  // the last matrix went along the list
-    long strayed = 0;
+    bool by_list = false;  // the last factorization used the list
+    long fallback_count = 0;
 
-    explicit Held(const Pattern& p)
+    explicit Impl(const Pattern& p)
         : pattern(p), size(p.size()), begin(p.begin().begin(), p.begin().end()), rows(p.rows().begin(), p.rows().end()) {
         klu_defaults(&common);
         symbolic = klu_analyze(size, begin.data(), rows.data(), &common);
     }
-    ~Held() {
-        forget();
+    ~Impl() {
+        free_numeric();
         klu_free_symbolic(&symbolic, &common);
     }
-    void forget() {
+    void free_numeric() {
         if (numeric == nullptr) return;
         if constexpr (is_complex)
             klu_z_free_numeric(&numeric, &common);
@@ -53,16 +53,16 @@ struct Solver<T>::Held {
             klu_free_numeric(&numeric, &common);
         numeric = nullptr;
     }
-    bool again(double* values) {
+    bool refactor(double* values) {
         int ok = 0;
         if constexpr (is_complex)
             ok = klu_z_refactor(begin.data(), rows.data(), values, symbolic, numeric, &common) && klu_z_rcond(symbolic, numeric, &common);
         else
             ok = klu_refactor(begin.data(), rows.data(), values, symbolic, numeric, &common) && klu_rcond(symbolic, numeric, &common);
-        return ok && common.status == KLU_OK && common.rcond > 1e-13;  // else other pivots may be better
+        return ok && common.status == KLU_OK && common.rcond > 1e-13;  // otherwise new pivots may be better
     }
-    bool anew(double* values) {
-        forget();
+    bool factor(double* values) {
+        free_numeric();
         if constexpr (is_complex)
             numeric = klu_z_factor(begin.data(), rows.data(), values, symbolic, &common);
         else
@@ -72,7 +72,7 @@ struct Solver<T>::Held {
 };
 
 template <class T>
-Solver<T>::Solver(const Pattern& p) : held_(std::make_unique<Held>(p)) {}
+Solver<T>::Solver(const Pattern& p) : impl_(std::make_unique<Impl>(p)) {}
 template <class T>
 Solver<T>::~Solver() = default;
 template <class T>
@@ -80,77 +80,77 @@ Solver<T>::Solver(Solver&&) noexcept = default;
 
 template <class T>
 bool Solver<T>::factor(std::span<const T> values) {
-    auto* numbers = reinterpret_cast<double*>(const_cast<T*>(values.data()));  // KLU takes no const, and changes nothing
-    if (held_->symbolic == nullptr) return false;
-    if constexpr (!Held::is_complex) {
-        held_->by_list = held_->list && held_->list->factor(values);
-        if (held_->by_list) return true;
-        if (held_->list) return factor_anew(values);  // and not along pivots that depend on which matrices went before
+    auto* numbers = reinterpret_cast<double*>(const_cast<T*>(values.data()));  // KLU has no const arguments but does not write here
+    if (impl_->symbolic == nullptr) return false;
+    if constexpr (!Impl::is_complex) {
+        impl_->by_list = impl_->list && impl_->list->factor(values);
+        if (impl_->by_list) return true;
+        if (impl_->list) return factor_anew(values);
     }
-    // Beside a list the last pivots are not tried: an answer is to depend on its matrix alone, not on those before.
-    return (held_->numeric != nullptr && !held_->list && held_->again(numbers)) || held_->anew(numbers);
+    // With a list the previous pivots are not reused: a solution must depend on its matrix only, not on earlier matrices.
+    return (impl_->numeric != nullptr && !impl_->list && impl_->refactor(numbers)) || impl_->factor(numbers);
 }
 
 template <class T>
 bool Solver<T>::factor_anew(std::span<const T> values) {
-    held_->by_list = false;
-    held_->strayed += held_->list.has_value();
-    return held_->anew(reinterpret_cast<double*>(const_cast<T*>(values.data())));
+    impl_->by_list = false;
+    impl_->fallback_count += impl_->list.has_value();
+    return impl_->factor(reinterpret_cast<double*>(const_cast<T*>(values.data())));
 }
 
 template <class T>
 double Solver<T>::growth() const {
-    return held_->by_list ? held_->list->growth() : 0;
+    return impl_->by_list ? impl_->list->growth() : 0;
 }
 
 template <class T>
 void Solver<T>::settle(std::span<const T> values) {
-    if constexpr (!Held::is_complex) {
-        constexpr int too_large = 3000;  // unknowns: the list's pattern is worked out in a square of bytes
+    if constexpr (!Impl::is_complex) {
+        constexpr int too_large = 3000;  // unknowns: the constructor of Elimination needs a dense matrix of bytes
         auto* numbers = const_cast<double*>(values.data());
-        if (held_->symbolic == nullptr || held_->size > too_large || !held_->anew(numbers)) return;
-        std::vector<int> rows(static_cast<std::size_t>(held_->size)), columns(rows.size());
-        klu_extract(held_->numeric, held_->symbolic, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-                    rows.data(), columns.data(), nullptr, nullptr, &held_->common);
-        held_->list.emplace(held_->pattern, rows, columns, values);
-        held_->strayed = 0;
+        if (impl_->symbolic == nullptr || impl_->size > too_large || !impl_->factor(numbers)) return;
+        std::vector<int> rows(static_cast<std::size_t>(impl_->size)), columns(rows.size());
+        klu_extract(impl_->numeric, impl_->symbolic, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                    rows.data(), columns.data(), nullptr, nullptr, &impl_->common);
+        impl_->list.emplace(impl_->pattern, rows, columns, values);
+        impl_->fallback_count = 0;
     }
     (void)values;
 }
 
 template <class T>
 const Elimination* Solver<T>::list() const {
-    return held_->list ? &*held_->list : nullptr;
+    return impl_->list ? &*impl_->list : nullptr;
 }
 
 template <class T>
 long Solver<T>::strayed() const {
-    return held_->strayed;
+    return impl_->fallback_count;
 }
 
 template <class T>
 Singular Solver<T>::where() const {
-    return {held_->symbolic == nullptr || held_->common.singular_col >= held_->size ? -1 : held_->common.singular_col};
+    return {impl_->symbolic == nullptr || impl_->common.singular_col >= impl_->size ? -1 : impl_->common.singular_col};
 }
 
 template <class T>
 void Solver<T>::solve(std::span<T> b) const {
     auto* numbers = reinterpret_cast<double*>(b.data());
-    if constexpr (!Held::is_complex)
-        if (held_->by_list) return held_->list->solve(b);
-    if constexpr (Held::is_complex)
-        klu_z_solve(held_->symbolic, held_->numeric, held_->size, 1, numbers, &held_->common);
+    if constexpr (!Impl::is_complex)
+        if (impl_->by_list) return impl_->list->solve(b);
+    if constexpr (Impl::is_complex)
+        klu_z_solve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
     else
-        klu_solve(held_->symbolic, held_->numeric, held_->size, 1, numbers, &held_->common);
+        klu_solve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
 }
 
 template <class T>
 void Solver<T>::solve_transposed(std::span<T> b) const {
     auto* numbers = reinterpret_cast<double*>(b.data());
-    if constexpr (Held::is_complex)
-        klu_z_tsolve(held_->symbolic, held_->numeric, held_->size, 1, numbers, 0, &held_->common);
+    if constexpr (Impl::is_complex)
+        klu_z_tsolve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, 0, &impl_->common);
     else
-        klu_tsolve(held_->symbolic, held_->numeric, held_->size, 1, numbers, &held_->common);
+        klu_tsolve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
 }
 
 template class Solver<double>;

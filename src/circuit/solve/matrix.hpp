@@ -1,5 +1,5 @@
 #pragma once
-// Sparse linear equations of one pattern and many values, by SuiteSparse's KLU. The only files that include it.
+// Sparse linear equations with one pattern and many sets of values, solved by SuiteSparse's KLU. Only matrix.cpp includes KLU.
 
 #include <complex>
 #include <memory>
@@ -9,23 +9,23 @@
 
 namespace corpuscle::circuit {
 
-/// Which places of a square matrix may differ from zero, column by column.
+/// The sparsity pattern of a square matrix, in compressed columns.
 class Pattern {
     int size_;
     std::vector<int> begin_, rows_;
 
 public:
-    /// entries: row and column, in any order, some more than once.
+    /// entries: (row, column), in any order; duplicates are allowed.
     Pattern(int size, std::vector<std::pair<int, int>> entries);
     int size() const { return size_; }
     std::size_t entries() const { return rows_.size(); }
-    /// Where the value of this place stands among all values.
+    /// Index of an entry in the array of values.
     std::size_t place(int row, int column) const;
     std::span<const int> begin() const { return begin_; }
     std::span<const int> rows() const { return rows_; }
 };
 
-/// Why a matrix could not be factored: this unknown's column depends on others.
+/// The column at which a factorization failed, which depends linearly on others. -1: not known.
 struct Singular {
     int column = -1;
 };
@@ -35,25 +35,27 @@ class Elimination;
 /// T: double or std::complex<double>.
 template <class T>
 class Solver {
-    struct Held;
-    std::unique_ptr<Held> held_;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 
 public:
     explicit Solver(const Pattern&);
     ~Solver();
     Solver(Solver&&) noexcept;
 
-    /// Factors the matrix of these values, along the pivots of the last one if they still serve. False: it is singular, see where().
+    /// Factors the matrix with these values and reuses the previous pivots if they are still stable. Returns false if the matrix is
+    /// singular; see singularity().
     bool factor(std::span<const T> values);
     Singular where() const;
-    /// Takes the pivots of this matrix for good and writes their elimination out as a list, for the many like it that follow; one that
-    /// they do not serve is still factored anew. Only of doubles, and not of a very large one: then nothing changes.
+    /// Fixes the pivot order of this matrix and prepares its elimination as a list. Later matrices use the list; if its pivots are not
+    /// stable for a matrix, that matrix gets new pivots. No effect on complex matrices and on very large ones.
     void settle(std::span<const T> values);
-    const Elimination* list() const;  ///< null: none was written out
-    long strayed() const;             ///< matrices since then that the list did not serve
-    /// Of the last matrix along the list, its largest multiplier: where it is large, an answer is worth a look. 0: it went another way.
+    const Elimination* list() const;  ///< null: no list
+    long strayed() const;             ///< number of matrices since then for which the list was not used
+    /// The largest multiplier of the last factorization by the list. If it is large, the solution should be checked. 0: the list was not
+    /// used.
     double growth() const;
-    bool factor_anew(std::span<const T> values);           ///< with pivots of its own, whatever list there is; counts as strayed
+    bool factor_anew(std::span<const T> values);           ///< chooses new pivots even if there is a list; increases fallback_count()
     void solve(std::span<T> right_side) const;             ///< A x = b, in place
     void solve_transposed(std::span<T> right_side) const;  ///< A^T x = b (no conjugate)
 };

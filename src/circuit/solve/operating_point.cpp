@@ -12,48 +12,49 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Tolerances that are wide as long as this lives.
-class Loosened {
-    Tolerances& of_;
+/// Loosens the tolerances during its lifetime.
+class LooseTolerances {
+    Tolerances& tolerances_;
     const Tolerances tight_;
 
-    void loosen() const { of_.reltol = 1e-2, of_.vntol = 1e-3, of_.abstol = 1e-13; }
+    void loosen() const { tolerances_.reltol = 1e-2, tolerances_.vntol = 1e-3, tolerances_.abstol = 1e-13; }
 
 public:
-    explicit Loosened(Tolerances& of) : of_(of), tight_(of) { loosen(); }
-    Loosened(const Loosened&) = delete;
-    ~Loosened() { of_ = tight_; }
-    bool exactly(const std::function<bool()>& work) const {
-        of_ = tight_;
-        const bool good = work();
-        return loosen(), good;
+    explicit LooseTolerances(Tolerances& tolerances) : tolerances_(tolerances), tight_(tolerances) { loosen(); }
+    LooseTolerances(const LooseTolerances&) = delete;
+    ~LooseTolerances() { tolerances_ = tight_; }
+    /// Runs `work` with the original tolerances.
+    bool with_tight(const std::function<bool()>& work) const {
+        tolerances_ = tight_;
+        const bool ok = work();
+        return loosen(), ok;
     }
 };
 
-/// One way after another, from where the last good answer was.
-class Search {
+/// Searches for the operating point with one method after another.
+class OperatingPointSearch {
     Newton& newton_;
     const System& system_;
-    bool led_;                          // it begins where somebody knows it to be near; then .nodeset has nothing to add
-    std::vector<double> start_, last_;  // last: where plain Newton gave up
+    bool has_guess_;                    // the start is near the solution; .nodeset is then ignored
+    std::vector<double> start_, last_;  // last: where plain Newton's method failed
     std::size_t nodes_;
-    Springs held_;  // to the end
+    Springs clamps_;  // clamps that are part of the solved circuit
 
-    /// A spring at every node; those that are held have their own.
-    Springs all(double g, const std::vector<double>& to) const {
+    /// A clamp at every node. A node that is clamped already keeps its clamp.
+    Springs clamp_all(double g, const std::vector<double>& to) const {
         Springs out{std::vector<double>(nodes_, g), to};
-        for (std::size_t n = 0; n < held_.g.size(); ++n)
-            if (held_.g[n] > 0) out.g[n] = held_.g[n], out.to[n] = held_.to[n];
+        for (std::size_t n = 0; n < clamps_.g.size(); ++n)
+            if (clamps_.g[n] > 0) out.g[n] = clamps_.g[n], out.to[n] = clamps_.to[n];
         return out;
     }
 
     bool plain(std::vector<double>& x) {
-        constexpr int near = 40;  // steps: from near they arrive within half of these, or never
+        constexpr int near = 40;  // iterations: from a good guess Newton's method needs at most half of these, or diverges
         newton_.memory = system_.fresh_memory();
-        return newton_.run(x, held_, led_ ? std::min(near, newton_.tolerances.itl1) : 0);
+        return newton_.run(x, clamps_, has_guess_ ? std::min(near, newton_.tolerances.itl1) : 0);
     }
 
-    /// Every node hangs at ground by a conductance that is taken away, decade by decade.
+    /// gmin stepping: a conductance from every node to ground, reduced decade by decade.
     bool by_gmin(std::vector<double>& x) {
         const std::vector<double> ground(x.size());
         double g = 1e-2, factor = 10;
@@ -61,9 +62,9 @@ class Search {
         for (int tries = 0; tries < 200; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
-            if (newton_.run(next, all(g, ground), 50)) {
+            if (newton_.run(next, clamp_all(g, ground), 50)) {
                 x = next;
-                if (g < 1e-15) return newton_.run(x, held_);
+                if (g < 1e-15) return newton_.run(x, clamps_);
                 g /= factor, factor = std::min(factor * 1.5, 10.0);
             } else {
                 newton_.memory = memory;
@@ -74,17 +75,17 @@ class Search {
         return false;
     }
 
-    /// All sources rise from nothing.
+    /// Source stepping: all sources rise from 0.
     bool by_sources(std::vector<double>& x) {
         double reached = 0, step = 0.1;
         newton_.memory = system_.fresh_memory();
         newton_.instant.sources = 0;
-        bool found = newton_.run(x, held_);
+        bool found = newton_.run(x, clamps_);
         for (int tries = 0; found && reached < 1 && tries < 500; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
             newton_.instant.sources = std::min(1.0, reached + step);
-            if (newton_.run(next, held_, 30)) {
+            if (newton_.run(next, clamps_, 30)) {
                 x = next, reached = newton_.instant.sources, step *= 2;
             } else {
                 newton_.memory = memory, step /= 4;
@@ -95,21 +96,21 @@ class Search {
         return found && reached >= 1;
     }
 
-    /// Every node has a capacitor to ground, and time goes on in ever longer steps until nothing moves. Where something turns over by its
-    /// own gain, a trigger that a chip has on its other side, it moves ever faster: there a step is as long as to move it so far. None but
-    /// the last steps are exact.
+    /// Pseudo-transient: a capacitor from every node to ground and ever longer time steps, until the voltages are constant. A circuit with
+    /// positive feedback, such as a trigger in its other state, moves faster and faster; there the step is limited so that a voltage
+    /// changes by about `max_change`. Only the last steps are solved with tight tolerances.
     bool by_time(std::vector<double>& x) {
-        constexpr double so_far = 20e-3, still = 2e-3;  // V
+        constexpr double max_change = 20e-3, settled_below = 2e-3;  // V
         constexpr int patience = 5;
-        const Loosened loosened(newton_.tolerances);
+        const LooseTolerances loose(newton_.tolerances);
         double g = 1e-4, rate = 0, too_small = 0;
-        int careful = 0;  // steps, after one that was too long
+        int careful = 0;  // remaining steps with a length limit, after one that was too long
         newton_.memory = system_.fresh_memory();
         for (int tries = 0; tries < 600; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
             const int before = newton_.iterations;
-            if (!newton_.run(next, all(g, x), patience)) {
+            if (!newton_.run(next, clamp_all(g, x), patience)) {
                 newton_.memory = memory;
                 too_small = g, careful = 20, g *= 3;
                 if (g > 1e6) return false;
@@ -117,26 +118,27 @@ class Search {
             }
             const double moved = farthest(x, next), faster = rate > 0 ? moved * g / rate : 0;
             x = std::move(next), rate = moved * g;
-            if (moved < 10 * still && g < 1e-13) {
-                if (auto there = x; loosened.exactly([&] { return newton_.run(there, held_, 20); })) return x = std::move(there), true;
+            if (moved < 10 * settled_below && g < 1e-13) {
+                if (auto solution = x; loose.with_tight([&] { return newton_.run(solution, clamps_, 20); }))
+                    return x = std::move(solution), true;
                 if (g < 1e-19) return false;
             }
             const bool quick = newton_.iterations - before <= 3;
-            g = faster > 1.03 ? std::max(rate * faster / so_far, g) : g / (moved < still ? 10 : quick ? 4 : 2);
+            g = faster > 1.03 ? std::max(rate * faster / max_change, g) : g / (moved < settled_below ? 10 : quick ? 4 : 2);
             if (careful > 0) --careful, g = std::max(g, 1.5 * too_small);
         }
         return false;
     }
-    /// The same, every step exact and shorter steps only where one fails: slow, and arrives where little else does.
+    /// Pseudo-transient with tight tolerances in every step, shortened only after a failure: slow but robust.
     bool by_exact_time(std::vector<double>& x) {
         double g = 1e-4;
         newton_.memory = system_.fresh_memory();
         for (int tries = 0; tries < 2000; ++tries) {
             auto next = x;
             const auto memory = newton_.memory;
-            if (newton_.run(next, all(g, x), 20)) {
+            if (newton_.run(next, clamp_all(g, x), 20)) {
                 x = next;
-                if (g < 1e-19) return newton_.run(x, held_);
+                if (g < 1e-19) return newton_.run(x, clamps_);
                 g /= 2;
             } else {
                 newton_.memory = memory;
@@ -147,36 +149,36 @@ class Search {
         return false;
     }
     double farthest(const std::vector<double>& a, const std::vector<double>& b) const {
-        double most = 0;
-        for (std::size_t n = 0; n < nodes_; ++n) most = std::max(most, std::abs(a[n] - b[n]));
-        return most;
+        double largest = 0;
+        for (std::size_t n = 0; n < nodes_; ++n) largest = std::max(largest, std::abs(a[n] - b[n]));
+        return largest;
     }
 
-    /// Nodes of .nodeset are held there first, then let go.
-    void hold(std::vector<double>& x) {
-        const auto& wanted = system_.circuit().nodesets;
-        if (wanted.empty()) return;
-        Springs springs = all(0, std::vector<double>(x.size()));
-        for (const auto& [node, v] : wanted)
-            springs.g[static_cast<std::size_t>(node) - 1] = 1e3, springs.to[static_cast<std::size_t>(node) - 1] = v;
-        auto held = x;
-        if (newton_.run(held, springs)) x = held;
+    /// Solves with the nodes of .nodeset clamped. The result is the start without these clamps.
+    void apply_nodesets(std::vector<double>& x) {
+        const auto& nodesets = system_.circuit().nodesets;
+        if (nodesets.empty()) return;
+        Springs clamps = clamp_all(0, std::vector<double>(x.size()));
+        for (const auto& [node, v] : nodesets)
+            clamps.g[static_cast<std::size_t>(node) - 1] = 1e3, clamps.to[static_cast<std::size_t>(node) - 1] = v;
+        auto clamped = x;
+        if (newton_.run(clamped, clamps)) x = clamped;
     }
 
 public:
-    Search(Newton& newton, std::vector<double> start, Springs held)
-        : newton_(newton), system_(newton.system), led_(!start.empty()), start_(std::move(start)),
-          nodes_(static_cast<std::size_t>(system_.nodes())), held_(std::move(held)) {
+    OperatingPointSearch(Newton& newton, std::vector<double> start, Springs clamps)
+        : newton_(newton), system_(newton.system), has_guess_(!start.empty()), start_(std::move(start)),
+          nodes_(static_cast<std::size_t>(system_.nodes())), clamps_(std::move(clamps)) {
         start_.resize(static_cast<std::size_t>(system_.size()));
         newton_.iterations = 0;
     }
 
     Result<OperatingPoint> run() {
-        if (led_)
+        if (has_guess_)
             if (auto found = from_start()) return *found;
-        if (led_ && !system_.linear()) led_ = false, start_.assign(start_.size(), 0.0);  // as if nobody had known
-        if (!led_) {
-            hold(start_);
+        if (has_guess_ && !system_.linear()) has_guess_ = false, start_.assign(start_.size(), 0.0);  // retry without the guess
+        if (!has_guess_) {
+            apply_nodesets(start_);
             if (auto found = from_start()) return *found;
         }
         return failure();
@@ -184,16 +186,17 @@ public:
 
 private:
     std::optional<OperatingPoint> from_start() {
-        struct Way {
+        struct Method {
             std::string_view name;
-            bool (Search::*go)(std::vector<double>&);
+            bool (OperatingPointSearch::*run)(std::vector<double>&);
         };
-        const Way newton{"newton", &Search::plain}, gmin{"gmin", &Search::by_gmin}, source{"source", &Search::by_sources},
-            time{"pseudo-transient", &Search::by_time}, exact_time{"pseudo-transient", &Search::by_exact_time};
-        // From a place that is near, time goes where the circuit itself would; gmin and source forget where they began.
-        for (const Way& way : led_ ? std::array{newton, time, gmin, source} : std::array{newton, gmin, source, exact_time}) {
+        const Method newton{"newton", &OperatingPointSearch::plain}, gmin{"gmin", &OperatingPointSearch::by_gmin},
+            source{"source", &OperatingPointSearch::by_sources}, time{"pseudo-transient", &OperatingPointSearch::by_time},
+            exact_time{"pseudo-transient", &OperatingPointSearch::by_exact_time};
+        // From a near start the pseudo-transient follows the circuit itself; gmin and source stepping ignore the start.
+        for (const Method& method : has_guess_ ? std::array{newton, time, gmin, source} : std::array{newton, gmin, source, exact_time}) {
             auto x = start_;
-            if ((this->*way.go)(x)) return OperatingPoint{std::move(x), way.name, newton_.iterations};
+            if ((this->*method.run)(x)) return OperatingPoint{std::move(x), method.name, newton_.iterations};
             if (last_.empty()) last_ = std::move(x);
             if (system_.linear()) break;
         }
@@ -204,13 +207,14 @@ private:
         const auto& c = system_.circuit();
         if (system_.linear() && newton_.singular >= 0)
             return {Code::bad_input,
-                    fmt::format("the equations have no single answer: the matrix is singular at {}",
+                    fmt::format("the equations have no unique solution: the matrix is singular at {}",
                                 system_.names()[static_cast<std::size_t>(newton_.singular)]),
                     Place{c.file}};
         return {
             Code::not_converged,
             fmt::format(
-                "no operating point: neither Newton's steps nor gmin, source and pseudo-transient continuation arrived ({} steps); {}{}",
+                "no operating point found: Newton's method, gmin stepping, source stepping and pseudo-transient did not converge ({} "
+                "iterations); {}{}",
                 newton_.iterations, newton_.distance(last_),
                 newton_.singular >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]) : ""),
             Place{c.file}};
@@ -235,8 +239,8 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
     return t;
 }
 
-Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start, Springs held) {
-    return Search(newton, std::move(start), std::move(held)).run();
+Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start, Springs clamps) {
+    return OperatingPointSearch(newton, std::move(start), std::move(clamps)).run();
 }
 
 }  // namespace corpuscle::circuit

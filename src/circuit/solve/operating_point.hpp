@@ -1,5 +1,5 @@
 #pragma once
-// Where a circuit rests: f(x) = 0, by Newton's steps, and by detours where they do not arrive.
+// The DC operating point of a circuit: f(x) = 0, by Newton's method, or by continuation methods if Newton's method diverges.
 
 #include <string>
 #include <vector>
@@ -8,30 +8,30 @@
 
 namespace corpuscle::circuit {
 
-/// When an answer is good enough, and how long to look for it. Names are SPICE's; ours are tighter, for picoamperes.
+/// Convergence tolerances and iteration limit. The names are those of SPICE; the defaults are tighter, for currents of picoamperes.
 struct Tolerances {
     double reltol = 1e-6;
     double vntol = 1e-9;    ///< V
     double abstol = 1e-16;  ///< A
     double gmin = 1e-15;    ///< S
-    int itl1 = 100;         ///< Newton's steps at the most in one attempt
+    int itl1 = 100;         ///< maximum number of Newton iterations in one attempt
 
-    /// From .options; refuses what cannot be: a floor above 1e-16 A or 1e-15 S only if it is asked for.
+    /// From .options. Errors: a value out of range.
     static Result<Tolerances> of(const Circuit&);
 };
 
 struct OperatingPoint {
     std::vector<double> x;
     std::string_view how;  ///< "newton", "gmin", "source", "pseudo-transient"
-    int iterations = 0;    ///< Newton's steps, all attempts
+    int iterations = 0;    ///< Newton iterations of all attempts
 };
 
-/// Springs that pull nodes to where they are wanted: g (x - to) is added to each node's equation. Empty: none.
+/// Conductances that pull nodes to given voltages: conductance (x - voltage) is added to the equation of each node. Empty: no clamps.
 struct Springs {
     std::vector<double> g, to;
 };
 
-/// Newton's steps from x on; x is left where they ended. False: they did not arrive. Bound to its system, whose matrix it has analysed.
+/// Newton's method for one system. It refers to the system and keeps the symbolic analysis of its matrix.
 struct Newton {
     const System& system;
     Tolerances tolerances;
@@ -40,17 +40,18 @@ struct Newton {
     Sums sums;
     std::vector<double> memory;
     int iterations = 0;
-    int singular = -1;  ///< the unknown at which the matrix was last found singular; -1: it was not
+    int singular = -1;  ///< unknown at which the matrix of the last solve was singular; -1: not singular
     std::vector<double> step;
 
     Newton(const System&, const Tolerances&);
-    bool balanced() const;  ///< whether the last sums are as good as zero
-    bool run(std::vector<double>& x, const Springs& = {}, int most = 0);
-    /// Of the system at x: how far it is from an answer, in words.
+    bool balanced() const;  ///< true if the last residual is below the tolerances
+    /// Iterates from x; afterwards x is the last iterate. max_iterations 0: itl1. Returns true if it converged.
+    bool run(std::vector<double>& x, const Springs& = {}, int max_iterations = 0);
+    /// Describes the largest residual at x as text: the unknown, the value and the device.
     std::string distance(std::span<const double> x);
 };
 
-/// From `start`; if that is empty, from 0 everywhere, with .nodeset first. `held`: springs that stay to the end.
-Result<OperatingPoint> operating_point(Newton&, std::vector<double> start = {}, Springs held = {});
+/// Starts from `start`; if that is empty, from 0 with the voltages of .nodeset. `clamps` are part of the solved circuit.
+Result<OperatingPoint> operating_point(Newton&, std::vector<double> start = {}, Springs clamps = {});
 
 }  // namespace corpuscle::circuit

@@ -12,10 +12,10 @@ void Past::accept() {
 PastWeights weights_of_value(std::span<const double> times, double t) {
     PastWeights w{};
     for (std::size_t j = 0; j < times.size(); ++j) {
-        double part = 1;
+        double factor = 1;
         for (std::size_t i = 0; i < times.size(); ++i)
-            if (i != j) part *= (t - times[i]) / (times[j] - times[i]);
-        w[j] = part;
+            if (i != j) factor *= (t - times[i]) / (times[j] - times[i]);
+        w[j] = factor;
     }
     return w;
 }
@@ -25,10 +25,10 @@ PastWeights weights_of_slope(std::span<const double> times, double t, double& le
     leading = 0;
     for (std::size_t j = 0; j < times.size(); ++j) {
         leading += 1 / (t - times[j]);
-        double part = 1 / (times[j] - t);
+        double factor = 1 / (times[j] - t);
         for (std::size_t i = 0; i < times.size(); ++i)
-            if (i != j) part *= (t - times[i]) / (times[j] - times[i]);
-        w[j] = part;
+            if (i != j) factor *= (t - times[i]) / (times[j] - times[i]);
+        w[j] = factor;
     }
     return w;
 }
@@ -36,13 +36,13 @@ PastWeights weights_of_slope(std::span<const double> times, double t, double& le
 PastWeights weights_of_bend(std::span<const double> times) {
     PastWeights w{};
     const double half = times[1] + (times[0] - times[1]) / 2;
-    double there = 1;  // the product of all but the last, half way
-    for (std::size_t j = 0; j + 1 < times.size(); ++j) there *= half - times[j];
+    double numerator = 1;  // product over all points but the last, at mid-step
+    for (std::size_t j = 0; j + 1 < times.size(); ++j) numerator *= half - times[j];
     for (std::size_t k = 0; k < times.size(); ++k) {
-        double apart = 1;
+        double denominator = 1;
         for (std::size_t j = 0; j < times.size(); ++j)
-            if (j != k) apart *= times[k] - times[j];
-        w[k] = there / apart;
+            if (j != k) denominator *= times[k] - times[j];
+        w[k] = numerator / denominator;
     }
     return w;
 }
@@ -63,12 +63,12 @@ Past::Weights Past::slope(double t, int order, double& leading) const {
     return weights_of_slope(std::span(all).first(static_cast<std::size_t>(order)), t, leading);
 }
 
-void Past::sum(const Weights& w, int points, std::vector<double> Moment::* member, std::span<double> out) const {
+void Past::sum(const Weights& w, int points, std::vector<double> Moment::*member, std::span<double> out) const {
     const auto count = out.size();
     for (int j = 0; j < points; ++j) {
         const double* const from = ((*this)[j].*member).data();
-        const double by = w[static_cast<std::size_t>(j)];
-        for (std::size_t n = 0; n < count; ++n) out[n] = j == 0 ? by * from[n] : out[n] + by * from[n];
+        const double weight = w[static_cast<std::size_t>(j)];
+        for (std::size_t n = 0; n < count; ++n) out[n] = j == 0 ? weight * from[n] : out[n] + weight * from[n];
     }
 }
 

@@ -6,10 +6,10 @@
 
 namespace corpuscle::circuit {
 
-SideBySide::Sums SideBySide::sums_of(std::vector<std::pair<int, int>> to_from) {
+SideBySide::Sums SideBySide::sums_of(std::vector<std::pair<int, int>> target_source) {
     std::map<int, std::vector<int>> sources;
-    for (const auto& [to, from] : to_from) sources[to].push_back(from);
-    std::vector<std::pair<std::size_t, int>> order;  // of the same length together: a processor learns them
+    for (const auto& [to, from] : target_source) sources[to].push_back(from);
+    std::vector<std::pair<std::size_t, int>> order;  // equal lengths together, for branch prediction
     for (const auto& [to, from] : sources) order.emplace_back(from.size(), to);
     std::sort(order.begin(), order.end());
     Sums out;
@@ -31,7 +31,7 @@ void SideBySide::Sums::add(const double* numbers, double* out) const {
             out[*target++] = sum;
         }
     };
-    for (const auto& [terms, count] : runs) switch (terms) {  // short ones unrolled
+    for (const auto& [terms, count] : runs) switch (terms) {  // short sums are unrolled
             case 1:
                 run(std::integral_constant<int, 1>(), count);
                 break;
@@ -54,34 +54,34 @@ SideBySide::SideBySide(const System& system) {
     std::vector<std::pair<int, int>> slopes, currents, charges;
     std::size_t at = 0;
     for (const auto& group : system.groups()) {
-        const auto n = group.terminals, room = group.room;
+        const auto n = group.terminals, stride = group.room;
         parts_.push_back({group, at});
-        const auto f = at + n * room, q = f + n * room, df = q + n * room;
+        const auto f = at + n * stride, q = f + n * stride, df = q + n * stride;
         for (std::size_t j = 0; j < n; ++j)
-            for (std::size_t k = 0; k < room; ++k) {
+            for (std::size_t k = 0; k < stride; ++k) {
                 const int u = group.unknowns[std::min(k, group.members.size() - 1) * n + j];
                 terminals_.push_back(u < 0 ? ground : u);
                 if (u < 0 || k >= group.members.size()) continue;
-                currents.emplace_back(u, static_cast<int>(f + j * room + k));
-                charges.emplace_back(u, static_cast<int>(q + j * room + k));
+                currents.emplace_back(u, static_cast<int>(f + j * stride + k));
+                charges.emplace_back(u, static_cast<int>(q + j * stride + k));
             }
         for (std::size_t k = 0; k < group.members.size(); ++k)
             for (std::size_t entry = 0; entry < n * n; ++entry)
                 if (const auto place = group.places[k * n * n + entry]; place < system.pattern().entries())
-                    slopes.emplace_back(static_cast<int>(place), static_cast<int>(df + entry * room + k));
-        at += (3 * n + 2 * n * n) * room;
+                    slopes.emplace_back(static_cast<int>(place), static_cast<int>(df + entry * stride + k));
+        at += (3 * n + 2 * n * n) * stride;
     }
     lines_.resize(at / 8);
     slopes_ = sums_of(std::move(slopes)), currents_ = sums_of(std::move(currents)), charges_ = sums_of(std::move(charges));
 }
 
-void SideBySide::look(const Instant& at, double rate, const std::vector<double>& x, std::vector<double>& J, std::vector<double>& r) {
+void SideBySide::look(const Instant& context, double rate, const std::vector<double>& x, std::vector<double>& J, std::vector<double>& r) {
     const int* terminal = terminals_.data();
-    for (const auto& part : parts_) {
-        const auto n = part.group.terminals, room = part.group.room;
-        double *const v = numbers() + part.at, *const f = v + n * room, *const q = f + n * room, *const df = q + n * room;
-        for (std::size_t k = 0; k < n * room; ++k) v[k] = x[static_cast<std::size_t>(*terminal++)];
-        part.group.bank->eval(at, {room, v, f, df, nullptr, q, df + n * n * room, rate});
+    for (const auto& buffer : parts_) {
+        const auto n = buffer.group.terminals, stride = buffer.group.room;
+        double *const v = numbers() + buffer.at, *const f = v + n * stride, *const q = f + n * stride, *const df = q + n * stride;
+        for (std::size_t k = 0; k < n * stride; ++k) v[k] = x[static_cast<std::size_t>(*terminal++)];
+        buffer.group.bank->eval(context, {stride, v, f, df, nullptr, q, df + n * n * stride, rate});
     }
     slopes_.add(numbers(), J.data());
     currents_.add(numbers(), r.data());
@@ -89,11 +89,11 @@ void SideBySide::look(const Instant& at, double rate, const std::vector<double>&
 
 void SideBySide::charges(const std::vector<double>& step, std::vector<double>& q) {
     const int* terminal = terminals_.data();
-    for (const auto& part : parts_) {
-        const auto n = part.group.terminals, room = part.group.room;
-        double *const d = numbers() + part.at, *const qs = d + 2 * n * room, *const dq = qs + (1 + n) * n * room;
-        for (std::size_t k = 0; k < n * room; ++k) d[k] = step[static_cast<std::size_t>(*terminal++)];
-        part.group.bank->follow(room, d, dq, qs);
+    for (const auto& buffer : parts_) {
+        const auto n = buffer.group.terminals, stride = buffer.group.room;
+        double *const d = numbers() + buffer.at, *const qs = d + 2 * n * stride, *const dq = qs + (1 + n) * n * stride;
+        for (std::size_t k = 0; k < n * stride; ++k) d[k] = step[static_cast<std::size_t>(*terminal++)];
+        buffer.group.bank->follow(stride, d, dq, qs);
     }
     charges_.add(numbers(), q.data());
 }

@@ -1,21 +1,21 @@
 #pragma once
-// Devices on lanes, and their way from a circuit's unknowns and back into its equations.
+// Evaluates devices on SIMD lanes: gathers their voltages from the unknowns and scatters the results into the equations.
 
 #include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {
 
-/// All groups of a system. Numbers go by lists made once: a voltage to each terminal from its unknown, to each place of the matrix the
-/// slopes that meet there. Vectors of unknowns here have one number more at their end, of ground.
+/// All device groups of a system. Index lists are made once: the unknown of each terminal, and the derivatives that add up to each matrix
+/// entry. Vectors of unknowns have one more element at the end, for ground.
 class SideBySide {
     struct Part {
         const Group& group;
-        std::size_t at;  // where its numbers begin: v, f, q [terminals][room]; df, dq [terminals^2][room]
+        std::size_t at;  // start of its values: v, f, q [terminals][stride]; df, dq [terminals^2][stride]
     };
     struct alignas(64) Line {
         double of[8];
     };
-    /// Sums of numbers, those of so many terms together.
+    /// Index lists that add values to targets, grouped by the number of terms of each target.
     struct Sums {
         struct Run {
             int terms, count;
@@ -26,7 +26,7 @@ class SideBySide {
     };
     std::vector<Part> parts_;
     std::vector<Line> lines_;
-    std::vector<int> terminals_;  // of each part's v, one part after another
+    std::vector<int> terminals_;  // unknown of each element of v, one buffer after another
     Sums slopes_, currents_, charges_;
 
     double* numbers() { return lines_.empty() ? nullptr : lines_[0].of; }
@@ -36,9 +36,9 @@ public:
     explicit SideBySide(const System&);
     SideBySide(const SideBySide&) = delete;
 
-    /// All devices at x; f + rate q is added to r, and df + rate dq to J.
+    /// Evaluates all devices at x; adds f + rate q to r, and df + rate dq to J.
     void look(const Instant&, double rate, const std::vector<double>& x, std::vector<double>& J, std::vector<double>& r);
-    /// Adds the charges at `step` from where they were looked at, along their slopes, to q. Once after each look.
+    /// Adds the charges after `step`, extrapolated linearly from the last evaluation, to q. Call at most once after each evaluate().
     void charges(const std::vector<double>& step, std::vector<double>& q);
 };
 

@@ -6,19 +6,20 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// A disturbance v exp(lambda t) obeys (G + lambda C) v = 0; under M = (G + a C)^-1 (a C - G) it becomes v (a + lambda) / (a - lambda),
-/// which is longer than v where it grows, and longest for a near |lambda|: so repeated M finds it, decade by decade.
+/// Power iteration. A disturbance v exp(lambda t) satisfies (G + lambda C) v = 0. M = (G + a C)^-1 (a C - G) maps v to
+/// v (a + lambda) / (a - lambda), which is longer than v if the disturbance grows, and longest for a near |lambda|. So repeated
+/// multiplication by M, with a in each decade, finds the growing disturbance.
 class Disturbance {
     const System& system_;
     std::span<const double> G_, C_;
     std::vector<double> sum_, v_, next_;
-    double ratio_ = 0;  // of the last step, with its sign
+    double ratio_ = 0;  // signed growth in the last step
 
-    double largest(const std::vector<double>& x) const {
-        double most = 0;
+    double largest_voltage(const std::vector<double>& x) const {
+        double largest = 0;
         for (int n = 0; n < system_.size(); ++n)
-            if (system_.is_voltage(n)) most = std::max(most, std::abs(x[static_cast<std::size_t>(n)]));
-        return most;
+            if (system_.is_voltage(n)) largest = std::max(largest, std::abs(x[static_cast<std::size_t>(n)]));
+        return largest;
     }
     /// next = (c C - g G) v
     void multiply(double c, double g) {
@@ -30,16 +31,16 @@ class Disturbance {
                 next_[static_cast<std::size_t>(p.rows()[k])] += (c * C_[k] - g * G_[k]) * v_[static_cast<std::size_t>(column)];
             }
     }
-    /// v = next, as long as 1; returns how long it was. 0: it cannot be told.
-    double take() {
-        const double most = largest(next_);
-        if (!(most > 0) || !std::isfinite(most)) return 0;
-        std::size_t at = 0;
+    /// v = next, normalized to length 1. Returns the length before; 0 if it is zero or not finite.
+    double normalize() {
+        const double length = largest_voltage(next_);
+        if (!(length > 0) || !std::isfinite(length)) return 0;
+        std::size_t peak = 0;
         for (std::size_t n = 0; n < v_.size(); ++n)
-            if (std::abs(next_[n]) > std::abs(next_[at])) at = n;
-        ratio_ = v_[at] == 0 ? 0 : next_[at] / v_[at];
-        for (std::size_t n = 0; n < v_.size(); ++n) v_[n] = next_[n] / most;
-        return most;
+            if (std::abs(next_[n]) > std::abs(next_[peak])) peak = n;
+        ratio_ = v_[peak] == 0 ? 0 : next_[peak] / v_[peak];
+        for (std::size_t n = 0; n < v_.size(); ++n) v_[n] = next_[n] / length;
+        return length;
     }
 
 public:
@@ -47,8 +48,8 @@ public:
         sum_.resize(G.size()), next_.resize(static_cast<std::size_t>(system.size()));
     }
 
-    /// By how much it grows a step in the long run.
-    double grow(double a) {
+    /// The mean growth factor per step after many steps.
+    double growth_per_step(double a) {
         constexpr int steps = 80;
         for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] = G_[k] + a * C_[k];
         Solver<double> solver(system_.pattern());
@@ -57,12 +58,12 @@ public:
         for (std::size_t n = 0; n < v_.size(); ++n) v_[n] = 1 - 2 * std::fmod(0.6180339887498949 * static_cast<double>(n + 1), 1.0);
         double length = 1;
         for (int k = 0; k < steps; ++k) {
-            // At first without the part that no charge holds, which M would only turn round.
+            // The first steps remove the component without charge, for which M only changes the sign.
             k < 4 ? multiply(a, 0) : multiply(a, 1);
             solver.solve(next_);
-            const double most = take();
-            if (most == 0) return 0;
-            if (k >= steps / 2) length *= most;
+            const double factor = normalize();
+            if (factor == 0) return 0;
+            if (k >= steps / 2) length *= factor;
         }
         return std::pow(length, 2.0 / steps);
     }
@@ -74,19 +75,19 @@ public:
 
 std::optional<Growth> growth_at(Newton& newton, std::span<const double> x) {
     const System& system = newton.system;
-    Instant at = newton.instant;
-    at.charges = true;
+    Instant context = newton.instant;
+    context.charges = true;
     auto memory = newton.memory;
-    system.eval(x, at, memory, newton.sums);
+    system.eval(x, context, memory, newton.sums);
     const auto entries = system.pattern().entries();
     Disturbance disturbance(system, std::span(newton.sums.G).first(entries), std::span(newton.sums.C).first(entries));
-    double most = 1.02, best = 0;
+    double largest = 1.02, best = 0;
     for (double a = 1e-2; a < 1e13; a *= 10)
-        if (const double by = disturbance.grow(a); by > most) most = by, best = a;
+        if (const double growth = disturbance.growth_per_step(a); growth > largest) largest = growth, best = a;
     if (best == 0) return {};
-    (void)disturbance.grow(best);
+    (void)disturbance.growth_per_step(best);
     const double z = disturbance.ratio(), rate = best * (z - 1) / (z + 1);
-    const bool steady = std::abs(std::abs(z) / most - 1) < 1e-3 && rate > 0;
+    const bool steady = std::abs(std::abs(z) / largest - 1) < 1e-3 && rate > 0;
     return Growth{disturbance.direction(), steady ? rate : 0};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a circuit stays where it rests.
+// Stability of an operating point.
 
 #include <optional>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace corpuscle::circuit {
 
-/// How a disturbance of an unstable equilibrium grows.
+/// The fastest growing disturbance of an unstable operating point.
 struct Growth {
-    std::vector<double> direction;  ///< of the unknowns; the largest voltage is 1
-    double rate;                    ///< 1/s; 0: it swings while it grows, and how fast is not known
+    std::vector<double> direction;  ///< by unknown; the largest voltage is 1
+    double rate;                    ///< 1/s; 0: it oscillates while it grows, and the rate is not known
 };
 
-/// Of the circuit at x, where f(x) = 0. Nothing: disturbances die out; or grow in more than a hundred seconds, or by less than some
-/// hundredth while they swing once.
+/// For a circuit at x, where f(x) = 0. Returns nothing if all disturbances decay. Growth with a time constant above about 100 s, or of an
+/// oscillation by less than about 1 % per cycle, is not detected.
 std::optional<Growth> growth_at(Newton&, std::span<const double> x);
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// How long a transient's steps are, of what order, and when Newton's way to the end of one is over: numbers alone, whatever they are of.
+// Step size and order control of a transient, and convergence control of its Newton iterations. Pure numbers, independent of circuits.
 
 #include <algorithm>
 #include <cmath>
@@ -8,81 +8,84 @@
 
 namespace corpuscle::circuit {
 
-/// Length and order of the next step of BDF.
+/// Chooses the length and the order of the next BDF step.
 struct StepControl {
     int order = 1, since_choice = 0, failures = 0;
-    bool starting = true;  ///< since the start every step has been of the highest order its points allow
+    bool starting = true;  ///< since the start, every step has used the highest order that its points allow
     double h = 0;          ///< s
-    double calm = 0;       ///< s: the longest of the last steps, less the longer ago it was
+    double calm = 0;       ///< s: longest of the recent steps, with exponential decay
 
-    static constexpr double safety = 0.65;  ///< a step that has to be taken again costs more than some shorter ones
-    static constexpr double longer = 2;     ///< no step is so many times as long as the last
-    static constexpr double curved = 2;     ///< allowed units: how far a curve between two points may be off
-    static constexpr int curve_points = 5;  ///< at the most, of the polynomial between two points
+    static constexpr double safety = 0.65;  ///< below 1, since a rejected step costs more than several shorter ones
+    static constexpr double longer = 2;     ///< largest ratio of successive step lengths
+    static constexpr double curved = 2;     ///< allowed interpolation error between two points, relative to the allowed error
+    static constexpr int curve_points = 5;  ///< maximum number of points of the interpolating polynomial
 
-    /// How much longer a step of this order may be, for an error of one allowed unit.
+    /// Factor of the step length for which a method of this order would have exactly the allowed error.
     static double growth(double error, int order) {
         return error > 0 ? std::min(safety * num::exp(num::log(error) / -(order + 1)), 10.0) : 10;
     }
 
     void start_over() { order = 1, since_choice = 0, starting = true; }
 
-    /// Whether the errors of the next lower and higher order are wanted for choose().
+    /// True if choose() needs the errors of the next lower and higher order.
     bool looks_around() const { return since_choice > order || starting; }
     bool can_fall() const { return order > 1; }
     bool can_rise(int highest, int points) const { return order < highest && points > order + 1; }
 
-    /// After a step of this length and error, with so many points before it and orders up to `highest`. error_of(order) gives the others'.
+    /// After an accepted step of length `taken` with this error. points: number of earlier points; highest: largest allowed order;
+    /// error_of(order): error of the step for another order.
     template <class ErrorOf>
     void choose(double taken, double error, int points, int highest, ErrorOf&& error_of) {
-        double most = growth(error, order);
+        double factor = growth(error, order);
         if (looks_around()) {
             since_choice = 0;
             const double lower = can_fall() ? 0.9 * growth(error_of(order - 1), order - 1) : 0;
             const double higher = can_rise(highest, points) ? 0.9 * growth(error_of(order + 1), order + 1) : 0;
-            if (lower > most && lower > higher)
-                --order, most = lower, starting = false;
-            else if (higher > most)
-                ++order, most = higher;
+            if (lower > factor && lower > higher)
+                --order, factor = lower, starting = false;
+            else if (higher > factor)
+                ++order, factor = higher;
             else if (starting && order < highest)
                 ++order;
         }
-        stretch(taken, most, points);
+        stretch(taken, factor, points);
     }
-    /// After choose(): no longer than the curve between two points allows, which is off by so many times what it may be.
-    void hold(double taken, double bend, int curve) { h = std::min(h, taken * std::clamp(growth(bend, curve - 1), 0.3, longer)); }
+    /// After choose(): limits the step so that the interpolation error stays allowed. error: that of the last step, relative to the allowed
+    /// error; points: of the interpolating polynomial.
+    void hold(double taken, double error, int points) { h = std::min(h, taken * std::clamp(growth(error, points - 1), 0.3, longer)); }
     void took(double step) { calm = std::max(step, 0.7 * calm); }
-    /// A step no longer than this may hold a jump: what has no charge then counts at its ends alone, and a straight line lies between.
-    double jump(double reltol, double longest) const { return std::max(reltol * calm, 1e-9 * longest); }
-    void stretch(double taken, double by, int points) { h = taken * std::clamp(by, 0.3, points < 3 ? 5 : longer); }
+    /// Steps up to this length may contain a jump. Unknowns without charge are then checked at the ends only, and interpolation is linear.
+    double jump(double reltol, double max_step) const { return std::max(reltol * calm, 1e-9 * max_step); }
+    void stretch(double taken, double factor, int points) { h = taken * std::clamp(factor, 0.3, points < 3 ? 5 : longer); }
 
-    /// After one that was too long by its error, or whose equations were not solved (0). True: all is to begin anew, from the last point;
-    /// `before`: how long the last step was, 0 if there was none since the start; `patience`: how often it may fail before that.
-    bool shorten(double taken, double error, double before, int patience = 1) {
+    /// After a rejected step of length `taken`. error: relative to the allowed error; 0: the equations were not solved. last: length of the
+    /// step before, 0 if there was none since the start. Returns true if the integration must restart from the last point, which happens
+    /// after more than `max_failures` failures or a strong reduction.
+    bool shorten(double taken, double error, double last, int max_failures = 1) {
         ++failures;
-        h = taken * (error > 0 ? std::clamp(growth(error, order), before > 0 ? 0.1 : 1e-3, 0.8) : 0.125);
-        return before > 0 && (failures > patience || h < 0.1 * before);
+        h = taken * (error > 0 ? std::clamp(growth(error, order), last > 0 ? 0.1 : 1e-3, 0.8) : 0.125);
+        return last > 0 && (failures > max_failures || h < 0.1 * last);
     }
 };
 
-/// Newton's steps towards the end of one in time.
+/// Convergence control of the Newton iterations of one time step.
 struct NewtonControl {
     enum class Way { on, arrived, lost };
     static constexpr int most_iterations = 12;
-    static constexpr double near_enough = 0.03;  ///< of what is allowed: what an iteration may leave over
+    static constexpr double near_enough = 0.03;  ///< error that the iteration may leave, relative to the allowed error
 
     int tries = 0;
-    double before = 0;  ///< the last one's size, in allowed units; 0: it was cut short
-    double bend = 1;    ///< how much of a squared step is left after it
+    double before = 0;  ///< size of the last Newton step, relative to the allowed error; 0: it was limited
+    double bend = 1;    ///< constant of the quadratic convergence: error after a step / (size of the step)^2
 
     void begin() { tries = 0, before = 0; }
-    /// It is not there after all, for a reason that no step's size tells.
+    /// The iteration has not converged although the last Newton step was small.
     Way not_yet() const { return tries < most_iterations ? Way::on : Way::lost; }
-    /// After a step of this size, of equations that are not straight; `cut`: it was made shorter, or looked elsewhere than it stood.
-    Way after(double size, bool cut) {
+    /// After a Newton step of this size for nonlinear equations. is_limited: the step was limited, or a device was evaluated elsewhere.
+    Way after(double size, bool is_limited) {
         const double last = before;
-        before = cut ? 0 : size, ++tries;
-        if (cut) return tries < most_iterations ? Way::on : Way::lost;
+        before = is_limited ? 0 : size, ++tries;
+        if (is_limited) return tries < most_iterations ? Way::on : Way::lost;
         if (last > 0.1) bend = std::max(0.7 * bend, std::min(1.0, size / (last * last)));
         if (bend * size * size <= near_enough && (size < 10 || last > 0)) return Way::arrived;
         return tries >= most_iterations || (last > 0 && size > 2 * last && tries > 3) ? Way::lost : Way::on;

@@ -7,7 +7,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double doubtful_growth = 1e4, doubtful_rest = 1e-9;  // of the list's elimination: when its answer is looked at, what it may leave
+// A solution by the elimination list is checked if the pivot growth exceeds the first value. The second is the allowed relative residual.
+constexpr double doubtful_growth = 1e4, doubtful_residual = 1e-9;
 
 }  // namespace
 
@@ -21,20 +22,20 @@ StepEquations::StepEquations(const System& system, Newton& newton)
     for (const auto k : system.alone()) {
         const Device& d = *system.devices()[k];
         const auto n = d.unknowns.size();
-        Own own{k, n, d.unknowns, std::vector<double>(n), std::vector<double>(n), std::vector<double>(2 * n + 2 * n * n)};
-        for (int& u : own.unknowns) u = u < 0 ? static_cast<int>(count) : u;
+        Own scalar{k, n, d.unknowns, std::vector<double>(n), std::vector<double>(n), std::vector<double>(2 * n + 2 * n * n)};
+        for (int& u : scalar.unknowns) u = u < 0 ? static_cast<int>(count) : u;
         if (!d.linear()) {
-            own_.push_back(std::move(own));
+            own_.push_back(std::move(scalar));
             continue;
         }
         if (d.varies()) varying_.push_back(k);
-        const std::span<double> all(own.stamp);
-        d.eval(own.v, newton.instant, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        const std::span<double> all(scalar.stamp);
+        d.eval(scalar.v, newton.instant, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
         for (std::size_t row = 0; row < n; ++row) {
-            if (!d.varies()) still_[static_cast<std::size_t>(own.unknowns[row])] += all[row];
+            if (!d.varies()) still_[static_cast<std::size_t>(scalar.unknowns[row])] += all[row];
             for (std::size_t column = 0; column < n; ++column) {
                 auto& sum = sums[system.places(k)[row * n + column]];
-                sum.row = own.unknowns[row], sum.column = own.unknowns[column];
+                sum.row = scalar.unknowns[row], sum.column = scalar.unknowns[column];
                 sum.g += all[2 * n + row * n + column], sum.c += all[2 * n + n * n + row * n + column];
             }
         }
@@ -62,36 +63,37 @@ void StepEquations::prepare(double t, double a, std::span<const double> history)
     for (const auto& l : linear_) J_0_[l.place] = l.g + a * l.c;
 }
 
-void StepEquations::look_at_own(Own& own) {
-    const Device& d = *system_.devices()[own.device];
-    const auto n = own.terminals;
-    for (std::size_t j = 0; j < n; ++j) own.v[j] = x_[static_cast<std::size_t>(own.unknowns[j])];
-    own.looked = own.v;
-    own.limited = d.memory() > 0 && d.limit(own.looked, system_.memory_of(own.device, newton_.memory));
-    limited_ |= own.limited;
-    std::fill(own.stamp.begin(), own.stamp.end(), 0.0);
-    const std::span<double> all(own.stamp);
+void StepEquations::look_at_own(Own& scalar) {
+    const Device& d = *system_.devices()[scalar.device];
+    const auto n = scalar.terminals;
+    for (std::size_t j = 0; j < n; ++j) scalar.v[j] = x_[static_cast<std::size_t>(scalar.unknowns[j])];
+    scalar.looked = scalar.v;
+    scalar.limited = d.memory() > 0 && d.limit(scalar.looked, system_.memory_of(scalar.device, newton_.memory));
+    limited_ |= scalar.limited;
+    std::fill(scalar.stamp.begin(), scalar.stamp.end(), 0.0);
+    const std::span<double> all(scalar.stamp);
     const Stamp stamp{all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)};
-    d.eval(own.looked, newton_.instant, stamp);
-    const auto places = system_.places(own.device);
+    d.eval(scalar.looked, newton_.instant, stamp);
+    const auto places = system_.places(scalar.device);
     for (std::size_t row = 0; row < n; ++row) {
         for (std::size_t column = 0; column < n; ++column) {
             const double slope = stamp.slope(row, column), c = stamp.capacitance(row, column);
-            if (own.limited)
-                stamp.f[row] += slope * (own.v[column] - own.looked[column]), stamp.q[row] += c * (own.v[column] - own.looked[column]);
+            if (scalar.limited)
+                stamp.f[row] += slope * (scalar.v[column] - scalar.looked[column]),
+                    stamp.q[row] += c * (scalar.v[column] - scalar.looked[column]);
             J_[places[row * n + column]] += slope + a_ * c;
         }
-        r_[static_cast<std::size_t>(own.unknowns[row])] += stamp.f[row] + a_ * stamp.q[row];
+        r_[static_cast<std::size_t>(scalar.unknowns[row])] += stamp.f[row] + a_ * stamp.q[row];
     }
 }
 
-/// r and J at x.
+/// Computes r and J at x.
 void StepEquations::look(std::span<const double> x) {
     std::copy(x.begin(), x.end(), x_.begin());
     J_ = J_0_, r_ = base_;
     for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += J_0_[l.place] * x_[static_cast<std::size_t>(l.column)];
     limited_ = false;
-    for (auto& own : own_) look_at_own(own);
+    for (auto& scalar : own_) look_at_own(scalar);
     side_by_side_.look(newton_.instant, a_, x_, J_, r_);
 }
 
@@ -106,7 +108,7 @@ double StepEquations::largest_step(std::span<const double> allowed, bool& clampe
     return largest;
 }
 
-/// J step + r = 0.
+/// Solves J step + r = 0.
 bool StepEquations::solve_for_step() {
     const auto J = std::span<const double>(J_).first(J_.size() - 1);
     const auto step = std::span(step_).first(step_.size() - 1);
@@ -116,12 +118,12 @@ bool StepEquations::solve_for_step() {
     };
     if (!solver_.factor(J)) return false;
     solve();
-    if (solver_.growth() < doubtful_growth || left_over() < doubtful_rest) return true;
+    if (solver_.growth() < doubtful_growth || left_over() < doubtful_residual) return true;
     if (!solver_.factor_anew(J)) return false;
     return solve(), true;
 }
 
-/// The largest part of a row of J step + r that is left, of the largest number in that row.
+/// The largest residual of J step + r, relative to the largest term of its row.
 double StepEquations::left_over() {
     const auto& p = system_.pattern();
     scratch_.assign(r_.begin(), r_.end());
@@ -129,13 +131,13 @@ double StepEquations::left_over() {
     for (std::size_t column = 0; column + 1 < step_.size(); ++column)
         for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e) {
             const auto row = static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)]);
-            const double part = J_[static_cast<std::size_t>(e)] * step_[column];
-            scratch_[row] += part, largest[row] = std::max(largest[row], std::abs(part));
+            const double term = J_[static_cast<std::size_t>(e)] * step_[column];
+            scratch_[row] += term, largest[row] = std::max(largest[row], std::abs(term));
         }
-    double most = 0;
+    double largest_residual = 0;
     for (std::size_t n = 0; n + 1 < r_.size(); ++n)
-        if (largest[n] > 0) most = std::max(most, std::abs(scratch_[n]) / std::max(largest[n], std::abs(r_[n])));
-    return most;
+        if (largest[n] > 0) largest_residual = std::max(largest_residual, std::abs(scratch_[n]) / std::max(largest[n], std::abs(r_[n])));
+    return largest_residual;
 }
 
 StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<const double> allowed) {
@@ -147,30 +149,31 @@ StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<cons
     if (!std::isfinite(size)) return Way::lost;
     for (std::size_t n = 0; n < x.size(); ++n) x[n] += step_[n];
     if (system_.linear()) return Way::arrived;
-    const auto way = newton_control_.after(size, limited_ || clamped);
-    return way != Way::arrived || !checks_formulas_ || formulas_hold() ? way : newton_control_.not_yet();
+    const auto status = newton_control_.after(size, limited_ || clamped);
+    return status != Way::arrived || !checks_formulas_ || formulas_hold() ? status : newton_control_.not_yet();
 }
 
-/// After a step from where they were looked at.
+/// Compares the expressions after the Newton step with their linearizations.
 bool StepEquations::formulas_hold() {
-    for (const auto& own : own_) {
-        const Device& d = *system_.devices()[own.device];
+    for (const auto& scalar : own_) {
+        const Device& d = *system_.devices()[scalar.device];
         if (!d.jumps()) continue;
-        const auto n = own.terminals;
+        const auto n = scalar.terminals;
         scratch_.assign(3 * n + 2 * n * n, 0.0);
         const std::span<double> all(scratch_);
         const auto v = all.last(n), f = all.first(n);
         for (std::size_t j = 0; j < n; ++j) {
-            const auto u = static_cast<std::size_t>(own.unknowns[j]);
+            const auto u = static_cast<std::size_t>(scalar.unknowns[j]);
             v[j] = x_[u] + step_[u];
         }
         d.eval(v, newton_.instant, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
         for (std::size_t row = 0; row < n; ++row) {
-            double line = own.stamp[row];
-            for (std::size_t column = 0; column < n; ++column) line += own.stamp[2 * n + row * n + column] * (v[column] - own.v[column]);
-            const bool volts = own.unknowns[row] < system_.size() && !voltage_[static_cast<std::size_t>(own.unknowns[row])];
-            const double size = volts ? std::abs(v[0] - v[1]) : std::max(std::abs(f[row]), std::abs(line));
-            if (!formulas_.holds(volts, f[row] - line, size)) return false;
+            double linear = scalar.stamp[row];
+            for (std::size_t column = 0; column < n; ++column)
+                linear += scalar.stamp[2 * n + row * n + column] * (v[column] - scalar.v[column]);
+            const bool is_voltage = scalar.unknowns[row] < system_.size() && !voltage_[static_cast<std::size_t>(scalar.unknowns[row])];
+            const double scale = is_voltage ? std::abs(v[0] - v[1]) : std::max(std::abs(f[row]), std::abs(linear));
+            if (!formulas_.holds(is_voltage, f[row] - linear, scale)) return false;
         }
     }
     return true;
@@ -178,16 +181,16 @@ bool StepEquations::formulas_hold() {
 
 void StepEquations::charges(std::span<double> q) {
     const auto count = q.size();
-    for (std::size_t n = 0; n < count; ++n) x_[n] += step_[n];  // where it was looked at last, and the step from there
+    for (std::size_t n = 0; n < count; ++n) x_[n] += step_[n];  // last evaluation plus the Newton step
     std::fill(r_.begin(), r_.end(), 0.0);
     for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += l.c * x_[static_cast<std::size_t>(l.column)];
-    for (const auto& own : own_) {
-        const auto n = own.terminals;
+    for (const auto& scalar : own_) {
+        const auto n = scalar.terminals;
         for (std::size_t row = 0; row < n; ++row) {
-            double sum = own.stamp[n + row];
+            double sum = scalar.stamp[n + row];
             for (std::size_t column = 0; column < n; ++column)
-                sum += own.stamp[2 * n + n * n + row * n + column] * step_[static_cast<std::size_t>(own.unknowns[column])];
-            r_[static_cast<std::size_t>(own.unknowns[row])] += sum;
+                sum += scalar.stamp[2 * n + n * n + row * n + column] * step_[static_cast<std::size_t>(scalar.unknowns[column])];
+            r_[static_cast<std::size_t>(scalar.unknowns[row])] += sum;
         }
     }
     side_by_side_.charges(step_, r_);
@@ -195,10 +198,10 @@ void StepEquations::charges(std::span<double> q) {
 }
 
 void StepEquations::at(double t, std::span<const double> x, std::span<double> f, std::span<double> q) {
-    constexpr int most_looks = 100;
+    constexpr int max_evaluations = 100;
     prepare(t, 0, {});
     look(x);
-    for (int k = 1; limited_ && k < most_looks; ++k) look(x);  // a junction that is looked at elsewhere has another charge there
+    for (int k = 1; limited_ && k < max_evaluations; ++k) look(x);  // until limit() changes no voltage; otherwise the charge is wrong
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(f.size()), f.begin());
     std::fill(step_.begin(), step_.end(), 0.0);
     charges(q);

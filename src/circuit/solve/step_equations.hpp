@@ -1,5 +1,5 @@
 #pragma once
-// The equations of one step in time, f(x, t) + a q(x) + history = 0, and Newton's way to their answer.
+// The equations of one time step, f(x, t) + a q(x) + history = 0, and their solution by Newton's method.
 
 #include "circuit/solve/operating_point.hpp"
 #include "circuit/solve/side_by_side.hpp"
@@ -7,18 +7,18 @@
 
 namespace corpuscle::circuit {
 
-/// Linear devices are summed once and for all, sources once a step; of the others only what the matrix needs is put together, so that an
-/// iteration costs little more than its transistors and one elimination. The charges of the answer follow along their slopes: what a step
-/// leaves over the next one finds, and none is lost.
-/// How far a formula may be from its straight line where Newton's steps end.
+/// The largest difference allowed between an expression and its linearization when a Newton iteration ends.
 struct FormulaTolerance {
     double reltol = 0, vntol = 0, abstol = 0;
-    bool holds(bool volts, double off, double size) const {
-        constexpr double times = 10;
-        return std::abs(off) <= times * (reltol * size + (volts ? vntol : abstol));
+    bool holds(bool is_voltage, double difference, double scale) const {
+        constexpr double factor = 10;
+        return std::abs(difference) <= factor * (reltol * scale + (is_voltage ? vntol : abstol));
     }
 };
 
+/// Linear devices are summed once, sources once per time step, and other devices only into the Jacobian and the residual. So an iteration
+/// costs little more than its transistors and one elimination. The final charges are extrapolated linearly from the last evaluation. The
+/// charge residual of a step enters the next one, so charge is conserved.
 class StepEquations {
     const System& system_;
     Newton& newton_;
@@ -28,9 +28,9 @@ class StepEquations {
         double g, c;
     };
     std::vector<Linear> linear_;
-    std::vector<double> still_;         // what linear devices leave at x = 0 that does not change with time
-    std::vector<std::size_t> varying_;  // sources on their course
-    struct Own {                        // of a device that is not linear and stands alone
+    std::vector<double> still_;         // currents of time-independent linear devices at x = 0
+    std::vector<std::size_t> varying_;  // time-dependent sources
+    struct Own {                        // a nonlinear device that is not in a group
         std::size_t device, terminals;
         std::vector<int> unknowns;
         std::vector<double> v, looked, stamp;
@@ -38,7 +38,7 @@ class StepEquations {
     };
     std::vector<Own> own_;
     SideBySide side_by_side_;
-    Solver<double> solver_;  // its own: the list of a transient's matrices is not that of an operating point's
+    Solver<double> solver_;  // not the one of the operating point, whose pivot order differs
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
     std::vector<char> voltage_;
     NewtonControl newton_control_;
@@ -58,27 +58,28 @@ public:
 
     StepEquations(const System&, Newton&);
 
-    /// For a step that ends at t, with dq/dt = a q + history.
+    /// Prepares a step that ends at t (s), with dq/dt = a q + history.
     void prepare(double t, double a, std::span<const double> history);
-    /// Whether a step is over only when formulas give, at its end, what their straight lines gave: where one jumps these are wrong however
-    /// short Newton's last step was.
+    /// If on, an iteration converges only when each expression with jumps matches its linearization at the solution. At a jump the
+    /// linearization is wrong even if the last Newton step was short.
     void check_formulas(bool on, const FormulaTolerance& t) { checks_formulas_ = on, formulas_ = t; }
     using Way = NewtonControl::Way;
-    /// One of Newton's steps from x. Arrived: no unknown with allowed[n] > 0 is further from the answer than a small part of that.
+    /// One Newton step from x. converged: the error of every unknown with allowed[n] > 0 is a small part of allowed[n].
     Way iterate(std::vector<double>& x, std::span<const double> allowed);
-    /// The largest part of the last step, in allowed units.
+    /// The largest component of the last Newton step, relative to the allowed error.
     double step_size() const { return newton_control_.before; }
-    /// Of the answer.
+    /// The charges of the solution.
     void charges(std::span<double> q);
-    /// e with (G + a C) e = r, at the answer's slopes, in place: what a disturbance of the equations does to the unknowns.
+    /// Solves (G + a C) e = r in place, with the derivatives at the solution: the effect of a perturbation of the equations on the
+    /// unknowns.
     void answer_to(std::span<double> r) const { solver_.solve(r); }
-    /// f(x, t), for a = 0 and no history; q(x).
+    /// Evaluates f(x, t) and q(x) without history and with a = 0.
     void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
-    /// The matrix's order of elimination, for all that follow, is taken from the one at x with dq/dt = a q.
+    /// Fixes the pivot order of all later matrices to that of the matrix at x with dq/dt = a q.
     void settle(std::span<const double> x, double a);
     double bend() const { return newton_control_.bend; }
     void set_bend(double bend) { newton_control_.bend = bend; }
-    /// The list of its elimination, once it is settled; null: there is none.
+    /// The elimination list after fix_pivot_order(); null: there is none.
     const Elimination* elimination() const { return solver_.list(); }
 };
 

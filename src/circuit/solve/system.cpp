@@ -100,15 +100,15 @@ void System::go(double step, double stop) {
 }
 
 double System::pace() const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& d : devices_) least = std::min(least, d->pace());
-    return least;
+    double step = std::numeric_limits<double>::infinity();
+    for (const auto& d : devices_) step = std::min(step, d->pace());
+    return step;
 }
 
 double System::next_corner(double t) const {
-    double first = std::numeric_limits<double>::infinity();
-    for (const auto& d : devices_) first = std::min(first, d->next_corner(t));
-    return first;
+    double time = std::numeric_limits<double>::infinity();
+    for (const auto& d : devices_) time = std::min(time, d->next_corner(t));
+    return time;
 }
 
 bool System::hear(const Trace* force) {
@@ -118,8 +118,8 @@ bool System::hear(const Trace* force) {
 }
 
 void System::draw(const Draw* chip) {
-    std::uint32_t number = 0;
-    for (const auto& d : devices_) number += d->draw(chip, number);
+    std::uint32_t index = 0;
+    for (const auto& d : devices_) index += d->draw(chip, index);
     for (const auto& group : groups_) group.bank->take(group.members);
 }
 
@@ -139,37 +139,39 @@ std::vector<double> System::terminals(const Device& d, std::span<const double> x
     return v;
 }
 
-void System::eval(std::span<const double> x, const Instant& at, std::vector<double>& memory, Sums& sums) const {
+void System::eval(std::span<const double> x, const Instant& context, std::vector<double>& limiting_state, Sums& sums) const {
     const auto count = static_cast<std::size_t>(size());
     sums.f.assign(count, 0), sums.q.assign(count, 0), sums.size.assign(count, 0), sums.grain.assign(count, 0);
-    sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: of ground
+    sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: ground
     sums.limited = false;
-    for (const auto k : alone_) add_device(k, x, at, memory, sums);
-    for (const auto& group : groups_) add_group(group, x, at, sums);
+    for (const auto k : alone_) add_device(k, x, context, limiting_state, sums);
+    for (const auto& group : groups_) add_group(group, x, context, sums);
 }
 
-void System::add_device(std::size_t k, std::span<const double> x, const Instant& at, std::vector<double>& memory, Sums& sums) const {
+void System::add_device(std::size_t k, std::span<const double> x, const Instant& context, std::vector<double>& limiting_state,
+                        Sums& sums) const {
     const Device& d = *devices_[k];
     const auto n = d.unknowns.size();
     if (sums.v_.size() < n) sums.v_.resize(n), sums.looked_.resize(n), sums.own_.resize(2 * n + 2 * n * n);
-    const auto v = std::span(sums.v_).first(n), looked = std::span(sums.looked_).first(n),
-               own = std::span(sums.own_).first(2 * n + 2 * n * n);
+    const auto v = std::span(sums.v_).first(n), limited_v = std::span(sums.looked_).first(n),
+               stamp_buffer = std::span(sums.own_).first(2 * n + 2 * n * n);
     for (std::size_t j = 0; j < n; ++j) v[j] = d.unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[j])];
-    std::copy(v.begin(), v.end(), looked.begin());
-    const bool limited = d.memory() > 0 && d.limit(looked, memory_of(k, memory));
+    std::copy(v.begin(), v.end(), limited_v.begin());
+    const bool limited = d.memory() > 0 && d.limit(limited_v, memory_of(k, limiting_state));
     sums.limited |= limited;
-    std::fill(own.begin(), own.end(), 0.0);
-    const Stamp stamp{own.first(n), own.subspan(n, n), own.subspan(2 * n, n * n), own.subspan(2 * n + n * n)};
-    d.eval(looked, at, stamp);
+    std::fill(stamp_buffer.begin(), stamp_buffer.end(), 0.0);
+    const Stamp stamp{stamp_buffer.first(n), stamp_buffer.subspan(n, n), stamp_buffer.subspan(2 * n, n * n),
+                      stamp_buffer.subspan(2 * n + n * n)};
+    d.eval(limited_v, context, stamp);
     const auto& places = places_[k];
     for (std::size_t row = 0; row < n; ++row) {
-        double f = stamp.f[row], q = stamp.q[row], grain = 0;
+        double f = stamp.f[row], q = stamp.q[row], roundoff = 0;
         for (std::size_t column = 0; column < n; ++column) {
             if (limited) {
-                f += stamp.slope(row, column) * (v[column] - looked[column]);
-                q += stamp.capacitance(row, column) * (v[column] - looked[column]);
+                f += stamp.slope(row, column) * (v[column] - limited_v[column]);
+                q += stamp.capacitance(row, column) * (v[column] - limited_v[column]);
             }
-            grain = std::max(grain, std::abs(stamp.slope(row, column) * v[column]));
+            roundoff = std::max(roundoff, std::abs(stamp.slope(row, column) * v[column]));
             sums.G[places[row * n + column]] += stamp.slope(row, column);
             sums.C[places[row * n + column]] += stamp.capacitance(row, column);
         }
@@ -177,38 +179,38 @@ void System::add_device(std::size_t k, std::span<const double> x, const Instant&
         const auto u = static_cast<std::size_t>(d.unknowns[row]);
         sums.f[u] += f, sums.q[u] += q;
         sums.size[u] = std::max(sums.size[u], std::abs(f));
-        sums.grain[u] = std::max(sums.grain[u], 1e-15 * grain);
+        sums.grain[u] = std::max(sums.grain[u], 1e-15 * roundoff);
     }
 }
 
-void System::add_group(const Group& group, std::span<const double> x, const Instant& at, Sums& sums) const {
-    const auto n = group.terminals, room = group.room, count = group.members.size();
-    const auto lines = (4 * n + 2 * n * n) * room / 8;
-    if (sums.side_by_side_.size() < lines) sums.side_by_side_.resize(lines);
+void System::add_group(const Group& group, std::span<const double> x, const Instant& context, Sums& sums) const {
+    const auto n = group.terminals, stride = group.room, count = group.members.size();
+    const auto line_count = (4 * n + 2 * n * n) * stride / 8;
+    if (sums.side_by_side_.size() < line_count) sums.side_by_side_.resize(line_count);
     double* const v = sums.side_by_side_.data()->of;
-    double *const f = v + n * room, *const most = f + n * room, *const df = most + n * room;
-    double *const q = df + n * n * room, *const dq = q + n * room;
-    for (std::size_t k = 0; k < room; ++k) {
+    double *const f = v + n * stride, *const max_term = f + n * stride, *const df = max_term + n * stride;
+    double *const q = df + n * n * stride, *const dq = q + n * stride;
+    for (std::size_t k = 0; k < stride; ++k) {
         const auto* unknowns = group.unknowns.data() + std::min(k, count - 1) * n;
-        for (std::size_t j = 0; j < n; ++j) v[j * room + k] = unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(unknowns[j])];
+        for (std::size_t j = 0; j < n; ++j) v[j * stride + k] = unknowns[j] < 0 ? 0 : x[static_cast<std::size_t>(unknowns[j])];
     }
-    group.bank->eval(at, {room, v, f, df, most, at.charges ? q : nullptr, dq});
+    group.bank->eval(context, {stride, v, f, df, max_term, context.charges ? q : nullptr, dq});
     for (std::size_t k = 0; k < count; ++k) {
         const auto* unknowns = group.unknowns.data() + k * n;
         const auto* places = group.places.data() + k * n * n;
-        for (std::size_t entry = 0; entry < n * n; ++entry) sums.G[places[entry]] += df[entry * room + k];
+        for (std::size_t entry = 0; entry < n * n; ++entry) sums.G[places[entry]] += df[entry * stride + k];
         for (std::size_t row = 0; row < n; ++row) {
             if (unknowns[row] < 0) continue;
             const auto u = static_cast<std::size_t>(unknowns[row]);
-            const double i = f[row * room + k];
+            const double i = f[row * stride + k];
             sums.f[u] += i;
             sums.size[u] = std::max(sums.size[u], std::abs(i));
-            sums.grain[u] = std::max(sums.grain[u], 1e-15 * most[row * room + k]);
+            sums.grain[u] = std::max(sums.grain[u], 1e-15 * max_term[row * stride + k]);
         }
-        if (!at.charges) continue;
-        for (std::size_t entry = 0; entry < n * n; ++entry) sums.C[places[entry]] += dq[entry * room + k];
+        if (!context.charges) continue;
+        for (std::size_t entry = 0; entry < n * n; ++entry) sums.C[places[entry]] += dq[entry * stride + k];
         for (std::size_t row = 0; row < n; ++row)
-            if (unknowns[row] >= 0) sums.q[static_cast<std::size_t>(unknowns[row])] += q[row * room + k];
+            if (unknowns[row] >= 0) sums.q[static_cast<std::size_t>(unknowns[row])] += q[row * stride + k];
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a circuit's wiring alone tells: that it has no answer at 0 Hz, and why.
+// Checks of a circuit's connections: finds circuits that have no unique DC solution.
 
 #include <optional>
 
@@ -7,10 +7,10 @@
 
 namespace corpuscle::circuit {
 
-/// Nodes without a path for current to ground (floating, or behind current sources alone); loops of elements that fix voltages.
+/// Rejects nodes without a DC path to ground (floating, or connected by current sources only) and loops of elements that fix voltages.
 std::optional<Error> unanswerable(const Circuit&);
 
-/// What looks like a slip, but can be solved: nodes at which one element's one end stands.
+/// Warnings for nodes that only one terminal of one element is connected to. The circuit can be solved, but this is often a typing error.
 std::vector<Error> suspicious(const Circuit&);
 
 }  // namespace corpuscle::circuit

@@ -1,5 +1,5 @@
 #pragma once
-// A circuit in time: f(x, t) + dq(x)/dt = 0, in steps as long as accuracy allows.
+// Transient analysis: integrates f(x, t) + dq(x)/dt = 0 with steps as long as the tolerances allow.
 
 #include <algorithm>
 #include <functional>
@@ -13,44 +13,45 @@ namespace corpuscle::circuit {
 enum class Integration { bdf, trapezoidal };
 
 struct TransientPlan {
-    double stop = 0, longest = 0;  ///< s: where it ends; the longest step
+    double stop = 0, longest = 0;  ///< s: end time; maximum step
     Integration method = Integration::bdf;
-    int order = 4;          ///< of BDF, at the most
-    double reltol = 1e-5;   ///< of a step's error, against the largest value so far
-    double vntol = 1e-6;    ///< V, beside it
-    double abstol = 1e-16;  ///< A, of currents
-    /// Unknowns whose values between steps are used: the curve through the points must hold them as exactly as a step's end.
+    int order = 4;          ///< maximum order of BDF
+    double reltol = 1e-5;   ///< allowed error of a step, relative to the largest value so far
+    double vntol = 1e-6;    ///< V, added for voltages
+    double abstol = 1e-16;  ///< A, added for currents
+    /// Unknowns whose values between steps are used. Interpolation must be as accurate as the values at the steps' ends.
     std::vector<int> reported = {};
-    bool all_reported = false;  ///< every unknown is, at the steps' ends and between them, and a point follows at once after each corner
-    bool steps_only = false;    ///< run() gives the steps' ends alone
+    bool all_reported = false;  ///< all unknowns are reported; each breakpoint is followed by a point immediately after it
+    bool steps_only = false;    ///< run() calls back only at the steps' ends
 };
 
-/// What was done.
+/// Counters of a transient.
 struct TransientWork {
-    long steps = 0, rejected = 0, lost = 0, iterations = 0;  ///< lost: of the rejected, those where Newton's steps did not arrive
+    long steps = 0, rejected = 0, lost = 0, iterations = 0;  ///< diverged: those of the rejected steps whose Newton iterations diverged
 };
 
-/// All that the next step depends on, with the same circuit begun from the same x.
+/// The complete state of a transient. The next steps depend on this, the circuit and the initial x only.
 struct TransientState {
     std::vector<Moment> past;  ///< newest first
     int order = 1, since_choice = 0, failures = 0;
     bool starting = true, bent = false;
     double h = 0, bend = 1, calm = 0;
     int calming = 0;
-    int count = 1, curve = 0, opening = 0;  ///< points that the rule uses; points of the last curve; how a start goes on
+    int count = 1, curve = 0, opening = 0;  ///< points of the integration formula; points of the last interpolation; start phase
     std::vector<double> scale, rate, memory, turn, fastest;
     std::vector<int> alternations;
     TransientWork work;
 };
 
-/// Steps of variable length and order: BDF with the coefficients of the points as they stand, or the trapezoidal rule. The polynomial
-/// through the points before predicts; how far charges come to be from it is what the rule of this order leaves over in the equations, and
-/// the matrix turns that into the error of each voltage, which decides whether a step counts, how long the next one is, and of what order.
-/// The trapezoidal rule rings where something is much faster than its steps: then two steps of BDF calm it.
-/// A polynomial through the last points is the curve between them. A step counts only if that holds each reported unknown, too, by what
-/// the next higher degree would make of it; of an unknown that jumps no polynomial does, and the jump ends in a step so short that a
-/// straight line will do. A node that sources alone hold goes as they do.
-/// Right after the beginning, at every corner of a source, and where steps must shrink tenfold, all begins again with order 1.
+/// Integration with variable step and order: variable-coefficient BDF or the trapezoidal rule. The polynomial through the earlier points is
+/// the predictor. The difference between the charges and their prediction is the truncation error of the formula in the equations. The
+/// Jacobian converts it to the error of each voltage, which decides acceptance and the length and order of the next step.
+/// The trapezoidal rule rings if the circuit is much faster than the step; two BDF steps then damp the ringing.
+/// Between points the solution is interpolated by a polynomial through the last points. A step is accepted only if the interpolation error
+/// of each reported unknown, estimated with the next higher degree, is allowed as well. A jump has no such polynomial. The steps shrink
+/// until the jump is in a step so short that linear interpolation is accurate. A node whose voltage only sources define follows them
+/// exactly.
+/// Integration restarts with order 1 at the beginning, at every breakpoint of a source, and when the step must shrink tenfold.
 class Transient {
 public:
     using Each = std::function<bool(double t, std::span<const double> x)>;
@@ -63,28 +64,28 @@ private:
     Past past_;
     StepControl pace_;
     double leading_ = 0;
-    bool ordered_ = false;  // the matrix's elimination, once and for all
-    bool bent_ = false;     // the last point is a source's corner, or a jump's end: from there it starts over
-    bool jump_ = false;     // the step at work is so short that it may hold a jump
-    enum class Opening { none, first, at_once } opening_ = Opening::none;     // after a corner: a point at once, a first step
-    int curve_ = 0;                                                           // points of the curve in the last step; 0: as the rule has it
-    double others_ = 0;                                                       // the error of unknowns without charge in the last step
-    double volts_ = 0, largest_charge_ = 0, fastest_charge_ = 0;              // V, C, A: what rounding is measured by
-    bool arrived_ = false, rounding_measured_ = false;                        // of the step at work
-    std::vector<double> capacity_, rounding_;                                 // F, of each node; of each unknown, see noise()
-    std::vector<double> scale_, allowed_, may_err_, history_, rate_, error_;  // may_err_: of what is reported
+    bool ordered_ = false;  // the pivot order of the matrix
+    bool bent_ = false;     // the last point is a breakpoint of a source or the end of a jump: integration restarts there
+    bool jump_ = false;     // the current step is so short that it may contain a jump
+    enum class Opening { none, first, at_once } opening_ = Opening::none;  // after a breakpoint: a point immediately, then a first step
+    int curve_ = 0;                                               // points of the interpolation in the last step; 0: as in the formula
+    double others_ = 0;                                           // error of unknowns without charge in the last step / allowed error
+    double volts_ = 0, largest_charge_ = 0, fastest_charge_ = 0;  // V, C, A: scales of the rounding error
+    bool arrived_ = false, rounding_measured_ = false;            // of the current step
+    std::vector<double> capacity_, rounding_;                     // F, by node; by unknown, see rounding_error()
+    std::vector<double> scale_, allowed_, may_err_, history_, rate_, error_;  // allowed_: of a step; tolerance_: of reported values
     std::vector<char> charged_;
-    std::vector<int> curves_;  // unknowns that are reported and that sources alone do not hold
-    struct Held {              // a node's voltage is that of a source, upon that of another node
+    std::vector<int> curves_;  // reported unknowns that are interpolated
+    struct Held {              // a node whose voltage is that of node `base` plus that of a source
         int unknown, base;
         const Device* source;
         double sign;
     };
     std::vector<Held> held_;
     std::vector<int> held_at_;
-    std::vector<double> turn_, fastest_;  // of the trapezoidal rule: the last change of rate, the fastest rate
-    std::vector<int> alternations_;       // how often in a row it went to and fro
-    int calming_ = 0;                     // steps still to be taken by BDF
+    std::vector<double> turn_, fastest_;  // trapezoidal rule: last change of dq/dt, largest dq/dt
+    std::vector<int> alternations_;       // number of successive sign changes
+    int calming_ = 0;                     // remaining BDF steps that damp ringing
 
     TransientWork work_;
 
@@ -94,9 +95,9 @@ private:
     void find_held();
     double held(const Held&, double t) const;
     double noise(int unknown) const;
-    void measure_rounding(double& error, double& off);
+    void measure_rounding(double& error, double& curve_error);
     double bend();
-    bool open(double t0, double corner, double& t);
+    bool open(double t0, double breakpoint, double& t);
     void start_over(bool forget, bool exact = false);
     Result<void> settle();
     Error too_short(double h);
@@ -113,35 +114,37 @@ public:
     Transient(System& system, Newton& newton, const TransientPlan& plan)
         : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
 
-    /// See begin(); calls each(t, x) from t = 0 on until it returns false or the end is reached: at every step, and between them where a
-    /// straight line would be off by more than a few times the allowed error. An error says when no step was short enough, and where.
+    /// See begin(). Calls each(t, x) from t = 0 until it returns false or the end is reached: at the end of every step, and between where
+    /// linear interpolation would have more than a few times the allowed error. Errors: the time and unknown where the step became too
+    /// short.
     Result<void> run(std::vector<double> x, bool settled, const Each& each, std::span<const double> charge = {});
     const TransientWork& work() const { return work_; }
     const TransientPlan& plan() const { return plan_; }
-    std::span<const int> curves() const { return curves_; }  ///< unknowns whose curves between points are held to what they may err
-    bool charged(std::size_t unknown) const { return charged_[unknown] != 0; }  ///< whether it holds a charge, so that its error counts
-    /// Once it has begun; null: there is no list of its elimination.
+    std::span<const int> curves() const { return curves_; }  ///< unknowns whose interpolation error is controlled
+    /// True if the unknown has a charge, so that its error is controlled.
+    bool charged(std::size_t unknown) const { return charged_[unknown] != 0; }
+    /// The elimination list, after begin(); null: there is none.
     const Elimination* elimination() const { return equations_.elimination(); }
 
-    /// At t = 0, from x; not settled: only charges are as they should be, and what no charge holds follows from them. `charge` is added to
-    /// the charges at x (of ic= on elements; empty: nothing). The matrix's order of
-    /// elimination is that of the first x handed in, so that steps after restore() are those that would have come.
+    /// Starts at t = 0 from x. If not `settled`, only the charges are consistent; unknowns without charge are computed from them. `charge`
+    /// is added to the charges at x (from ic= of elements; empty: nothing). The pivot order of the matrix is that of the first x ever
+    /// passed, so that the steps after restore() are identical to those without a save.
     Result<void> begin(std::vector<double> x, bool settled = true, std::span<const double> charge = {});
-    /// Of a node that sources alone hold, some of which go by time: its voltage; nothing of any other unknown.
+    /// The voltage of a node that is defined by sources only, at least one of them time-dependent. Nothing for any other unknown.
     std::optional<double> given(double t, int unknown) const;
-    /// One step, not beyond `until`. False: it would go beyond, or its length depends on what comes there.
+    /// Takes one step that ends at or before `until`. Returns false if the step would end later, or if its length depends on later input.
     Result<bool> step(double until);
     double time() const { return past_[0].t; }
     std::span<const double> x() const { return past_[0].x; }
-    /// An unknown between the last two points (-1: ground), as the polynomial of the last steps has it.
+    /// Interpolates an unknown (-1: ground) between the last two points.
     double between(double t, int unknown) const;
     void between(double t, std::span<double> x) const;
-    /// The first time since the point before the last at which plus - minus (unknowns; -1: ground) crosses a level: upwards, or downwards.
+    /// The first time in the last step at which plus - minus (unknowns; -1: ground) crosses a level, upwards or downwards.
     std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
 
     TransientState save() const;
-    /// After begin(), from the x that the one who saved began from. Steps are the same to the last bit if the first x that each was ever
-    /// handed is the same, too.
+    /// Call after begin() with the same x as the saved transient. The steps are bit-identical if the first x ever passed to begin() is the
+    /// same for both, too.
     void restore(const TransientState&);
 };
 

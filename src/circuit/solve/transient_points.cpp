@@ -1,4 +1,4 @@
-// A transient between the points of its steps.
+// Interpolation of a transient between its accepted points.
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace corpuscle::circuit {
 
-/// Nodes from which a chain of voltage sources leads to ground, if some of these go by time. A force that comes block by block is known
-/// only for so long; it stays with the points.
+/// Finds the nodes that a chain of voltage sources connects to ground, at least one of them time-dependent. Sources with a force input are
+/// not included, since the force of later blocks is not known yet.
 void Transient::find_held() {
     const auto count = static_cast<std::size_t>(system_.size());
     held_.clear(), held_at_.assign(count, -1), curves_.clear();
-    std::vector<char> known(count + 1);  // the last: ground
+    std::vector<char> known(count + 1);  // the last element is ground
     known[count] = 1;
     const auto& elements = system_.circuit().elements;
     for (bool more = true; std::exchange(more, false);)
@@ -32,7 +32,7 @@ void Transient::find_held() {
         }
     const auto add = [&](int u) {
         if (u < 0 || held_at_[static_cast<std::size_t>(u)] >= 0 || std::find(curves_.begin(), curves_.end(), u) != curves_.end()) return;
-        if (plan_.method == Integration::bdf || system_.is_voltage(u)) curves_.push_back(u);  // the trapezoidal rule's currents ring
+        if (plan_.method == Integration::bdf || system_.is_voltage(u)) curves_.push_back(u);  // currents ring with the trapezoidal rule
     };
     for (const int u : plan_.reported) add(u);
     for (int u = 0; plan_.all_reported && u < system_.size(); ++u) add(u);
@@ -67,22 +67,22 @@ void Transient::between(double t, std::span<double> x) const {
     for (const auto& h : held_) x[static_cast<std::size_t>(h.unknown)] = held(h, t);
 }
 
-/// The last step, in so many parts that straight lines between them will do.
+/// Passes the last step to the callback, with enough intermediate points for linear interpolation.
 bool Transient::tell(const Each& each) {
-    constexpr double straight = 2;  // allowed units
+    constexpr double linear_tolerance = 2;  // error of linear interpolation, relative to the allowed error
     const double t0 = past_[1].t, t1 = past_[0].t;
     if (plan_.steps_only) return each(t1, past_[0].x);
     auto& x = error_;
-    double bulge = 0;
+    double deviation = 0;
     for (const double part : {0.25, 0.75}) {
         between(t0 + part * (t1 - t0), x);
         for (std::size_t n = 0; n < x.size(); ++n) {
-            const double may = plan_.all_reported ? may_err_[n] + noise(static_cast<int>(n)) : allowed_[n];
+            const double tolerance = plan_.all_reported ? may_err_[n] + noise(static_cast<int>(n)) : allowed_[n];
             const double line = past_[1].x[n] + part * (past_[0].x[n] - past_[1].x[n]);
-            if (may > 0) bulge = std::max(bulge, 4.0 / 3 * std::abs(x[n] - line) / may);
+            if (tolerance > 0) deviation = std::max(deviation, 4.0 / 3 * std::abs(x[n] - line) / tolerance);
         }
     }
-    const int parts = static_cast<int>(std::min(std::ceil(std::sqrt(bulge / straight)), 1000.0));
+    const int parts = static_cast<int>(std::min(std::ceil(std::sqrt(deviation / linear_tolerance)), 1000.0));
     for (int k = 1; k < parts; ++k) {
         const double t = t0 + (t1 - t0) * k / parts;
         between(t, x);
