@@ -1,4 +1,4 @@
-// What section 4.4 says of the oscillator in words: its switching delay, its leak near the supply, its window under body bias.
+// Statements of section 4.4 on the oscillator: its switching delay, its leak near the supply, its window under body bias.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace corpuscle::studies::cco {
 using O = OscillatorAlone;
 constexpr auto source = "thesis 4.4";
 
-/// How far beyond its window the membrane goes, against how fast it gets there.
-Result<void> tell_delay(const Hysteresis& t, Outcome& out) {
+/// Overshoot of the membrane beyond its window, over its speed.
+Result<void> report_delay(const Hysteresis& t, Outcome& out) {
     Line below, above;
-    double delay = 0, beyond = 0;
+    double delay = 0, overshoot = 0;
     for (const double I : {20e-12, 100e-12, 300e-12, 600e-12, 850e-12}) {
         const auto found = driven({.current = I, .until = 20e-3 + 2.25e-12 * 2 / I, .better_switches = true});
         if (!found) return found.error();
@@ -25,22 +25,21 @@ Result<void> tell_delay(const Hysteresis& t, Outcome& out) {
         above.x.push_back(1e12 * I), above.y.push_back(1e3 * (filled.most() - t.V_H));
         if (I > 20e-12) continue;
         const double speed = u.slope_at(filled.where(0.35));
-        beyond = filled.most() - t.V_H, delay = beyond / speed;
+        overshoot = filled.most() - t.V_H, delay = overshoot / speed;
     }
-    out.claim("at 20 pA the filled membrane goes beyond V_H by", beyond, "V");
-    out.claim("... of the window", 100 * beyond / (t.V_H - t.V_L), "%");
-    out.claim("... which is a delay of the trigger of", delay, "s");
-    out.finds("the thresholds are not exactly the window's, for switching takes time: at 20 pA more than 1 mV beyond V_H", beyond > 1e-3,
-              source);
-    out.finds("the faster the membrane falls, the farther below V_L it goes", std::is_sorted(below.y.begin(), below.y.end()), source);
-    out.claim("at 850 pA it falls below V_L by", 1e-3 * below.y.back(), "V");
-    out.plot("Beyond the window", "I (pA)", "mV").points("below V_L", below).points("above V_H", above).log_x = true;
+    out.claim("at 20 pA: overshoot of the charged membrane beyond V_H", overshoot, "V");
+    out.claim("at 20 pA: overshoot over the window", 100 * overshoot / (t.V_H - t.V_L), "%");
+    out.claim("at 20 pA: delay of the trigger from this overshoot", delay, "s");
+    out.finds("switching takes time, so the swing is not exactly the window: at 20 pA more than 1 mV beyond V_H", overshoot > 1e-3, source);
+    out.finds("the faster the membrane falls, the larger the undershoot below V_L", std::is_sorted(below.y.begin(), below.y.end()), source);
+    out.claim("at 850 pA: undershoot below V_L", 1e-3 * below.y.back(), "V");
+    out.plot("Overshoot beyond the window", "I (pA)", "mV").points("below V_L", below).points("above V_H", above).log_x = true;
     return {};
 }
 
-/// What pulls the membrane up, held at a voltage while the trigger waits for it to fall.
-Result<void> tell_leak(Outcome& out) {
-    const auto found = found_in({R"(The leak along the membrane's voltage, with no switch, for 2 and for 200 pA
+/// The current that pulls the membrane up, over the membrane voltage, in the state in which the trigger waits for it to fall.
+Result<void> report_leak(Outcome& out) {
+    const auto found = found_in({R"(The leak over the membrane voltage, without switches, for 2 and for 200 pA
 .lib '../process/tsmc180.lib' tt
 vdd vdd 0 0.7
 vu u 0 0.7
@@ -57,33 +56,33 @@ voff off 0 0.35
 .dc vu 0.25 0.7 2.5m
 )"});
     if (!found) return found.error();
-    const auto leak = found->line("dc", "i(vd)").times(1, -1), more = found->line("dc", "i(vd2)").times(1, -1);
+    const auto leak = found->line("dc", "i(vd)").times(1, -1), larger_leak = found->line("dc", "i(vd2)").times(1, -1);
     const double middle = leak.at(0.35), off = found->line("dc", "i(voff)").absolute().at(0.35);
-    out.claim("2 pA of I_LEAK pull up, at 350 mV", middle, "A")
+    out.claim("pull-up current for I_LEAK 2 pA, at 350 mV", middle, "A")
         .printed_as(O::I_LEAK, "thesis 4.4, fig. 39")
-        .because(fmt::format(
-            "M1A and M1B let {:.2f} pA through with V_GS = 0, so that M1A, as a diode of 2 pA, is within three thermal voltages of the "
-            "supply and not saturated, while M1B is",
-            1e12 * off));
-    out.claim("200 pA pull up", more.at(0.35), "A").held_to(200e-12, "1:1, table 9");
-    const auto rest = [&](const Line& line, double below) { return 100 * line.at(0.7 - below) / line.at(0.35); };
+        .because(fmt::format("M1A and M1B carry {:.2f} pA at V_GS = 0. As a diode of 2 pA, M1A is therefore within three thermal voltages "
+                             "of the supply and not saturated, while M1B is",
+                             1e12 * off));
+    out.claim("pull-up current for I_LEAK 200 pA, at 350 mV", larger_leak.at(0.35), "A").held_to(200e-12, "1:1, table 9");
+    const auto remainder = [&](const Line& line, double below) { return 100 * line.at(0.7 - below) / line.at(0.35); };
     for (const double below : {100e-3, 50e-3, 25e-3, 10e-3})
-        out.claim(fmt::format("left of it {:.0f} mV below the supply", 1e3 * below), rest(leak, below), "%");
+        out.claim(fmt::format("remainder of the leak {:.0f} mV below the supply", 1e3 * below), remainder(leak, below), "%");
     const double g = leak.at(0.7 - 10e-3) / 10e-3;
-    out.finds("100 mV below the supply it is what it is at 350 mV, within a tenth, and 25 mV below it is not",
-              std::abs(rest(leak, 100e-3) - 100) < 10 && std::abs(rest(leak, 25e-3) - 100) > 10, source);
-    out.claim("it ends as a resistor of", 1 / g, "ohm");
-    const double straight = leak.at(0.7 - 5e-3) / 5e-3 / g;
-    out.claim("... whose conductance 5 and 10 mV below the supply differs by", 100 * std::abs(straight - 1), "%")
-        .at_most(20, "thesis 4.4: it behaves as a resistor; a fifth is set here");
-    out.plot("What is left of the leak as the membrane nears the supply", "u (V)", "pA")
-        .shape("constant, then as a resistor's")
+    out.finds("100 mV below the supply it equals the value at 350 mV within a tenth, 25 mV below it does not",
+              std::abs(remainder(leak, 100e-3) - 100) < 10 && std::abs(remainder(leak, 25e-3) - 100) > 10, source);
+    out.claim("resistance of the leak close to the supply", 1 / g, "ohm");
+    const double linearity = leak.at(0.7 - 5e-3) / 5e-3 / g;
+    out.claim("change of its conductance between 5 and 10 mV below the supply", 100 * std::abs(linearity - 1), "%")
+        .at_most(20, "thesis 4.4: it behaves as a resistor; a fifth is our choice");
+    out.plot("The leak as the membrane nears the supply", "u (V)", "pA")
+        .shape("constant, then resistive")
         .add("I_LEAK 2 pA", leak.times(1, 1e12));
     return {};
 }
 
-/// The trigger with its bulks led out; lifted: what N bulks are above VSS and P bulks below VDD, each pair of devices by itself.
-constexpr auto lifted = R"(The trigger's window under forward body bias
+/// The trigger with separate bulk nodes: N bulks above VSS and P bulks below VDD by the same voltage, separately for the devices in
+/// feedback.
+constexpr auto netlist = R"(The trigger's window under forward body bias
 .lib '../process/tsmc180.lib' tt
 .param all=0 feedback=0
 vdd vdd 0 0.7
@@ -101,21 +100,22 @@ m4b vdd out n   bnf nch w=1.5u l=0.5u m=8
 .dc vin 0 0.7 1m updown
 )";
 
-Result<void> tell_body_bias(const Hysteresis& t, Outcome& out) {
-    Plot& plot = out.plot("The window under forward body bias", "bulks lifted by (V)", "threshold (V)");
-    for (const auto& [name, knob] : {std::pair{"all six", "all"}, {"those in feedback", "feedback"}}) {
+Result<void> report_body_bias(const Hysteresis& t, Outcome& out) {
+    Plot& plot = out.plot("The window under forward body bias", "forward body bias (V)", "threshold (V)");
+    for (const auto& [name, parameter] : {std::pair{"all six devices", "all"}, {"the feedback devices", "feedback"}}) {
         Line high, low;
-        for (const double by : {0.0, 0.1, 0.2, 0.3, 0.37}) {
-            const auto found = found_in({lifted, {fmt::format("{}={}", knob, by)}});
+        for (const double bias : {0.0, 0.1, 0.2, 0.3, 0.37}) {
+            const auto found = found_in({netlist, {fmt::format("{}={}", parameter, bias)}});
             if (!found) return found.error();
             const auto h = hysteresis_in(*found, "v(out)");
-            high.x.push_back(by), high.y.push_back(h.V_H), low.x.push_back(by), low.y.push_back(h.V_L);
+            high.x.push_back(bias), high.y.push_back(h.V_H), low.x.push_back(bias), low.y.push_back(h.V_L);
         }
         const double window = 100 * ((high.y.back() - low.y.back()) / (t.V_H - t.V_L) - 1);
-        out.claim(fmt::format("bulks of {} lifted by 370 mV, as the transconductors' are: the window changes by", name), window, "%");
-        out.claim("... V_H by", high.y.back() - t.V_H, "V"), out.claim("... V_L by", low.y.back() - t.V_L, "V");
-        if (name == std::string_view("those in feedback"))
-            out.finds("the window's size can be controlled by forward body bias: by a tenth at the least", std::abs(window) > 10, source);
+        out.claim(fmt::format("forward body bias of 370 mV, as in the transconductors, on {}: change of the window", name), window, "%");
+        out.claim(fmt::format("change of V_H, body bias on {}", name), high.y.back() - t.V_H, "V"),
+            out.claim(fmt::format("change of V_L, body bias on {}", name), low.y.back() - t.V_L, "V");
+        if (name == std::string_view("the feedback devices"))
+            out.finds("forward body bias controls the size of the window: by at least a tenth", std::abs(window) > 10, source);
         plot.add(fmt::format("V_H, {}", name), high).add(fmt::format("V_L, {}", name), low);
     }
     return {};
@@ -125,17 +125,16 @@ Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto t = trigger_alone();
     if (!t) return t.error();
-    if (auto ok = tell_delay(*t, out); !ok) return ok.error();
+    if (auto ok = report_delay(*t, out); !ok) return ok.error();
     if (auto ok = options.at(0.5); !ok) return ok.error();
-    if (auto ok = tell_leak(out); !ok) return ok.error();
-    if (auto ok = tell_body_bias(*t, out); !ok) return ok.error();
+    if (auto ok = report_leak(out); !ok) return ok.error();
+    if (auto ok = report_body_bias(*t, out); !ok) return ok.error();
     return out;
 }
 
-const Study study{
-    "cco", "The oscillator's delay, leak and window",
-    "Thresholds beyond the window by a switching delay; a leak that becomes a resistor near the supply; a window that body bias "
-    "controls. Thesis 4.4",
-    work};
+const Study study{"cco", "The oscillator's delay, leak and window",
+                  "A switching delay extends the swing beyond the window; the leak becomes a resistor near the supply; body bias controls "
+                  "the window. Thesis 4.4",
+                  work};
 
 }  // namespace corpuscle::studies::cco

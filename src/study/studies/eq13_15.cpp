@@ -1,4 +1,4 @@
-// Equations 13 to 15 as the errata mend them, held against the netlists; and by how much the printed forms are off (errata F1, F4, F5).
+// Equations 13 to 15, corrected by the errata, compared with the netlists; and the error of the printed forms (errata F1, F4, F5).
 
 #include <fmt/format.h>
 #include <cmath>
@@ -10,16 +10,16 @@ namespace corpuscle::studies::eq13_15 {
 
 const ForceSensor sensor;
 
-/// The largest relative distance of a curve over the force in gf from a formula of it, %, in the transducer's range.
+/// The largest relative difference (%) between a curve over the force in gf and a formula, in the transducer's range.
 template <class Formula>
 double percent_off(const Line& line, Formula formula) {
-    double most = 0;
+    double largest = 0;
     for (std::size_t k = 0; k < line.x.size(); ++k)
-        if (line.x[k] >= least_gf && line.x[k] <= most_gf) most = std::max(most, std::abs(line.y[k] / formula(line.x[k]) - 1));
-    return 100 * most;
+        if (line.x[k] >= least_gf && line.x[k] <= most_gf) largest = std::max(largest, std::abs(line.y[k] / formula(line.x[k]) - 1));
+    return 100 * largest;
 }
 
-Result<Line> swept(const std::string& circuit, const std::string& curve) {
+Result<Line> force_sweep(const std::string& circuit, const std::string& curve) {
     const auto found = found_in({circuit, {}, ".dc vgf 1 500 1"});
     if (!found) return found.error();
     return found->line("dc", curve);
@@ -29,20 +29,21 @@ Result<Outcome> work(const StudyOptions&) {
     Outcome out;
     const auto G = [](double gf) { return sensor.conductance(gf); };
     const auto without_G0 = [](double gf) { return std::pow(gf, sensor.m) / sensor.a; };
-    const auto ideal = swept("force_to_voltage", "par('v(z)-v(x)')"), follower = swept("force_to_voltage", "par('v(zb)-v(xb)')");
-    const auto i_b = swept("force_to_voltage", "par('(v(zb)-v(xb))/3.6k/v(xb)')"),
-               plain = swept("force_to_current_plain", "par('i(vif)/v(vx)')");
-    const auto plain_Y = swept("force_to_current_plain", "i(vif)"), plain4_Y = swept("force_to_current_plain", "i(vif4)");
-    const auto sensor_i = swept("transducer", "v(vx)"), I_F = swept("transducer", "i(vif)");
+    const auto ideal = force_sweep("force_to_voltage", "par('v(z)-v(x)')"),
+               follower = force_sweep("force_to_voltage", "par('v(zb)-v(xb)')");
+    const auto i_b = force_sweep("force_to_voltage", "par('(v(zb)-v(xb))/3.6k/v(xb)')"),
+               plain = force_sweep("force_to_current_plain", "par('i(vif)/v(vx)')");
+    const auto plain_Y = force_sweep("force_to_current_plain", "i(vif)"), plain4_Y = force_sweep("force_to_current_plain", "i(vif4)");
+    const auto sensor_i = force_sweep("transducer", "v(vx)"), I_F = force_sweep("transducer", "i(vif)");
     for (const auto* line : {&ideal, &follower, &i_b, &plain, &plain_Y, &plain4_Y, &sensor_i, &I_F})
         if (!*line) return line->error();
-    const std::string bound = "; the bound is stated here", range = ", largest from 20 to 400 gf";
+    const std::string bound = "; the bound is our choice", range = ", largest difference from 20 to 400 gf";
 
     out.claim("eq. 13: parallel resistances against the sum of conductances" + range,
               percent_off(sensor.conductances(1, 500), [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
               "%")
-        .at_most(1e-9, "thesis eq. 13: printed as approximate, is exact (errata F1a)");
-    out.claim("eq. 13 with a = 170 ohm: G against that with 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
+        .at_most(1e-9, "thesis eq. 13: printed as approximate, but exact (errata F1a)");
+    out.claim("eq. 13 with a = 170 ohm: G over that with 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
         .held_to(1, "thesis eq. 13")
         .if_off("a misprint for 170 kohm (errata F1)");
     out.claim("eq. 14, V_Z - V_X with an ideal amplifier" + range, percent_off(*ideal, [&](double gf) { return 0.1 * G(gf) * 9.1e3; }), "%")
@@ -50,17 +51,17 @@ Result<Outcome> work(const StudyOptions&) {
     out.claim("eq. 14, with fig. 23's amplifier and a follower" + range,
               percent_off(*follower, [&](double gf) { return 0.1 * G(gf) * 3.6e3; }), "%")
         .at_most(5, "thesis eq. 14" + bound);
-    out.claim("eq. 14's last line drops G_0: V_Z - V_X off by, at 20 gf", 100 * (1 - without_G0(20) / G(20)), "%")
+    out.claim("eq. 14's last line omits G_0: error of V_Z - V_X at 20 gf", 100 * (1 - without_G0(20) / G(20)), "%")
         .at_most(1, "printed as approximate (errata F5)" + bound);
     out.claim("eq. 14's last line with a F^m, a = 170: V_Z - V_X at 400 gf, R_F 9.1 kohm", 0.1 * 170 * std::pow(400, sensor.m) * 9.1e3, "V")
         .at_most(0.7, "the supply")
-        .if_off("a stands where 1/a should, and is a thousand times too small (errata F1)");
+        .if_off("a is printed where 1/a is meant, and is a thousand times too small (errata F1)");
     out.claim("eq. 15, (V_Z - V_X) / R_F over V_X, fig. 20 with a follower" + range, percent_off(*i_b, G), "%")
         .at_most(0.1, "thesis eq. 15" + bound);
     out.claim("eq. 15, I_F over V_X, fig. 21" + range, percent_off(*plain, G), "%").at_most(0.1, "thesis eq. 15" + bound);
-    out.claim("the same with V_Y for V_X, 16x1" + range, percent_off(*plain_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
+    out.claim("I_F against V_Y G, 16x1" + range, percent_off(*plain_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
         .at_most(5, "V_X follows V_Y" + bound);
-    out.claim("the same, 64x1" + range, percent_off(*plain4_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
+    out.claim("I_F against V_Y G, 64x1" + range, percent_off(*plain4_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
         .at_most(5, "V_X follows V_Y" + bound);
     out.claim("eq. 15 and the split, I_F against V_Y G / 17, fig. 22" + range,
               percent_off(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }), "%")
@@ -68,26 +69,25 @@ Result<Outcome> work(const StudyOptions&) {
     out.claim("V_X against V_Y, fig. 22" + range, percent_off(*sensor_i, [](double) { return 0.1; }), "%")
         .at_most(5, "V_X follows V_Y" + bound);
     out.finds("the largest current is at the largest conductance", I_F->peak() == 500 && G(500) > G(1),
-              "printed: at the least conductance (errata F4)");
+              "printed: at the smallest conductance (errata F4)");
     const auto percents = [](const Line& line, auto formula) {
         Line p = line.between(least_gf, most_gf);
         for (std::size_t k = 0; k < p.x.size(); ++k) p.y[k] = 100 * (p.y[k] / formula(p.x[k]) - 1);
         return p;
     };
-    out.plot("The netlists off the equations, with V_Y for V_X", "force (gf)", "%")
+    out.plot("Difference of the netlists from the equations, with V_Y for V_X", "force (gf)", "%")
         .add("eq. 14, ideal amplifier", percents(*ideal, [&](double gf) { return 0.1 * G(gf) * 9.1e3; }))
         .add("eq. 14, follower", percents(*follower, [&](double gf) { return 0.1 * G(gf) * 3.6e3; }))
         .add("eq. 15, fig. 21, 16x1", percents(*plain_Y, [&](double gf) { return 0.1 * G(gf); }))
         .add("eq. 15, fig. 21, 64x1", percents(*plain4_Y, [&](double gf) { return 0.1 * G(gf); }))
         .add("eq. 15 / 17, fig. 22", percents(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }));
     out.note(
-        "What fig. 22 is off is the split: the single transistors of M_2 have the lower Early voltage and stand at the supply, M_1 at the "
-        "next "
-        "mirror's diode.");
+        "The error of fig. 22 is in the split: the single transistors of M_2 have the lower Early voltage and are connected to the supply, "
+        "M_1 to the next mirror's diode.");
     return out;
 }
 
 const Study study{"eq13-15", "Equations 13 to 15 against the netlists",
-                  "The sensor, the force-to-voltage gain and the current that it takes. Thesis 4.1 and 4.2, eq. 13 to 15", work};
+                  "The sensor, the force-to-voltage gain and the current it needs. Thesis 4.1 and 4.2, eq. 13 to 15", work};
 
 }  // namespace corpuscle::studies::eq13_15

@@ -1,4 +1,5 @@
-// Equations (16) to (20) of the analog signal processing, as the errata correct them, beside the circuits; and what the printed say.
+// Equations (16) to (20) of the analog signal processing, corrected by the errata, compared with the circuits; and the results of the
+// printed forms.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace corpuscle::studies::eq16_20 {
 
 constexpr double I_BIASF = 700e-9, V_DD = 0.7, pi = std::numbers::pi;  // A, V
 
-/// Size of an array, W/L times columns over units in series.
+/// Aspect ratio of an array: W/L times columns over unit transistors in series.
 double aspect(const circuit::Circuit& c, const std::string& name) {
     const auto& e = c.elements[static_cast<std::size_t>(c.element(name))];
     const auto value = [&](const char* key, double otherwise) {
@@ -25,10 +26,10 @@ double aspect(const circuit::Circuit& c, const std::string& name) {
 /// S_upper / S_lower.
 double ratio(const circuit::Circuit& c, const std::string& upper, const std::string& lower) { return aspect(c, upper) / aspect(c, lower); }
 
-/// A split mirror's gain exactly, (38) and (39), and as (19), (20), (40) print it.
-struct Split {
+/// The gain of a splitting mirror, exact by (38) and (39), and as printed in (19), (20), (40).
+struct SplitMirrorGain {
     double exact, printed;
-    Split(const circuit::Circuit& c, const std::string& A, const std::string& B, const std::string& C, const std::string& D)
+    SplitMirrorGain(const circuit::Circuit& c, const std::string& A, const std::string& B, const std::string& C, const std::string& D)
         : exact(aspect(c, B) * aspect(c, D) / (aspect(c, A) * (aspect(c, B) + aspect(c, C) + aspect(c, D)))),
           printed(ratio(c, B, A) * ratio(c, D, C)) {}
 };
@@ -41,42 +42,42 @@ Result<void> eq_16_18(Outcome& out) {
     const double k_1 = ratio(*found->circuit, "m3b", "m3a"), k_4 = ratio(*found->circuit, "m4b", "m4a");
     const double R = load_of(cell->line("dc", "i(vin)").times(1, -1)).resistance.at(0.35);
     out.claim("(16), (18): k_1 = S_3B / S_3A of table 3", k_1, "times").held_to(0.5, "table 3, errata S1");
-    out.claim("... measured, its copy I_A0 / I_F at 1.4 uA", I_A0.at(1.4e-6) / 1.4e-6, "times").held_to(k_1, "eq. 16, errata S1");
+    out.claim("(16): measured copy I_A0 / I_F at 1.4 uA", I_A0.at(1.4e-6) / 1.4e-6, "times").held_to(k_1, "eq. 16, errata S1");
     out.claim("V_F where (S_3B/S_3A) I_F = (S_4B/S_4A) I_BIASF, I_F = 1.4 uA", V_F.at(k_4 * I_BIASF / k_1), "V")
         .held_to(V_DD / 2, "eq. 18, errata S2a");
-    out.claim("V_F at I_F = I_BIASF, where the text has it", V_F.at(I_BIASF), "V")
+    out.claim("V_F at I_F = I_BIASF, as the text has it", V_F.at(I_BIASF), "V")
         .held_to(V_DD / 2, "thesis 4.3.1: V_DD/2 for I_F1 = I_BIASF")
-        .because("I_F1 is what M3B carries, half of I_F (errata S2a)");
-    out.claim("slope dV_F/dI_F at the middle", V_F.slope_at(1.4e-6), "ohm")
+        .because("I_F1 is the current of M3B, half of I_F (errata S2a)");
+    out.claim("slope dV_F/dI_F at mid-range", V_F.slope_at(1.4e-6), "ohm")
         .held_to(k_1 * R, "eq. 18 divided by G_m1, which is that of INVB as a load (errata S2)")
-        .because("the mirrors' own output conductance is beside the load");
+        .because("the output conductance of the mirrors is in parallel with the load");
     Line by_18;
     for (const double I : V_F.x) by_18.x.push_back(I), by_18.y.push_back(V_DD / 2 + (k_1 * I - k_4 * I_BIASF) * R);
     out.claim(
-           "V_F beside (18), I_F 1 to 1.8 uA: farthest apart",
+           "V_F against (18), I_F 1 to 1.8 uA: largest difference",
            [&] {
-               double most = 0;
-               for (const double I : V_F.between(1e-6, 1.8e-6).x) most = std::max(most, std::abs(V_F.at(I) - by_18.at(I)));
-               return most;
+               double largest = 0;
+               for (const double I : V_F.between(1e-6, 1.8e-6).x) largest = std::max(largest, std::abs(V_F.at(I) - by_18.at(I)));
+               return largest;
            }(),
            "V")
-        .at_most(10e-3, "eq. 18, errata S2; within its linear part, 10 mV are set here");
-    out.claim("as printed (18) multiplies by G_m1, and 0.2 uA more of I_F would raise V_F by", k_1 * 0.2e-6 / R, "V")
-        .held_to(V_F.at(1.6e-6) - V_F.at(1.4e-6), "made here by the circuit")
-        .because("A times S is no V; (16) divides (errata S2)");
-    out.plot("V_F along I_F, and (18)", "I_F (uA)", "V_F (V)")
+        .at_most(10e-3, "eq. 18, errata S2; within its linear range; 10 mV is our choice");
+    out.claim("(18) as printed multiplies by G_m1: rise of V_F for 0.2 uA more of I_F", k_1 * 0.2e-6 / R, "V")
+        .held_to(V_F.at(1.6e-6) - V_F.at(1.4e-6), "computed here by the circuit")
+        .because("A times S is not V; (16) divides (errata S2)");
+    out.plot("V_F over I_F, and (18)", "I_F (uA)", "V_F (V)")
         .add("circuit", V_F.times(1e6, 1))
         .add("(18), divided by G_m1", by_18.times(1e6, 1));
     return {};
 }
 
-/// |H| of a filter beside s / (s + k_N G_mN / C) with its own corner.
-double from_17(const Line& magnitude, double corner, double to) {
-    double most = 0;
+/// Largest difference (%) of |H| of a filter from s / (s + k_N G_mN / C) with its own corner.
+double difference_from_17(const Line& magnitude, double corner, double to) {
+    double largest = 0;
     const auto band = magnitude.between(0, to);
     for (std::size_t k = 0; k < band.x.size(); ++k)
-        most = std::max(most, std::abs(band.y[k] / (band.x[k] / std::hypot(band.x[k], corner)) - 1));
-    return 100 * most;
+        largest = std::max(largest, std::abs(band.y[k] / (band.x[k] / std::hypot(band.x[k], corner)) - 1));
+    return 100 * largest;
 }
 
 Result<void> eq_17_19(Outcome& out) {
@@ -89,30 +90,32 @@ Result<void> eq_17_19(Outcome& out) {
     if (!ideal) return ideal.error();
     const auto H_B = found->line("ac", "vm(hpb)"), H_C = found->line("ac", "vm(hpc)");
     for (const auto& [name, line, corner] : {std::tuple{"B", H_B, found->number("f_b")}, {"C", H_C, found->number("f_c")}}) {
-        auto& c = out.claim(fmt::format("(17): |H| of filter {} beside s / (s + 2 pi f_c), 10 mHz to 1 kHz: farthest off", name),
-                            from_17(line, corner, 1e3), "%")
-                      .at_most(10, "eq. 17; a tenth is set here");
-        if (c.needs_reason()) c.because("what its node has beside the capacitor divides its signal, at all frequencies (see fig30)");
+        auto& c = out.claim(fmt::format("(17): |H| of filter {} against s / (s + 2 pi f_c), 10 mHz to 1 kHz: largest difference", name),
+                            difference_from_17(line, corner, 1e3), "%")
+                      .at_most(10, "eq. 17; a tenth is our choice");
+        if (c.needs_reason()) c.because("the parasitic capacitance of its node attenuates its signal at all frequencies (see fig30)");
     }
-    const auto divides = [](const Found& f) { return f.line("dc", "i(vb)").slope_at(0.35) / f.line("dc", "i(vhalf)").slope_at(0.35); };
+    const auto division_ratio = [](const Found& f) {
+        return f.line("dc", "i(vb)").slope_at(0.35) / f.line("dc", "i(vhalf)").slope_at(0.35);
+    };
     const auto& c = *invc->circuit;
-    const Split P(c, "xl.mp3a", "xl.mp3b", "xl.mp3c", "xl.mp3d"), N(c, "xl.mn4a", "xl.mn4b", "xl.mn4c", "xl.mn4d");
+    const SplitMirrorGain P(c, "xl.mp3a", "xl.mp3b", "xl.mp3c", "xl.mp3d"), N(c, "xl.mn4a", "xl.mn4b", "xl.mn4c", "xl.mn4d");
     const double last = ratio(c, "xl.mn6b", "xl.mn6a");
-    out.claim("(19): k_N as the product of ratios, M6 mended", N.printed * last)
+    out.claim("(19): k_N as the product of ratios, with M6 corrected", N.printed * last)
         .printed_as(1.0 / 16000, "thesis 4.3.1: about 16000 times; errata S5, S7");
-    out.claim("(19): by the printed M6, 8x2 to 2x4", N.printed / 8, "")
+    out.claim("(19): with M6 as printed, 8x2 to 2x4", N.printed / 8, "")
         .printed_as(1.0 / 16000, "thesis 4.3.1")
-        .because("8x2 to 2x4 is 1/8, where M5 has 1/64 (errata S7)");
-    out.claim("k_N exactly, by (38) and (39): one over it", 1 / (N.exact * last), "times").held_to(18432, "errata S7b");
-    out.claim("the P mirrors' alike: one over it", 1 / (P.exact * ratio(c, "xl.mp5b", "xl.mp5a")), "times").held_to(18432, "errata S7a");
-    out.claim("the circuit without length modulation divides by", divides(*ideal), "times").held_to(18432, "errata S7b");
-    out.claim("the circuit divides by", divides(*invc), "times")
-        .held_to(16384, "eq. 19 with 1/256 for 1/288")
-        .because("length modulation of the mirrors' diodes, and 1/288 is the exact split (errata S7b)");
+        .because("8x2 to 2x4 is 1/8, but M5 has 1/64 (errata S7)");
+    out.claim("exact 1/k_N, by (38) and (39)", 1 / (N.exact * last), "times").held_to(18432, "errata S7b");
+    out.claim("the same for the P mirrors", 1 / (P.exact * ratio(c, "xl.mp5b", "xl.mp5a")), "times").held_to(18432, "errata S7a");
+    out.claim("division ratio of the circuit without length modulation", division_ratio(*ideal), "times").held_to(18432, "errata S7b");
+    out.claim("division ratio of the circuit", division_ratio(*invc), "times")
+        .held_to(16384, "eq. 19 with 1/256 instead of 1/288")
+        .because("length modulation of the mirrors' diodes, and the exact split of 1/288 (errata S7b)");
     const double G = std::abs(invc->line("dc", "i(vb)").slope_at(0.35));
     out.claim("with k_N of (19) as printed, 1/k_N = product, filter B's corner", G / (N.printed * last) / (2 * pi * 0.8e-12), "Hz")
-        .between(27, 33, "thesis 4.3.1: 30 Hz, a tenth either way")
-        .because("k_N of (17) is the small one; (19) prints its inverse (errata S5)");
+        .between(27, 33, "thesis 4.3.1: 30 Hz, plus or minus a tenth")
+        .because("k_N of (17) is less than one; (19) prints its inverse (errata S5)");
     out.plot("|H| of the filters, and (17) with their own corners", "frequency (Hz)", "magnitude").add("B", H_B).add("C", H_C);
     auto& p = out.plots.back();
     p.log_x = p.log_y = true;
@@ -128,41 +131,41 @@ Result<void> eq_20(Outcome& out) {
     const auto found = found_in({"summer", {}, ".dc iin 0.05u 2.6u 10n"});
     if (!found) return found.error();
     const auto& c = *found->circuit;
-    const auto divides = [&](const char* curve) { return 2 * 1.22e-6 / found->line("dc", curve).at(1.22e-6); };
-    const Split first(c, "x1.mn1a", "x1.mn1b", "x1.mn1c", "x1.mn1d");
+    const auto division_ratio = [&](const char* curve) { return 2 * 1.22e-6 / found->line("dc", curve).at(1.22e-6); };
+    const SplitMirrorGain first(c, "x1.mn1a", "x1.mn1b", "x1.mn1c", "x1.mn1d");
     const double rest = 0.5 * ratio(c, "x1.mp2b", "x1.mp2a") * ratio(c, "x1.mn3b", "x1.mn3a");
-    out.claim("(20): k_A = I_A / I_F by the printed ratios, one over it", 1 / (rest * first.printed), "times")
+    out.claim("(20): 1 / k_A by the printed ratios, k_A = I_A / I_F", 1 / (rest * first.printed), "times")
         .held_to(262144, "eq. 20, errata S10");
-    out.claim("... exactly", 1 / (rest * first.exact), "times").held_to(294912, "eq. 20 with 1/288, errata S7b, S10");
-    out.claim("the summer without length modulation divides I_F by", divides("i(va3)"), "times")
-        .held_to(1 / (rest * first.exact), "eq. 20 exactly");
-    out.claim("the summer divides I_F by, at 4 N", divides("i(va)"), "times")
+    out.claim("(20): exact 1 / k_A", 1 / (rest * first.exact), "times").held_to(294912, "eq. 20 with 1/288, errata S7b, S10");
+    out.claim("division ratio of the summer for I_F, without length modulation", division_ratio("i(va3)"), "times")
+        .held_to(1 / (rest * first.exact), "eq. 20, exact");
+    out.claim("division ratio of the summer for I_F, at 4 N", division_ratio("i(va)"), "times")
         .held_to(1 / (rest * first.printed), "eq. 20")
-        .because("1/288 for 1/256, and length modulation of three mirrors (circuits/summer.cir)");
+        .because("1/288 instead of 1/256, and length modulation of three mirrors (circuits/summer.cir)");
     const auto rectifier = found_in({"rectifier_sa", {}, ".dc vhp 0.37 0.39 1m"});
     if (!rectifier) return rectifier.error();
     const auto k = [&](const char* curve) {
         return rectifier->line("dc", curve).slope_at(0.38) / rectifier->line("dc", "i(vn)").slope_at(0.38);
     };
-    out.claim("k_X = S_2B / S_6B: measured of I_B", k("i(vb)"), "times")
+    out.claim("k_X = S_2B / S_6B: measured for I_B", k("i(vb)"), "times")
         .held_to(ratio(*rectifier->circuit, "xb.mn2b", "xres.mn6b"), "errata S9: output over input");
-    out.claim("... of I_C as table 6 sizes it", k("i(vc)"), "times")
+    out.claim("k_X: measured for I_C with the sizes of table 6", k("i(vc)"), "times")
         .held_to(ratio(*rectifier->circuit, "xc.mn2b", "xres.mn6b"), "errata S9");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    for (const auto part : {eq_16_18, eq_17_19, eq_20}) {
-        if (auto ok = part(out); !ok) return ok.error();
+    for (const auto add_part : {eq_16_18, eq_17_19, eq_20}) {
+        if (auto ok = add_part(out); !ok) return ok.error();
         if (auto ok = options.at(0.5); !ok) return ok.error();
     }
-    out.note("Ratios are of the arrays' sizes as the netlists have them, which a test holds against tables 3 to 7.");
+    out.note("Ratios are those of the array sizes in the netlists, which a test compares with tables 3 to 7.");
     return out;
 }
 
 const Study study{
-    "eq16-20", "Equations (16) to (20) as corrected, beside the circuits",
-    "Do V_F, the filters and the summer follow their equations, and what would the printed ones say? Thesis 4.3.1; errata S1 to S10", work};
+    "eq16-20", "Equations (16) to (20) as corrected, compared with the circuits",
+    "Do V_F, the filters and the summer follow their equations, and what do the printed forms give? Thesis 4.3.1; errata S1 to S10", work};
 
 }  // namespace corpuscle::studies::eq16_20

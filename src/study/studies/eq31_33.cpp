@@ -1,4 +1,5 @@
-// Eq. 31 to 33: an array is one transistor of its equivalent aspect ratio, a mirror divides as the ratios of its two; unit by unit.
+// Eq. 31 to 33: an array acts as one transistor of its equivalent aspect ratio, and a mirror divides by the ratio of its two arrays. Every
+// unit transistor is simulated.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -11,16 +12,16 @@
 
 namespace corpuscle::studies::eq31_33 {
 
-struct Part {
+struct SubArray {
     int m, n;
     double S() const { return double(m) / n; }
     std::string text() const { return fmt::format("{}x{}", m, n); }
 };
-constexpr Part rectangles[] = {{1, 2}, {1, 4}, {2, 2}, {4, 1}, {1, 8}, {2, 8}, {16, 1}};
-/// At the source, at the drain: G2 and G3 of table 13, the op amp's (errata U19), the splitting mirror's.
-constexpr std::pair<Part, Part> trapezoids[] = {{{1, 4}, {4, 1}}, {{1, 1}, {7, 1}}, {{4, 4}, {16, 1}}, {{2, 4}, {8, 1}}};
-/// What tables 11 and 14 print: the array's current over S_eq times A's; NaN: it is not in them.
-double printed_ratio(const std::string& name, double S) {
+constexpr SubArray rectangles[] = {{1, 2}, {1, 4}, {2, 2}, {4, 1}, {1, 8}, {2, 8}, {16, 1}};
+/// Sub-array at the source, sub-array at the drain: G2 and G3 of table 13, the op amp's (errata U19), the splitting mirror's.
+constexpr std::pair<SubArray, SubArray> trapezoids[] = {{{1, 4}, {4, 1}}, {{1, 1}, {7, 1}}, {{4, 4}, {16, 1}}, {{2, 4}, {8, 1}}};
+/// The array's current over S_eq times A's, from tables 11 and 14; NaN if the tables do not have it.
+double published_ratio(const std::string& name, double S) {
     constexpr std::pair<const char*, const char*> rows[] = {{"1x4", "B2"}, {"2x2", "C2"},           {"4x1", "D2"},
                                                             {"1x8", "G1"}, {"1x4 under 4x1", "G2"}, {"1x1 under 7x1", "G3"}};
     const auto& [first, second] = std::pair(corpuscle::rectangles, corpuscle::trapezoids);
@@ -29,9 +30,9 @@ double printed_ratio(const std::string& name, double S) {
     return Claim::none;
 }
 
-constexpr double W = 0.42, L = 0.18;  // um: the unit of tables 10 and 13
+constexpr double W = 0.42, L = 0.18;  // um: the unit transistor of tables 10 and 13
 
-/// The array's current over that of one transistor of S_eq units, at many voltages.
+/// The array's current over that of one transistor of aspect ratio S_eq, at several bias points.
 Result<std::vector<double>> ratios(std::string_view card, const std::string& model, const std::string& array, double S,
                                    const std::string& steps) {
     const auto all = all_found_in(
@@ -49,7 +50,7 @@ struct Array {
     std::string name, equation;
     double S;
     std::string (*text)(const Array&, const std::string& rest);
-    Part low, high;
+    SubArray low, high;
 };
 
 std::string rectangle(const Array& a, const std::string& rest) { return units_text("a", "d", "g", "0", a.low.m, a.low.n, rest); }
@@ -66,7 +67,7 @@ std::vector<Array> arrays() {
 }
 
 /// (33): a mirror of two widths.
-Result<void> put_mirror(Outcome& out) {
+Result<void> add_mirror(Outcome& out) {
     for (const double ratio : {0.25, 4.0}) {
         const auto found =
             found_in({fmt::format("mirror\n{}iin 0 a 100n\nma a a 0 0 plain w=1.5u l=0.5u\nmb b a 0 0 plain w={}u l=0.5u\nvo b 0 0.35\n",
@@ -74,7 +75,7 @@ Result<void> put_mirror(Outcome& out) {
                       {},
                       ".op"});
         if (!found) return found.error();
-        out.claim(fmt::format("A mirror of S_B/S_A = {}: I_out/I_in", ratio), -found->at_rest("i(vo)") / 100e-9)
+        out.claim(fmt::format("mirror of S_B/S_A = {}: I_out/I_in", ratio), -found->at_rest("i(vo)") / 100e-9)
             .held_to(ratio, "thesis eq. 33");
     }
     return {};
@@ -84,33 +85,32 @@ Result<Outcome> work(const StudyOptions&) {
     Outcome out;
     double worst = 0;
     for (const auto& a : arrays()) {
-        const auto plain = ratios(plain_card, "plain", a.text(a, fmt::format("0 plain w={}u l={}u", W, L)), a.S,
-                                  ".step param vg list 0.2 0.35 0.5 0.9 1.8\n.step param vd list 0.02 0.1 0.5");
-        if (!plain) return plain.error();
-        for (const double r : *plain) worst = std::max(worst, std::abs(r - 1));
-        const auto whole = ratios(whole_card, "nch018", a.text(a, fmt::format("0 nch018 w={}u l={}u", W, L)), a.S, "");
-        if (!whole) return whole.error();
-        const double in_tables = printed_ratio(a.name, a.S);
-        out.claim(fmt::format("{}: with the card at 0.5 V, its current over that of one unit of S_eq = {:.4g}", a.name, a.S),
-                  whole->front())
-            .held_to(std::isnan(in_tables) ? 1 : in_tables,
-                     fmt::format("thesis {}{}", a.equation, std::isnan(in_tables) ? "" : "; tables 11 and 14 have this for it"));
+        const auto simple = ratios(plain_card, "plain", a.text(a, fmt::format("0 plain w={}u l={}u", W, L)), a.S,
+                                   ".step param vg list 0.2 0.35 0.5 0.9 1.8\n.step param vd list 0.02 0.1 0.5");
+        if (!simple) return simple.error();
+        for (const double r : *simple) worst = std::max(worst, std::abs(r - 1));
+        const auto with_process_card = ratios(whole_card, "nch018", a.text(a, fmt::format("0 nch018 w={}u l={}u", W, L)), a.S, "");
+        if (!with_process_card) return with_process_card.error();
+        const double published_value = published_ratio(a.name, a.S);
+        out.claim(fmt::format("{}: with the process card at 0.5 V, its current over that of one unit transistor of S_eq = {:.4g}", a.name,
+                              a.S),
+                  with_process_card->front())
+            .held_to(std::isnan(published_value) ? 1 : published_value,
+                     fmt::format("thesis {}{}", a.equation, std::isnan(published_value) ? "" : "; value from tables 11 and 14"));
     }
-    out.claim("The equations alone: the farthest that any of them is off, V_G 0.2 to 1.8 V, V_D 20 to 500 mV", 100 * worst, "%")
+    out.claim("equations only: largest error of all arrays, V_G 0.2 to 1.8 V, V_D 20 to 500 mV", 100 * worst, "%")
         .at_most(1e-6, "thesis eq. 31 and 32, exact in eq. 21 to 25");
-    if (auto ok = put_mirror(out); !ok) return ok.error();
+    if (auto ok = add_mirror(out); !ok) return ok.error();
     out.note(
-        "With the card, as in tables 11 and 14, arrays carry less than the equations say: one transistor of the unit's length bears all of "
-        "V_DS "
-        "and is modulated by it, of an array only what is nearest to the drain.");
+        "With the process card, as in tables 11 and 14, arrays carry less than the equations give. One transistor of the unit's length has "
+        "all of V_DS and its full length modulation; in an array only the transistor nearest to the drain is affected.");
     out.note(
-        "Inversion levels divide along a stack as voltages do along resistors: this makes both equations identities of the plain model, in "
-        "triode as "
-        "in saturation. A trapezoidal array is two rectangular ones in series (errata U19).");
+        "Inversion levels divide along a stack as voltages do along resistors, so both equations are identities of the simple model, in "
+        "triode and in saturation. A trapezoidal array is two rectangular arrays in series (errata U19).");
     return out;
 }
 
-const Study study{"eq31-33", "Arrays as one transistor",
-                  "An array is one transistor of its equivalent aspect ratio. Thesis B.1, B.2, C.1, eq. 31 to 33; errata U19", work};
+const Study study{"eq31-33", "Arrays as single transistors",
+                  "An array acts as one transistor of its equivalent aspect ratio. Thesis B.1, B.2, C.1, eq. 31 to 33; errata U19", work};
 
 }  // namespace corpuscle::studies::eq31_33

@@ -1,5 +1,5 @@
-// Eq. 34 to 41: mirrors whose arrays are parallel on one side and in series on the other, and the one that splits its current; unit by
-// unit, in the plain model and with the circuits' card. The errata's readings: C1 to C6.
+// Eq. 34 to 41: mirrors with parallel arrays on one side and series arrays on the other, and the current-splitting mirror. Every unit
+// transistor is simulated, with the simple model and with the process card. The equations are interpreted as in errata C1 to C6.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -21,95 +21,105 @@ double V_E_of(const circuit::Circuit& circuit) {
     return Claim::none;
 }
 
-std::string unit_of(const std::string& model) { return fmt::format("0 {} w=1.5u l=0.5u", model); }
-std::string common(std::string_view card, double current) {
+std::string unit_transistor(const std::string& model) { return fmt::format("0 {} w=1.5u l=0.5u", model); }
+std::string common_lines(std::string_view card, double current) {
     return fmt::format("mirror\n{}iin 0 in {:g}\nvdd vdd 0 {:g}\nvout out 0 {:g}\n", card, current, supply, V_out);
 }
 
-/// M_A is n units in parallel, M_B n in series.
-Result<Found> parallel_series(std::string_view card, const std::string& model, int n, double current = I_in) {
-    const auto unit = unit_of(model);
-    return found_in({common(card, current) + units_text("a", "in", "in", "0", n, 1, unit) + units_text("b", "out", "in", "0", 1, n, unit),
-                     {},
-                     ".op\n.tf i(vout) vout"});
+/// M_A is n unit transistors in parallel, M_B n in series.
+Result<Found> simulate_parallel_series(std::string_view card, const std::string& model, int n, double current = I_in) {
+    const auto unit = unit_transistor(model);
+    return found_in(
+        {common_lines(card, current) + units_text("a", "in", "in", "0", n, 1, unit) + units_text("b", "out", "in", "0", 1, n, unit),
+         {},
+         ".op\n.tf i(vout) vout"});
 }
 
 /// M_A and M_C are n in parallel, M_B and M_D n in series. The currents of M_C and M_D are those of vdd and vout.
-struct Split {
+struct SplitCurrents {
     double I_B, I_C, I_out;
 };
-Result<Split> split(std::string_view card, const std::string& model, int n) {
-    const auto unit = unit_of(model);
-    const auto found = found_in({common(card, I_in) + "vb yb y 0\n" + units_text("a", "in", "in", "0", n, 1, unit) +
+Result<SplitCurrents> simulate_split(std::string_view card, const std::string& model, int n) {
+    const auto unit = unit_transistor(model);
+    const auto found = found_in({common_lines(card, I_in) + "vb yb y 0\n" + units_text("a", "in", "in", "0", n, 1, unit) +
                                      units_text("b", "y", "in", "0", 1, n, unit) + units_text("c", "vdd", "in", "yb", n, 1, unit) +
                                      units_text("d", "out", "in", "yb", 1, n, unit),
                                  {},
                                  ".op"});
     if (!found) return found.error();
-    return Split{found->at_rest("i(vb)"), -found->at_rest("i(vdd)"), -found->at_rest("i(vout)")};
+    return SplitCurrents{found->at_rest("i(vb)"), -found->at_rest("i(vdd)"), -found->at_rest("i(vout)")};
 }
 
-constexpr const char* of_card = "the parallel diodes bear more voltage than the arrays in series, and are modulated by it";
+constexpr const char* length_modulation =
+    "the parallel diodes have more voltage than the series arrays, and length modulation increases their current";
 
-Result<void> put_parallel_series(Outcome& out) {
+Result<void> add_parallel_series(Outcome& out) {
     for (const int n : sizes) {
-        const auto plain = parallel_series(plain_card, "plain", n), whole = parallel_series(whole_card, "nch", n);
-        if (!plain || !whole) return plain ? whole.error() : plain.error();
-        const auto what = fmt::format("Parallel-series, N = {}: I_in/I_out, ", n);
-        out.claim(what + "the equations alone", I_in / -plain->at_rest("i(vout)")).held_to(n * n, "thesis eq. 34; errata C1");
-        auto& c = out.claim(what + "with the card", I_in / -whole->at_rest("i(vout)")).held_to(n * n, "thesis eq. 34");
-        if (c.needs_reason()) c.because(of_card);
-        const double I = -whole->at_rest("i(vout)"), G_o = -whole->by("i(vout)", "vout");
-        auto& early = out.claim(fmt::format("N = {}: V_A = I_out/G_o - V_out, with the card", n), I / G_o - V_out, "V");
-        early.held_to(V_E_of(*whole->circuit) * unit_length * n, "thesis eq. 36 with the card's V_E and L of N units");
-        if (early.needs_reason())
-            early.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
+        const auto simple = simulate_parallel_series(plain_card, "plain", n),
+                   with_process_card = simulate_parallel_series(whole_card, "nch", n);
+        if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
+        const auto prefix = fmt::format("parallel-series, N = {}: I_in/I_out, ", n);
+        out.claim(prefix + "equations only", I_in / -simple->at_rest("i(vout)")).held_to(n * n, "thesis eq. 34; errata C1");
+        auto& c =
+            out.claim(prefix + "with the process card", I_in / -with_process_card->at_rest("i(vout)")).held_to(n * n, "thesis eq. 34");
+        if (c.needs_reason()) c.because(length_modulation);
+        const double I = -with_process_card->at_rest("i(vout)"), G_o = -with_process_card->by("i(vout)", "vout");
+        auto& early_claim = out.claim(fmt::format("N = {}: V_A = I_out/G_o - V_out, with the process card", n), I / G_o - V_out, "V");
+        early_claim.held_to(V_E_of(*with_process_card->circuit) * unit_length * n,
+                            "thesis eq. 36 with V_E of the process card and L of N unit transistors");
+        if (early_claim.needs_reason())
+            early_claim.because(
+                "only the unit transistor at the drain has length modulation, which reduces it to less than its fraction of the stack's "
+                "length");
     }
     return {};
 }
 
-Result<void> put_split(Outcome& out) {
-    Plot plot{"Attenuation of a splitting mirror along N", "N", "I_in/I_out over N^4", {}};
-    Line by_40, exact, plain_line, whole_line;
+Result<void> add_split(Outcome& out) {
+    Plot plot{"Attenuation of a current-splitting mirror over N", "N", "I_in/I_out over N^4", {}};
+    Line by_40, exact, simple_line, process_line;
     for (const int n : sizes) {
-        const auto plain = split(plain_card, "plain", n), whole = split(whole_card, "nch", n);
-        if (!plain || !whole) return plain ? whole.error() : plain.error();
+        const auto simple = simulate_split(plain_card, "plain", n), with_process_card = simulate_split(whole_card, "nch", n);
+        if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
         const double N2 = n * n, by_38_39 = N2 * (N2 + 2);
-        const auto what = fmt::format("Splitting, N = {}: ", n);
-        out.claim(what + "I_DC + I_DD over I_DB, the equations alone", (plain->I_C + plain->I_out) / plain->I_B)
+        const auto prefix = fmt::format("current splitting, N = {}: ", n);
+        out.claim(prefix + "I_DC + I_DD over I_DB, equations only", (simple->I_C + simple->I_out) / simple->I_B)
             .held_to(1, "thesis eq. 37");
-        out.claim(what + "I_in/I_DB, the equations alone", I_in / plain->I_B)
+        out.claim(prefix + "I_in/I_DB, equations only", I_in / simple->I_B)
             .held_to(n * (1.0 / n + n + 1.0 / n) / ((n + 1.0 / n) / n), "thesis eq. 38");
-        out.claim(what + "I_DC/I_out, the equations alone", plain->I_C / plain->I_out)
+        out.claim(prefix + "I_DC/I_out, equations only", simple->I_C / simple->I_out)
             .held_to(N2, "thesis eq. 39; errata C5: exact in saturation");
-        out.claim(what + "I_in/I_out, the equations alone", I_in / plain->I_out)
-            .held_to(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6");
-        auto& high =
-            out.claim(what + "eq. 40 is high by", 100 * (plain->I_out > 0 ? I_in / plain->I_out / (N2 * N2) - 1 : Claim::none), "%");
-        high.held_to(200 / N2, "errata C6: 2/N^2, for S_C >> S_B + S_D is not that much greater");
-        auto& printed =
-            out.claim(what + "I_in/I_out, the equations alone, beside eq. 41", I_in / plain->I_out).held_to(N2 * N2, "thesis eq. 41: N^4");
-        if (printed.needs_reason()) printed.because("eq. 40 takes S_C >> S_B + S_D: errata C6");
-        auto& c = out.claim(what + "I_in/I_out, with the card", I_in / whole->I_out).held_to(by_38_39, "eq. 38 and 39");
-        if (c.needs_reason()) c.because(of_card);
+        out.claim(prefix + "I_in/I_out, equations only", I_in / simple->I_out).held_to(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6");
+        auto& error_claim =
+            out.claim(prefix + "excess of eq. 40", 100 * (simple->I_out > 0 ? I_in / simple->I_out / (N2 * N2) - 1 : Claim::none), "%");
+        error_claim.held_to(200 / N2, "errata C6: 2/N^2, because S_C >> S_B + S_D is only approximate");
+        auto& against_41 =
+            out.claim(prefix + "I_in/I_out, equations only, against eq. 41", I_in / simple->I_out).held_to(N2 * N2, "thesis eq. 41: N^4");
+        if (against_41.needs_reason()) against_41.because("eq. 40 assumes S_C >> S_B + S_D: errata C6");
+        auto& c =
+            out.claim(prefix + "I_in/I_out, with the process card", I_in / with_process_card->I_out).held_to(by_38_39, "eq. 38 and 39");
+        if (c.needs_reason()) c.because(length_modulation);
         by_40.x.push_back(n), by_40.y.push_back(1), exact.x.push_back(n), exact.y.push_back(by_38_39 / (N2 * N2));
-        plain_line.x.push_back(n), plain_line.y.push_back(I_in / plain->I_out / (N2 * N2)), whole_line.x.push_back(n),
-            whole_line.y.push_back(I_in / whole->I_out / (N2 * N2));
+        simple_line.x.push_back(n), simple_line.y.push_back(I_in / simple->I_out / (N2 * N2)), process_line.x.push_back(n),
+            process_line.y.push_back(I_in / with_process_card->I_out / (N2 * N2));
         const double units = 4.0 * n, of_parallel_series = 2.0 * n * n;  // of the same attenuation: N^2 in parallel and in series
-        auto& half = out.claim(fmt::format("Units of a splitting mirror over those of a parallel-series one of its attenuation, N = {}", n),
-                               units / of_parallel_series);
-        half.held_to(0.5, "thesis C.2: half as many");
-        if (half.needs_reason()) half.because("4 N units against 2 N^2 for 1/N^4: half at N = 4, fewer for more");
+        auto& count_claim = out.claim(fmt::format("number of unit transistors of a current-splitting mirror over that of a parallel-series "
+                                                  "mirror of the same attenuation, N = {}",
+                                                  n),
+                                      units / of_parallel_series);
+        count_claim.held_to(0.5, "thesis C.2: half as many");
+        if (count_claim.needs_reason())
+            count_claim.because("4 N unit transistors against 2 N^2 for 1/N^4: half at N = 4, less for larger N");
     }
     out.plots.push_back(plot.add("eq. 41, N^4", by_40)
                             .add("eq. 38 and 39", exact)
-                            .points("the equations alone, solved", plain_line)
-                            .points("with the card", whole_line));
+                            .points("equations only, simulated", simple_line)
+                            .points("with the process card", process_line));
     return {};
 }
 
-/// (35) as corrected: at V_out = V_in the mirror is exact, so that what counts is the difference.
-Result<void> put_output(Outcome& out) {
+/// (35) as corrected: at V_out = V_in the mirror is exact, so the difference of the voltages counts.
+Result<void> add_output(Outcome& out) {
     const auto found =
         found_in({fmt::format("mirror\n{}iin 0 in {:g}\nma in in 0 0 nch w=1.5u l=0.5u\nmb out in 0 0 nch w=1.5u l=0.5u\nvout out 0 0.35\n",
                               whole_card, I_in),
@@ -118,27 +128,28 @@ Result<void> put_output(Outcome& out) {
     if (!found) return found.error();
     const auto I = found->line("dc", "i(vout)").times(1, -1);
     const double V_in = found->at_rest("v(in)"), G_o = I.slope_at(0.35), at = 0.65;
-    out.claim("1 to 1: I_out/I_in at V_out = V_in, with the card", I.at(V_in) / I_in).held_to(1, "errata C2");
-    out.claim("1 to 1: I_out at 0.65 V by A_I I_in + G_o (V_out - V_in), over that of the solved mirror",
+    out.claim("1 to 1: I_out/I_in at V_out = V_in, with the process card", I.at(V_in) / I_in).held_to(1, "errata C2");
+    out.claim("1 to 1: I_out at 0.65 V from A_I I_in + G_o (V_out - V_in), over that of the simulated mirror",
               (I_in + G_o * (at - V_in)) / I.at(at))
-        .held_to(1, "eq. 35 as errata C2 has it");
-    out.claim("1 to 1: the same by A_I I_in + G_o V_out", (I_in + G_o * at) / I.at(at)).held_to(1, "thesis eq. 35");
-    out.finds("Eq. 35 as corrected is the nearer one",
-              std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)), "errata C2");
+        .held_to(1, "eq. 35 as corrected by errata C2");
+    out.claim("1 to 1: the same from A_I I_in + G_o V_out", (I_in + G_o * at) / I.at(at)).held_to(1, "thesis eq. 35");
+    out.finds("eq. 35 as corrected is closer", std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)),
+              "errata C2");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions&) {
     Outcome out;
-    for (const auto put : {put_parallel_series, put_output, put_split})
-        if (auto ok = put(out); !ok) return ok.error();
-    out.note("\"Greater current gain\" (C.2) means greater attenuation: A_I = 1/N^2 (errata C4). R_o and R_out are one quantity (C3).");
+    for (const auto add : {add_parallel_series, add_output, add_split})
+        if (auto ok = add(out); !ok) return ok.error();
+    out.note(
+        "\"Greater current gain\" (C.2) means greater attenuation: A_I = 1/N^2 (errata C4). R_o and R_out are the same quantity (C3).");
     return out;
 }
 
-const Study study{
-    "eq34-41", "Mirrors that divide",
-    "By N^2 with parallel and series arrays, by N^4, or nearly, with the current split. Thesis C.1, C.2, eq. 34 to 41; errata C1 to C6",
-    work};
+const Study study{"eq34-41", "Current-dividing mirrors",
+                  "Division by N^2 with parallel and series arrays, and by almost N^4 with current splitting. Thesis C.1, C.2, eq. 34 to "
+                  "41; errata C1 to C6",
+                  work};
 
 }  // namespace corpuscle::studies::eq34_41

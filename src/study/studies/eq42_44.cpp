@@ -1,4 +1,4 @@
-// Eq. 42 to 44: a transistor in weak inversion with its bulk forward biased, the junction's current, and what body bias is worth.
+// Eq. 42 to 44: a transistor in weak inversion with its bulk forward biased, the current of the junction, and the effect of body bias.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -14,15 +14,15 @@ namespace corpuscle::studies::eq42_44 {
 constexpr double W_by_L = 3;  // of 1.5/0.5 um
 const double phi_t = circuit::thermal_voltage(300.15);
 
-/// (42), for a drain at 0.6 V: in weak inversion to what i_f is, above it no longer.
-Result<void> put_42(Outcome& out) {
+/// (42), for a drain at 0.6 V: accurate in weak inversion to the order of i_f, not above it.
+Result<void> add_42(Outcome& out) {
     const auto found = all_found_in(
         {fmt::format("weak\n{}vd d 0 0.6\nvg g 0 {{vg}}\nvb b 0 {{vb}}\nm1 d g 0 b plain w=1.5u l=0.5u\n.param vg=0.2 vb=0\n", plain_card),
          {},
          ".op\n.step param vb list 0 0.1 0.2\n.step param vg 0.05 0.5 0.025"});
     if (!found) return found.error();
-    Plot plot{"Eq. 42 beside the whole equations, V_BS = 0.2 V", "V_GS (V)", "I_D (nA)", {}, false, true};
-    Line weak, whole;
+    Plot plot{"Eq. 42 against the complete equations, V_BS = 0.2 V", "V_GS (V)", "I_D (nA)", {}, false, true};
+    Line weak, complete;
     double worst = 0, worst_without_2 = 0;
     for (const auto& f : *found) {
         const double V_G = f.at_rest("v(g)"), V_B = f.at_rest("v(b)"), I = -f.at_rest("i(vd)"), i_f = f.reading("m1", "i_f");
@@ -30,17 +30,18 @@ Result<void> put_42(Outcome& out) {
             2 * std::numbers::e * plain_I_SQ * W_by_L * std::exp((V_G + (plain_n - 1) * V_B - plain_V_T0) / (plain_n * phi_t));
         if (i_f < 0.01)
             worst = std::max(worst, std::abs(by_42 / I - 1)), worst_without_2 = std::max(worst_without_2, std::abs(by_42 / 2 / I - 1));
-        if (V_B > 0.15) weak.x.push_back(V_G), weak.y.push_back(1e9 * by_42), whole.x.push_back(V_G), whole.y.push_back(1e9 * I);
+        if (V_B > 0.15) weak.x.push_back(V_G), weak.y.push_back(1e9 * by_42), complete.x.push_back(V_G), complete.y.push_back(1e9 * I);
     }
-    out.claim("(42) is off the equations where i_f < 0.01 at most by", 100 * worst, "%")
+    out.claim("(42): largest error against the complete equations where i_f < 0.01", 100 * worst, "%")
         .at_most(1, "thesis eq. 42, its factor 2 e (errata I1); i_f << 1");
-    out.claim("(42) without its 2, as (45a) and (45b) print it, by", 100 * worst_without_2, "%").between(49, 51, "errata I1: half");
-    out.plots.push_back(plot.add("eq. 42", weak).add("the equations", whole));
+    out.claim("(42) without the factor 2, as printed in (45a) and (45b): largest error", 100 * worst_without_2, "%")
+        .between(49, 51, "errata I1: a factor of two");
+    out.plots.push_back(plot.add("eq. 42", weak).add("complete equations", complete));
     return {};
 }
 
-/// The junction from bulk to source, both of its ends' areas as the card has them.
-Result<void> put_43(Outcome& out) {
+/// The junction from bulk to source, with both junction areas of the process card.
+Result<void> add_43(Outcome& out) {
     const auto found =
         found_in({fmt::format("junction\n{}vd d 0 0.9\nvb b 0 0\nm1 d 0 0 b nch w=1.5u l=0.5u\n.options gmin=0\n", whole_card),
                   {},
@@ -53,35 +54,38 @@ Result<void> put_43(Outcome& out) {
     double n_dio = 0;
     for (const auto& m : found->circuit->models)
         if (m.name == "nch") n_dio = m.values.at("nj");
-    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t)).held_to(n_dio, "thesis eq. 43; the card's");
-    out.claim("(43): ln I_B is off a straight line at most by, in %", 100 * fit.farthest, "%").at_most(2, "thesis eq. 43: an exponential");
-    out.claim("(43): I_Sdio of one 1.5/0.5 um unit", std::exp(fit.at_zero), "A");
+    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t)).held_to(n_dio, "thesis eq. 43; value of the process card");
+    out.claim("(43): largest difference of ln I_B from a straight line", 100 * fit.farthest, "%")
+        .at_most(2, "thesis eq. 43: an exponential");
+    out.claim("(43): I_Sdio of one unit transistor of 1.5/0.5 um", std::exp(fit.at_zero), "A");
     return {};
 }
 
-/// At equal current in weak inversion V_X = n V_Y: in the plain model exactly, for the exponents are the same.
-Result<void> put_44(Outcome& out) {
+/// At equal current in weak inversion V_X = n V_Y: exact in the simple model, because the exponents are equal.
+Result<void> add_44(Outcome& out) {
     const auto found = found_in(
         {fmt::format("diodes\n{}ix 0 x 1n\niy 0 y 1n\nmx x x 0 0 plain w=1.5u l=0.5u\nmy y y 0 y plain w=1.5u l=0.5u\n", plain_card),
          {},
          ".op"});
     if (!found) return found.error();
     const double V_X = found->at_rest("v(x)"), V_Y = found->at_rest("v(y)");
-    out.claim("(44): V_X/V_Y at 1 nA, the equations alone", V_X / V_Y).held_to(plain_n, "thesis eq. 44");
-    out.claim("(44): i_fX/i_fY there", found->reading("mx", "i_f") / found->reading("my", "i_f"))
+    out.claim("(44): V_X/V_Y at 1 nA, equations only", V_X / V_Y).held_to(plain_n, "thesis eq. 44");
+    out.claim("(44): i_fX/i_fY at 1 nA", found->reading("mx", "i_f") / found->reading("my", "i_f"))
         .held_to(1, "thesis app. D: about the same");
-    out.finds("The second diode's voltage is V_Y, the lower one", V_Y < V_X, "errata C8");
+    out.finds("the second diode's voltage is V_Y, the lower one", V_Y < V_X, "errata C8");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions&) {
     Outcome out;
-    for (const auto put : {put_42, put_43, put_44})
-        if (auto ok = put(out); !ok) return ok.error();
+    for (const auto add : {add_42, add_43, add_44})
+        if (auto ok = add(out); !ok) return ok.error();
     return out;
 }
 
-const Study study{"eq42-44", "Weak inversion, junctions, body bias",
-                  "The exponentials of a body-biased transistor and of its junction. Thesis app. D, eq. 42 to 44; errata I1, C7, C8", work};
+const Study study{
+    "eq42-44", "Weak inversion, junctions, body bias",
+    "The exponential characteristics of a body-biased transistor and of its junction. Thesis app. D, eq. 42 to 44; errata I1, C7, C8",
+    work};
 
 }  // namespace corpuscle::studies::eq42_44

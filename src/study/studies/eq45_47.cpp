@@ -1,4 +1,5 @@
-// Equations 45 to 47 against the solved circuits, as the errata correct them; where an erratum matters the printed form stands beside.
+// Equations 45 to 47, corrected by the errata, compared with the simulated circuits; where an erratum matters the printed form is compared
+// as well.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -10,10 +11,10 @@
 namespace corpuscle::studies::eq45_47 {
 
 constexpr double phi_t = 1.380649e-23 * 300.15 / 1.602176634e-19, e = 2.718281828459045;  // V at 27 C
-constexpr double low = 0.4;                                                               // V: a supply at which weak inversion holds
-constexpr double saturated = 0.6;  // V: one at which it almost holds, and drains are far enough from their sources for eq. 46
+constexpr double low = 0.4;        // V: a supply at which all transistors are in weak inversion
+constexpr double saturated = 0.6;  // V: a supply at which they almost are, and drain voltages are large enough for eq. 46
 
-// One array; an inverter of such arrays tied to itself, another whose output is held where that rests, and one that is open.
+// One array, and three inverters of such arrays: output tied to the input, output held at that voltage, and output open.
 constexpr const char* circuit = R"(Arrays and inverters in weak inversion
 .lib '../process/tsmc180.lib' tt
 .param low=0.4 v_q=0.2 stronger=1
@@ -24,7 +25,7 @@ vs1 d d1 0
 m1 d1 g 0 0 nch w=1.5u l=0.5u m=2 stack=8
 vs2 d d2 0
 m2 d2 g 0 0 nch w=1.5u l=0.5u
-* tied to itself, both bulks lifted alike
+* output tied to input, both bulks biased equally
 vbn bn 0 0
 ebp bp 0 vdd bn 1
 visq sq 0 0
@@ -33,7 +34,7 @@ mnq q q sq  bn nch w=1.5u l=0.5u m=2 stack=8
 * the same with the bulks at the output
 mp0 q0 q0 vdd q0 pch w=6u l=0.5u m=2 stack=8 mulu0={stronger}
 mn0 q0 q0 0   q0 nch w=1.5u l=0.5u m=2 stack=8
-* held at v_q, bulks at the rails and their voltage moved with vb; and open
+* output held at v_q, bulk voltages moved from the rails by vb; then an open output
 vin in 0 {v_q}
 vb b 0 0
 ebpb bph 0 vdd 0 1
@@ -45,9 +46,11 @@ mpo o in vdd vdd pch w=6u l=0.5u m=2 stack=8
 mno o in 0   0   nch w=1.5u l=0.5u m=2 stack=8
 )";
 
-Result<Found> run(const std::vector<std::string>& settings, const std::string& orders) { return found_in({circuit, settings, orders}); }
+Result<Found> run(const std::vector<std::string>& settings, const std::string& directives) {
+    return found_in({circuit, settings, directives});
+}
 
-/// The card's numbers of a transistor here; V_A of a stack is that of all its units.
+/// The parameters of a transistor in the process card; V_A of a stack is that of all its unit transistors.
 struct Array {
     double n, V_T, I_S, V_A;
     Array(const circuit::Circuit& c, const char* name) {
@@ -71,7 +74,7 @@ Result<void> claim_currents(Outcome& out) {
     if (!f) return f.error();
     const Array N(*f->circuit, "m1");
     const double I_D = f->line("dc", "i(vs1)").at(0), I_unit = f->line("dc", "i(vs2)").at(0);
-    claim_both(out, "an array's I_D at V_GS = 0.2 V", I_D / (2 * N.weak(0.2, 0)), I_D / N.weak(0.2, 0), "45a", "I1");
+    claim_both(out, "array: I_D at V_GS = 0.2 V", I_D / (2 * N.weak(0.2, 0)), I_D / N.weak(0.2, 0), "45a", "I1");
     const auto I_Q = f->line("dc", "i(visq)"), V_Q = f->line("dc", "v(q)");
     for (const double V_BN : {0.0, 0.15}) {
         const double weak = N.weak(V_Q.at(V_BN), V_BN);
@@ -79,21 +82,21 @@ Result<void> claim_currents(Outcome& out) {
                    "I1, I1a");
     }
     const double slope = std::log(I_Q.at(0.1) / I_Q.at(0.05)) / 0.05;
-    out.claim("ln I_Q over V_BN, both bulks lifted alike: slope", slope, "1/V")
+    out.claim("slope of ln I_Q over V_BN, both bulks biased equally", slope, "1/V")
         .held_to((N.n - 1) / (N.n * phi_t), "E.1: I_Q grows exponentially with (n-1) V_BN; by eq. 45b (n-1)/(n phi_t)");
-    out.claim("an array of 2x8 over one unit", I_D / I_unit).held_to(2.0 / 8, "eq. 45c with eq. 31: S_eq");
+    out.claim("I_D of a 2x8 array over that of one unit transistor", I_D / I_unit).held_to(2.0 / 8, "eq. 45c with eq. 31: S_eq");
     return {};
 }
 
-/// G_m, G_o and G_mb of the held inverter, as slopes.
+/// G_m, G_o and G_mb of the inverter with its output held, as slopes.
 struct Slopes {
     double I_Q = 0, G_m = 0, G_o = 0, G_mb = 0;
     static Result<Slopes> at(double V_Q, double supply) {
-        const std::vector<std::string> here = {fmt::format("v_q={}", V_Q), fmt::format("low={}", supply)};
+        const std::vector<std::string> settings = {fmt::format("v_q={}", V_Q), fmt::format("low={}", supply)};
         Slopes out;
         for (auto& [source, slope] : {std::pair{"vin", &out.G_m}, {"vh", &out.G_o}, {"vb", &out.G_mb}}) {
             const double middle = source == std::string_view("vb") ? 0 : V_Q;
-            const auto f = run(here, fmt::format(".dc {} {} {} 1m", source, middle - 2e-3, middle + 2e-3));
+            const auto f = run(settings, fmt::format(".dc {} {} {} 1m", source, middle - 2e-3, middle + 2e-3));
             if (!f) return f.error();
             *slope = std::abs(f->line("dc", "i(vh)").slope_at(middle));
         }
@@ -102,28 +105,28 @@ struct Slopes {
 };
 
 Result<void> claim_gain(Outcome& out) {
-    const std::vector<std::string> here = {fmt::format("low={}", saturated)};
-    const auto rest = run(here, ".op");
+    const std::vector<std::string> settings = {fmt::format("low={}", saturated)};
+    const auto rest = run(settings, ".op");
     if (!rest) return rest.error();
     const double V_Q = rest->at_rest("v(q)"), I_Q = rest->at_rest("i(visq)");
     const Array N(*rest->circuit, "mnq"), P(*rest->circuit, "mpq");
     const auto s = Slopes::at(V_Q, saturated);
     if (!s) return s.error();
-    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").held_to(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b of this I_Q");
-    out.claim("G_o", s->G_o, "S").held_to(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c of this I_Q, with V_A = V_E L of the card");
+    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").held_to(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b with this I_Q");
+    out.claim("G_o", s->G_o, "S").held_to(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c with this I_Q and V_A = V_E L of the process card");
     const double by_printed = 1 / (N.n * phi_t * (1 / P.V_A + 1 / N.V_A));
     claim_both(out, "A_V = G_m / G_o", s->G_m / s->G_o / (2 * by_printed), s->G_m / s->G_o / by_printed, "46d", "I2");
     const double step = 20e-6;
-    const auto open = run(here, fmt::format(".dc vin {} {} 1u", V_Q - step, V_Q + step));
+    const auto open = run(settings, fmt::format(".dc vin {} {} 1u", V_Q - step, V_Q + step));
     if (!open) return open.error();
     const auto V_o = open->line("dc", "v(o)");
-    out.claim("V_o 20 uV above V_Q: below V_Q by", V_Q - V_o.at(V_o.x[V_o.x.size() - 1]), "V")
+    out.claim("V_Q - V_o for an input 20 uV above V_Q", V_Q - V_o.at(V_o.x[V_o.x.size() - 1]), "V")
         .held_to(s->G_m / s->G_o * (V_o.x.back() - V_Q), "eq. 46a");
-    const auto biased = Inverters::swept(1e-3);
-    if (!biased) return biased.error();
-    auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", biased->at_rest('a'), "S")
-                  .held_to(2 * biased->taken('a').at(0) / (N.n * phi_t), "eq. 46b of its I_Q");
-    if (c.needs_reason()) c.because("eq. 46b is for weak inversion; 200 nA in these arrays is moderate");
+    const auto inverters = Inverters::swept(1e-3);
+    if (!inverters) return inverters.error();
+    auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", inverters->at_rest('a'), "S")
+                  .held_to(2 * inverters->taken('a').at(0) / (N.n * phi_t), "eq. 46b with its I_Q");
+    if (c.needs_reason()) c.because("eq. 46b holds in weak inversion; 200 nA in these arrays is moderate inversion");
     return {};
 }
 
@@ -134,20 +137,20 @@ Result<void> claim_rest(Outcome& out) {
     const Array N(*f->circuit, "mn2a"), P(*f->circuit, "mp1a");
     const auto s = Slopes::at(low / 2, low);
     if (!s) return s.error();
-    const double away = V_Q0 - V_DD / 2;
+    const double offset = V_Q0 - V_DD / 2;
     out.claim("V_Q with bulks at the rails", V_Q, "V")
-        .held_to(V_Q0 + (N.n - 1) * away, "eq. 47a, second line, of V_Q0 as solved (errata I4: as printed)");
-    out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").held_to((N.n - 1) * away, "eq. 47a, second line");
+        .held_to(V_Q0 + (N.n - 1) * offset, "eq. 47a, second line, with the simulated V_Q0 (errata I4: as printed)");
+    out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").held_to((N.n - 1) * offset, "eq. 47a, second line");
     out.claim("G_mb / (G_m + G_o) at 0.4 V", s->G_mb / (s->G_m + s->G_o)).held_to(N.n - 1, "eq. 47a, both lines");
     for (const double stronger : {1.0, 2.0, 4.0}) {
-        const auto there = run({fmt::format("stronger={}", stronger)}, ".op");
-        if (!there) return there.error();
+        const auto result = run({fmt::format("stronger={}", stronger)}, ".op");
+        if (!result) return result.error();
         const double middle = low / 2 + (N.V_T - P.V_T) / (2 * N.n), shift = phi_t / 2 * std::log(stronger * P.I_S / N.I_S);
-        out.claim(fmt::format("V_Q0 at {:g} V with I_SP of {:g} I_SN", low, stronger), there->at_rest("v(q0)"), "V")
+        out.claim(fmt::format("V_Q0 at {:g} V with I_SP = {:g} I_SN", low, stronger), result->at_rest("v(q0)"), "V")
             .held_to(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");
         if (stronger == 1) continue;
-        out.claim(fmt::format("the same, from V_DD / 2 + (V_TP + V_TN) / 2n, I_SP of {:g} I_SN", stronger),
-                  there->at_rest("v(q0)") - middle, "V")
+        out.claim(fmt::format("the same minus V_DD / 2 + (V_TP + V_TN) / 2n, I_SP = {:g} I_SN", stronger),
+                  result->at_rest("v(q0)") - middle, "V")
             .held_to(-shift, "eq. 47b with the printed -")
             .because("the sign is misprinted: a stronger PMOS raises V_Q (errata I5)");
     }
@@ -162,13 +165,12 @@ Result<Outcome> work(const StudyOptions& options) {
     if (auto ok = options.at(0.6); !ok) return ok.error();
     if (auto ok = claim_rest(out); !ok) return ok.error();
     out.note(
-        "What is made is solved transistor by transistor with the card, at 0.4 V so that all is in weak inversion (eq. 46 at 0.6 V, where "
-        "drains are saturated, too); what is printed is the "
-        "equation, of the card's n, V_T, I_SQ and V_E.");
+        "The computed values are simulated with the process card at 0.4 V, so that all transistors are in weak inversion (eq. 46 at 0.6 V, "
+        "where drains are saturated as well). The published values are the equations with n, V_T, I_SQ and V_E of the process card.");
     return out;
 }
 
 const Study study{"eq45-47", "The inverter's equations",
-                  "I_Q, G_m, G_o, A_V and V_Q by eq. 45 to 47, against circuits solved. Thesis E.1 (errata I1, I2, I4, I5)", work};
+                  "I_Q, G_m, G_o, A_V and V_Q by eq. 45 to 47, compared with simulated circuits. Thesis E.1 (errata I1, I2, I4, I5)", work};
 
 }  // namespace corpuscle::studies::eq45_47

@@ -1,4 +1,4 @@
-// Errata U1 to U19 and C1 to C9 that no other study shows.
+// Errata U1 to U19 and C1 to C9 that no other study covers.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,36 +11,36 @@
 
 namespace corpuscle::studies::errata_arrays {
 
-void put_tables(Outcome& out) {
+void add_tables(Outcome& out) {
     const auto& a = printed(rectangles, "A");
     out.claim("A: I_D/g_md by table 11, g_md in uS", a.I_D / a.g_md, "V").printed_as(a.V_A, "table 12; errata U6: V_A is I_D/g_md");
-    out.finds("A: g_md/I_D, as B.1 defines V_A, is no 2.10 V", std::abs(a.g_md / a.I_D / a.V_A - 1) > 0.5, "errata U6");
+    out.finds("A: g_md/I_D, as B.1 defines V_A, is not 2.10 V", std::abs(a.g_md / a.I_D / a.V_A - 1) > 0.5, "errata U6");
     out.claim("B2's V_A over A's, as printed", printed(rectangles, "B2").V_A / a.V_A)
         .printed_as(4, "thesis B.1: 4 times \"A1\"; errata U15: A is meant");
     out.claim("C2's V_A over A's, as printed", printed(rectangles, "C2").V_A / a.V_A).printed_as(2, "the same");
     out.claim("C1: A_T as an area", 1e12 * circuit::rectangle_area(1.12e-6, 0.90e-6, 1, 1), "um^2")
         .printed_as(printed(rectangles, "C1").A_T, "table 10; errata U16");
     using Rule = circuit::RectangleRule;
-    out.claim("C1: the perimeter of the same rectangle, um", 1e6 * 2 * (1.12e-6 + Rule::around_W + 0.90e-6 + Rule::around_L));
+    out.claim("C1: perimeter of the same rectangle, um", 1e6 * 2 * (1.12e-6 + Rule::around_W + 0.90e-6 + Rule::around_L));
 }
 
-/// (U14) Printed deviations by area, among arrays of one inversion.
-void put_mismatch_by_area(Outcome& out) {
+/// (U14) Published deviations over area, for arrays of equal inversion level.
+void add_mismatch_by_area(Outcome& out) {
     const auto& a = printed(rectangles, "A");
     for (const char* name : {"B2", "C2", "D2"}) {
         const auto& p = printed(rectangles, name);
-        out.claim(fmt::format("{}: its printed deviation over A's", name), p.sigma / a.sigma)
-            .held_to(std::sqrt(a.A / p.A), "errata U14: inversely to the root of the area");
+        out.claim(fmt::format("{}: published deviation over A's", name), p.sigma / a.sigma)
+            .held_to(std::sqrt(a.A / p.A), "errata U14: inversely proportional to the square root of the area");
     }
     const auto &e = printed(trapezoids, "E"), &g1 = printed(trapezoids, "G1");
     out.claim("E's active area over G1's, as printed", e.A / g1.A).printed_as(4, "thesis B.2; errata U18: 3.63");
     out.claim("G1's deviation over E's, as printed", g1.sigma / e.sigma)
         .printed_as(2, "thesis B.2: half; errata U18: 2.4")
-        .because("3.63 times the area, and E is further inverted: its g_mg/I_D is less");
+        .because("3.63 times the area, and E is in stronger inversion with a lower g_mg/I_D");
 }
 
-/// (U14) Mismatch falls with inversion; (U13) V_T is no matter of the drain.
-Result<void> put_mismatch_by_inversion(Outcome& out) {
+/// (U14) Mismatch falls with inversion; (U13) V_T does not depend on the drain.
+Result<void> add_mismatch_by_inversion(Outcome& out) {
     const auto sigma = [&](double V_G) -> Result<double> {
         const auto found =
             found_in({fmt::format("slope\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n", whole_card, V_G), {}, ".op"});
@@ -52,36 +52,36 @@ Result<void> put_mismatch_by_inversion(Outcome& out) {
     };
     const auto weak = sigma(0.25), strong = sigma(0.9);
     if (!weak || !strong) return weak ? strong.error() : weak.error();
-    out.claim("A's deviation of I_D by its threshold's at V_G = 0.25 V", *weak, "%");
-    out.claim("The same at 0.9 V", *strong, "%").at_most(*weak, "errata U14: it falls with inversion");
+    out.claim("A: deviation of I_D caused by the threshold's at V_G = 0.25 V", *weak, "%");
+    out.claim("A: the same at 0.9 V", *strong, "%").at_most(*weak, "errata U14: it falls with inversion");
     return {};
 }
 
-Result<void> put_threshold(Outcome& out) {
+Result<void> add_threshold(Outcome& out) {
     const auto found =
         all_found_in({fmt::format("drain\n{}vd d 0 {{vd}}\nvg g 0 0.3\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n.param vd=0\n", whole_card),
                       {},
                       ".op\n.step param vd list 0 0.5"});
     if (!found) return found.error();
     const double at_0 = found->front().reading("m1", "v_t"), at_half = found->back().reading("m1", "v_t");
-    out.claim("The short unit's V_T at V_D = 0.5 V less that at 0", at_half - at_0, "V")
-        .between(-16e-3, 0, "errata U13: what g_md leaves for lowering by the drain; the fit says 0");
+    out.claim("short unit transistor: V_T at V_D = 0.5 V minus that at 0", at_half - at_0, "V")
+        .between(-16e-3, 0, "errata U13: the most that g_md allows for drain-induced lowering; the fit gives 0");
     const auto V_T = [](const PrintedArrays& all, const char* name) { return 1e-3 * printed(all, name).V_T; };
     out.finds(
-        "Printed at V_D = 0: 441.4 mV at 5.22 um, 479.6 at 0.9, 531.7 at 0.18: it rises as L falls, lowering by the drain would let it "
-        "fall",
+        "published at V_D = 0: 441.4 mV at 5.22 um, 479.6 mV at 0.9 um, 531.7 mV at 0.18 um. V_T rises as L falls; drain-induced lowering "
+        "would make it fall",
         V_T(trapezoids, "E") < V_T(rectangles, "B1") && V_T(rectangles, "B1") < V_T(rectangles, "A"), "errata U13");
     return {};
 }
 
-/// (C9) A bulk lifted above the source needs a well; (C7) with bulk at the drain the plain diode would be the body-biased one.
-Result<void> put_bulk(Outcome& out) {
+/// (C9) A bulk above the source needs a well; (C7) with the bulk at the drain the plain diode would be the body-biased one.
+Result<void> add_bulk(Outcome& out) {
     const auto found = found_in(
         {fmt::format("diodes\n{}va a 0 0.3\nvs s a 0\nvd e a 0\nm1 s s 0 0 nch w=1.5u l=0.5u\nm2 e e 0 e nch w=1.5u l=0.5u\n", whole_card),
          {},
          ".op"});
     if (!found) return found.error();
-    out.claim("A diode's current with V_B = V_D, as D prints of fig. 48a, over that with V_B = V_S, at 0.3 V",
+    out.claim("current of a diode with V_B = V_D, as appendix D prints for fig. 48a, over that with V_B = V_S, at 0.3 V",
               found->at_rest("i(vd)") / found->at_rest("i(vs)"))
         .at_least(2, "errata C7: V_B = V_D would be fig. 48b already");
     return {};
@@ -89,22 +89,21 @@ Result<void> put_bulk(Outcome& out) {
 
 Result<Outcome> work(const StudyOptions&) {
     Outcome out;
-    put_tables(out);
-    put_mismatch_by_area(out);
-    for (const auto put : {put_mismatch_by_inversion, put_threshold, put_bulk})
-        if (auto ok = put(out); !ok) return ok.error();
+    add_tables(out);
+    add_mismatch_by_area(out);
+    for (const auto add : {add_mismatch_by_inversion, add_threshold, add_bulk})
+        if (auto ok = add(out); !ok) return ok.error();
     out.note(
-        "Elsewhere: U2, U4 and U5 in eq21-30; U7, U10 and U13 in table11; U5, U6, U12 and U14 in table12; U8 in table14; U9, U17 and U18 "
-        "in table15; U11 and U16 "
-        "in table10; U19 in eq31-33; C1 to C6 in eq34-41; C8 in eq42-44.");
+        "The other errata are in these studies. U2, U4, U5: eq21-30. U7, U10, U13: table11. U5, U6, U12, U14: table12. U8: table14. U9, "
+        "U17, U18: table15. U11, U16: table10. U19: eq31-33. C1 to C6: eq34-41. C8: eq42-44.");
     out.note(
-        "Slips of words that nothing can be computed of: U1 (g_mg four times in the list of symbols), U3 (\"gain\" for drain "
-        "transconductance), U17a (the order of G1's "
-        "rows), C3 (R_o and R_out), C4 (\"greater current gain\"), C9 (the p-substrate: a shared one cannot be lifted).");
+        "Some errata concern wording and cannot be computed. U1: g_mg four times in the list of symbols. U3: \"gain\" for drain "
+        "transconductance. U17a: the order of G1's rows. C3: R_o and R_out. C4: \"greater current gain\". C9: a shared p-substrate cannot "
+        "be biased.");
     return out;
 }
 
 const Study study{"errata-arrays", "Misprints of appendices A to D",
-                  "What sums, units and solved circuits tell of them. Errata U1 to U19, C1 to C9", work};
+                  "Evidence from sums, units and simulated circuits. Errata U1 to U19, C1 to C9", work};
 
 }  // namespace corpuscle::studies::errata_arrays

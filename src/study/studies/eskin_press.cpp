@@ -1,5 +1,5 @@
-// A press on an electronic skin of 21 optical sensors, with the spikes that its authors' network of 900 units and their haptic display
-// made of it: the same press on a sheet of our afferents, time and place beside theirs.
+// A press on an electronic skin of 21 optical sensors, recorded with the spikes of its authors' network of 900 neurons and of their haptic
+// display. The same press is applied to a sheet of our afferents, and the times and places of the spikes are compared.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,17 +15,17 @@
 namespace corpuscle::studies::eskin_press {
 
 constexpr const char* folder = "fbg_eskin_press";
-constexpr double rate = 100.04;                      // Hz, the mean; stamps are times of arrival, in bursts, up to 163 ms apart
-constexpr double scale = 40;                         // N/nm; choice, for none is published: 8.9 N at most, as in doc/real-recordings.md
-constexpr double sigma = 20e-3;                      // m, as far as sensors in a row stand apart; choice
-constexpr double from = 17.3, to = 21.1, bin = 0.1;  // s: pressed, without the two edges
-constexpr double late = 0.163;                       // s, the longest gap between two arrivals
+constexpr double rate = 100.04;                      // Hz, the mean; timestamps are arrival times, in bursts, up to 163 ms apart
+constexpr double scale = 40;                         // N/nm; our choice, as none is published: 8.9 N at most, as in doc/real-recordings.md
+constexpr double sigma = 20e-3;                      // m, the spacing of sensors in a row; our choice
+constexpr double from = 17.3, to = 21.1, bin = 0.1;  // s: while pressed, without the two edges
+constexpr double arrival_gap = 0.163;                // s, the longest gap between two arrivals
 
-/// Units that fired, and their spikes counted, by number.
+/// Spike counts of the neurons that fired, by neuron number.
 using Counts = std::map<std::size_t, double>;
 
 struct Published {
-    std::vector<SheetSpike> network;  ///< units from 0
+    std::vector<SheetSpike> network;  ///< neurons numbered from 0
     std::map<std::string, std::vector<double>> motors;
 };
 
@@ -44,7 +44,7 @@ Result<SheetForce> read_force(const std::string& path, const std::string& layout
     for (Frames block(out.at.size(), 1024);;) {
         if (auto ok = (*source)->read(block); !ok) return ok.error();
         if (block.count == 0) return out;
-        for (std::size_t s = 0; s < out.at.size(); ++s)  // below 0 is no force
+        for (std::size_t s = 0; s < out.at.size(); ++s)  // negative readings are not forces
             for (std::size_t k = 0; k < block.count; ++k) out.force[s].push_back(std::max(0.0, block.force[s][k]));
     }
 }
@@ -62,17 +62,17 @@ Result<Published> read_published(const std::string& from_folder) {
     return out;
 }
 
-/// How far the units that fired lie from their middle if the sheet has so many columns: root of the mean square, in units.
+/// Spread of the neurons that fired about their centre, for a sheet with this number of columns: root mean square distance, in neurons.
 double extent(const Counts& counts, std::size_t columns) {
-    double n = 0, r = 0, c = 0, square = 0;
+    double n = 0, row_sum = 0, c = 0, square = 0;
     const auto row = [&](std::size_t u) { return static_cast<double>(u / columns); };
     const auto column = [&](std::size_t u) { return static_cast<double>(u % columns); };
-    for (const auto& [u, _] : counts) n += 1, r += row(u), c += column(u);
-    for (const auto& [u, _] : counts) square += (row(u) - r / n) * (row(u) - r / n) + (column(u) - c / n) * (column(u) - c / n);
+    for (const auto& [u, _] : counts) n += 1, row_sum += row(u), c += column(u);
+    for (const auto& [u, _] : counts) square += (row(u) - row_sum / n) * (row(u) - row_sum / n) + (column(u) - c / n) * (column(u) - c / n);
     return std::sqrt(square / n);
 }
 
-/// In how many columns they lie closest together.
+/// The number of columns for which they are closest together.
 std::size_t columns_of(const Counts& counts) {
     std::size_t best = 2;
     for (std::size_t c = 2; c <= 450; ++c)
@@ -80,20 +80,20 @@ std::size_t columns_of(const Counts& counts) {
     return best;
 }
 
-/// The unit that fired most.
-std::size_t most_of(const Counts& counts) {
+/// The neuron with the most spikes.
+std::size_t most_active(const Counts& counts) {
     return std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
 
-/// How much two halves of the map differ that the row of its middle parts: as a share of all.
-double lopsided(const Counts& counts, std::size_t columns, std::size_t middle) {
-    double differ = 0, all = 0;
+/// Difference between the two halves of the map on either side of the middle row, as a fraction of all spikes.
+double asymmetry(const Counts& counts, std::size_t columns, std::size_t middle) {
+    double difference = 0, total = 0;
     for (const auto& [u, n] : counts) {
         const std::size_t row = u / columns, mirrored = (2 * middle - row) * columns + u % columns;
         const auto other = counts.find(mirrored);
-        differ += std::abs(n - (other == counts.end() ? 0 : other->second)), all += n;
+        difference += std::abs(n - (other == counts.end() ? 0 : other->second)), total += n;
     }
-    return differ / all / 2;
+    return difference / total / 2;
 }
 
 std::vector<double> times_of(const std::vector<SheetSpike>& spikes) {
@@ -102,15 +102,15 @@ std::vector<double> times_of(const std::vector<SheetSpike>& spikes) {
     return out;
 }
 
-std::vector<double> dense(const Counts& counts, const Sheet& sheet) {
+std::vector<double> dense_counts(const Counts& counts, const Sheet& sheet) {
     std::vector<double> out(sheet.rows * sheet.columns);
     for (const auto& [u, n] : counts)
         if (u < out.size()) out[u] = n;
     return out;
 }
 
-/// When the sensor that is pressed most is above a twentieth of its most.
-std::pair<double, double> pressed(const SheetForce& force) {
+/// Start and end (s) of the time in which the most loaded sensor is above a twentieth of its maximum.
+std::pair<double, double> press_interval(const SheetForce& force) {
     std::size_t most = 0;
     const auto top = [&](std::size_t s) { return *std::max_element(force.force[s].begin(), force.force[s].end()); };
     for (std::size_t s = 0; s < force.at.size(); ++s)
@@ -122,77 +122,79 @@ std::pair<double, double> pressed(const SheetForce& force) {
     return {force.time(static_cast<std::size_t>(first)), force.time(static_cast<std::size_t>(last))};
 }
 
-/// The longest time between two spikes, s.
-double longest_gap(const std::vector<double>& t) {
+/// The longest interval between two spikes, s.
+double longest_silence(const std::vector<double>& t) {
     double most = 0;
     for (std::size_t k = 1; k < t.size(); ++k) most = std::max(most, t[k] - t[k - 1]);
     return most;
 }
 
-struct All {
+struct Comparison {
     Sheet sheet;
     SheetForce force;
-    Published theirs;
+    Published published;
     std::vector<SheetSpike> sa1, fa1;
 };
 
-/// What can be known of the network's numbers.
-void tell_numbers(Outcome& out, const All& a) {
-    const auto counts = counts_of(a.theirs.network);
-    const std::size_t columns = columns_of(counts), top = most_of(counts);
-    out.claim("network: units that fired", static_cast<double>(counts.size()), "units").printed_as(123, "the recording's README");
-    out.claim("network: spikes", static_cast<double>(a.theirs.network.size()), "spikes").printed_as(42156, "the recording's README");
-    out.claim("width of the sheet in which they lie closest together", static_cast<double>(columns), "units")
-        .held_to(30, "900 units are 30 x 30, if the sheet is square; said nowhere");
-    out.claim("their extent in it", extent(counts, columns), "units");
-    out.claim("the same two units narrower", extent(counts, columns - 2), "units")
-        .at_least(1.5 * extent(counts, columns), "as a check: no other width gives a disc");
-    out.claim("the unit that fired most: row, from 0", static_cast<double>(top / columns));
-    out.claim("the unit that fired most: column, from 0", static_cast<double>(top % columns));
-    out.claim("halves on either side of its row differ by", lopsided(counts, columns, top / columns))
-        .at_most(0.05, "as a check: the press is in the middle of the skin's width");
+/// Properties of the network's neuron numbers.
+void report_numbers(Outcome& out, const Comparison& a) {
+    const auto counts = counts_of(a.published.network);
+    const std::size_t columns = columns_of(counts), top = most_active(counts);
+    out.claim("network: neurons that fired", static_cast<double>(counts.size()), "neurons").printed_as(123, "the recording's README");
+    out.claim("network: spikes", static_cast<double>(a.published.network.size()), "spikes").printed_as(42156, "the recording's README");
+    out.claim("width of the sheet for which they are closest together", static_cast<double>(columns), "neurons")
+        .held_to(30, "900 neurons are 30 x 30 if the sheet is square, which is not stated");
+    out.claim("their spread for this width", extent(counts, columns), "neurons");
+    out.claim("their spread for a sheet two columns narrower", extent(counts, columns - 2), "neurons")
+        .at_least(1.5 * extent(counts, columns), "check: no other width gives a disc");
+    out.claim("most active neuron: row, from 0", static_cast<double>(top / columns));
+    out.claim("most active neuron: column, from 0", static_cast<double>(top % columns));
+    out.claim("difference between the halves on either side of its row", asymmetry(counts, columns, top / columns))
+        .at_most(0.05, "check: the press is in the middle of the skin's width");
 }
 
-void tell_time(Outcome& out, const All& a) {
-    const auto [on, off] = pressed(a.force);
-    const auto both = [&](const char* who, const std::vector<double>& t) {
+void report_time(Outcome& out, const Comparison& a) {
+    const auto [on, off] = press_interval(a.force);
+    const auto add_edge_claims = [&](const char* source, const std::vector<double>& t) {
         if (t.empty()) return;
-        out.claim(fmt::format("{}: first spike after the sensor's 5 %", who), t.front() - on, "s")
-            .between(-late, late, "the recording's stamps: gaps of up to 163 ms");
-        out.claim(fmt::format("{}: last spike after the sensor's 5 %", who), t.back() - off, "s")
-            .between(-late, late, "the recording's stamps: gaps of up to 163 ms");
+        out.claim(fmt::format("{}: first spike after the sensor's 5 %", source), t.front() - on, "s")
+            .between(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
+        out.claim(fmt::format("{}: last spike after the sensor's 5 %", source), t.back() - off, "s")
+            .between(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
     };
-    out.claim("sensor 11: above a twentieth of its most from", on, "s");
-    out.claim("sensor 11: until", off, "s");
-    both("network", times_of(a.theirs.network));
+    out.claim("sensor 11: above a twentieth of its maximum from", on, "s");
+    out.claim("sensor 11: above a twentieth of its maximum until", off, "s");
+    add_edge_claims("network", times_of(a.published.network));
     std::vector<double> motors;
-    for (const auto& [name, t] : a.theirs.motors) motors.insert(motors.end(), t.begin(), t.end());
+    for (const auto& [name, t] : a.published.motors) motors.insert(motors.end(), t.begin(), t.end());
     std::sort(motors.begin(), motors.end());
-    both("display", motors);
-    both("our SA-I", times_of(a.sa1));
-    both("our FA-I", times_of(a.fa1));
-    const auto share = [&](const std::vector<SheetSpike>& s) {
+    add_edge_claims("display", motors);
+    add_edge_claims("our SA-I", times_of(a.sa1));
+    add_edge_claims("our FA-I", times_of(a.fa1));
+    const auto fraction_away_from_edges = [&](const std::vector<SheetSpike>& s) {
         double n = 0;
         for (const auto& x : s) n += x.time > on + 0.5 && x.time < off - 0.5;
         return n / static_cast<double>(s.size());
     };
-    out.claim("network: its longest silence while the skin is pressed", longest_gap(times_of(a.theirs.network)), "s");
-    out.claim("our SA-I: the same", longest_gap(times_of(a.sa1)), "s");
-    out.claim("network: share of its spikes half a second and more from both edges", share(a.theirs.network));
-    out.claim("our SA-I: the same share", share(a.sa1)).held_to(share(a.theirs.network), "the network's");
-    out.claim("our FA-I: the same share", share(a.fa1)).at_most(0.5 * share(a.theirs.network), "a fast afferent tells the edges");
+    out.claim("network: longest silence while the skin is pressed", longest_silence(times_of(a.published.network)), "s");
+    out.claim("our SA-I: longest silence while the skin is pressed", longest_silence(times_of(a.sa1)), "s");
+    out.claim("network: fraction of spikes at least 0.5 s from both edges", fraction_away_from_edges(a.published.network));
+    out.claim("our SA-I: fraction of spikes at least 0.5 s from both edges", fraction_away_from_edges(a.sa1))
+        .held_to(fraction_away_from_edges(a.published.network), "the network's");
+    out.claim("our FA-I: fraction of spikes at least 0.5 s from both edges", fraction_away_from_edges(a.fa1))
+        .at_most(0.5 * fraction_away_from_edges(a.published.network), "a fast afferent responds at the edges");
 }
 
-/// The display's spikes of each stretch.
-std::vector<double> display_rate(const Published& theirs) {
-    std::vector<SheetSpike> all;
-    for (const auto& [name, t] : theirs.motors)
-        for (const double x : t) all.push_back({x, 0});
-    return track_of(Sheet{}, all, from, to, bin).weight;
+/// Spike rate of the display in each bin.
+std::vector<double> display_rate(const Published& published) {
+    std::vector<SheetSpike> display_spikes;
+    for (const auto& [name, t] : published.motors)
+        for (const double x : t) display_spikes.push_back({x, 0});
+    return track_of(Sheet{}, display_spikes, from, to, bin).weight;
 }
 
-void tell_place(Outcome& out, const All& a) {
-    const auto sensors = track_of(a.force, from, to, bin), theirs = track_of(a.sheet, a.theirs.network, from, to, bin),
+void report_place(Outcome& out, const Comparison& a) {
+    const auto sensors = track_of(a.force, from, to, bin), published = track_of(a.sheet, a.published.network, from, to, bin),
                ours = track_of(a.sheet, a.sa1, from, to, bin);
     const auto mean = [](const std::vector<double>& v) {
         double n = 0, sum = 0;
@@ -200,84 +202,84 @@ void tell_place(Outcome& out, const All& a) {
             if (std::isfinite(x)) n += 1, sum += x;
         return sum / n;
     };
-    for (const auto& [who, track] : {std::pair{"sensors", &sensors}, {"our SA-I", &ours}, {"network, its numbers on our sheet", &theirs}}) {
-        out.claim(fmt::format("{}: mean place across the skin", who), mean(track->x), "m");
-        out.claim(fmt::format("{}: mean place along the skin", who), mean(track->y), "m");
+    for (const auto& [source, track] :
+         {std::pair{"sensors", &sensors}, {"our SA-I", &ours}, {"network, with its neuron numbers on our sheet", &published}}) {
+        out.claim(fmt::format("{}: mean position across the skin", source), mean(track->x), "m");
+        out.claim(fmt::format("{}: mean position along the skin", source), mean(track->y), "m");
     }
-    const auto r = [&](const char* what, const std::vector<double>& v, const std::vector<double>& w, double least) -> Claim& {
-        return out.claim(what, correlation(v, w)).at_least(least, "as a check: rates follow the place");
+    const auto add_correlation = [&](const char* what, const std::vector<double>& v, const std::vector<double>& w, double least) -> Claim& {
+        return out.claim(what, correlation(v, w)).at_least(least, "check: rates follow the position");
     };
-    r("our SA-I follow the sensors across the skin: r", ours.x, sensors.x, 0.8);
-    r("our SA-I follow the sensors along the skin: r", ours.y, sensors.y, 0.8)
-        .if_off("sensors far from the press read 0.1 to 0.2 N, less than SA-I answer, but count in the sensors' mean place");
-    r("the network's row follows the sensors across the skin: r", theirs.x, sensors.x, 0.5);
-    r("the network's column follows the sensors along the skin: r", theirs.y, sensors.y, 0.5);
-    r("the network's row and our SA-I across the skin: r", theirs.x, ours.x, 0.5);
-    out.claim("rates of the network and of our SA-I over time: r", correlation(theirs.weight, ours.weight));
-    out.claim("rates of the network and of the display over time: r", correlation(theirs.weight, display_rate(a.theirs)));
-    const auto map = dense(counts_of(a.theirs.network), a.sheet), mine = dense(counts_of(a.sa1), a.sheet);
-    r("spikes of 900 units, the network's and our SA-I, number by number: r", map, mine, 0.8);
-    Plot across{"Where the press is, across the skin", "time (s)", "x (mm)", {}},
-        along{"Where the press is, along the skin", "time (s)", "y (mm)", {}},
-        rates{"Spikes, and the sensors' sum, in 100 ms", "time (s)", "of the largest", {}};
-    for (const auto& [who, track] : {std::pair{"sensors", &sensors}, {"our SA-I", &ours}, {"network", &theirs}}) {
+    add_correlation("our SA-I follow the sensors across the skin: r", ours.x, sensors.x, 0.8);
+    add_correlation("our SA-I follow the sensors along the skin: r", ours.y, sensors.y, 0.8)
+        .if_off(
+            "sensors far from the press read 0.1 to 0.2 N, too little for a response of SA-I, but these readings count in the sensors' "
+            "mean position");
+    add_correlation("the network's row follows the sensors across the skin: r", published.x, sensors.x, 0.5);
+    add_correlation("the network's column follows the sensors along the skin: r", published.y, sensors.y, 0.5);
+    add_correlation("the network's row and our SA-I across the skin: r", published.x, ours.x, 0.5);
+    out.claim("rates of the network and of our SA-I over time: r", correlation(published.weight, ours.weight));
+    out.claim("rates of the network and of the display over time: r", correlation(published.weight, display_rate(a.published)));
+    const auto map = dense_counts(counts_of(a.published.network), a.sheet), mine = dense_counts(counts_of(a.sa1), a.sheet);
+    add_correlation("spike counts of 900 neurons, network and our SA-I, compared by number: r", map, mine, 0.8);
+    Plot across{"Position of the press across the skin", "time (s)", "x (mm)", {}},
+        along{"Position of the press along the skin", "time (s)", "y (mm)", {}},
+        rates{"Spikes, and sum of the sensors, in 100 ms", "time (s)", "fraction of the largest", {}};
+    for (const auto& [source, track] : {std::pair{"sensors", &sensors}, {"our SA-I", &ours}, {"network", &published}}) {
         const double most = *std::max_element(track->weight.begin(), track->weight.end());
         const auto line = [&](const std::vector<double>& v, double times) {
             Line scaled{track->t, v};
             for (double& y : scaled.y) y *= times;
             return scaled;
         };
-        across.add(who, line(track->x, 1e3)), along.add(who, line(track->y, 1e3)), rates.add(who, line(track->weight, 1 / most));
+        across.add(source, line(track->x, 1e3)), along.add(source, line(track->y, 1e3)), rates.add(source, line(track->weight, 1 / most));
     }
     for (auto* plot : {&across, &along, &rates}) out.plots.push_back(std::move(*plot));
 }
 
 Result<Outcome> work(const StudyOptions& options) {
-    const std::string in = options.recordings + "/" + folder;
-    if (!std::filesystem::is_directory(in))
-        return bad_input(fmt::format("no recording is in '{}'; CORPUSCLE_DATA says in which folder '{}' lies", in, folder));
-    All a;
-    auto force = read_force(in + "/fbg_press_S6_T16.csv", in + "/sensor_positions.csv");
+    const std::string path = options.recordings + "/" + folder;
+    if (!std::filesystem::is_directory(path))
+        return bad_input(fmt::format("no recording in '{}'; CORPUSCLE_DATA must name the folder that contains '{}'", path, folder));
+    Comparison a;
+    auto force = read_force(path + "/fbg_press_S6_T16.csv", path + "/sensor_positions.csv");
     if (!force) return force.error();
     a.force = std::move(*force);
-    auto theirs = read_published(in);
-    if (!theirs) return theirs.error();
-    a.theirs = std::move(*theirs);
+    auto published = read_published(path);
+    if (!published) return published.error();
+    a.published = std::move(*published);
     a.sheet.corner = {-0.5 * static_cast<double>(a.sheet.rows) * a.sheet.pitch, 0};
     for (const auto& [name, spikes] : {std::pair{"sa1", &a.sa1}, {"fa1", &a.fa1}}) {
-        auto answer = sheet_answer(a.sheet, name, a.force, sigma);
-        if (!answer) return answer.error();
-        *spikes = std::move(*answer);
+        auto response = sheet_answer(a.sheet, name, a.force, sigma);
+        if (!response) return response.error();
+        *spikes = std::move(*response);
         if (auto ok = options.at(name[0] == 's' ? 0.4 : 0.8); !ok) return ok.error();
     }
     Outcome out;
-    tell_numbers(out, a);
-    tell_time(out, a);
-    tell_place(out, a);
+    report_numbers(out, a);
+    report_time(out, a);
+    report_place(out, a);
     out.notes = {
-        "Of the network's numbers this can be known from one press: in rows of 30 the units that fired are one round patch, cut by the "
-        "sheet's edge at column 0; they drift in its rows as the pressed sensors do across the skin, and in its columns as they do along "
-        "it, both rising. It cannot be known how many millimetres a number is, nor where the sheet begins: one place was pressed.",
-        "Our sheet is 30 x 30, too, 4.5 mm apart (choice), in the middle of the skin's width and from its origin on: laid so, the "
-        "network's "
-        "patch is where the press is, by choice of those two numbers. What it proves is the drift, not the place.",
-        "Times: sensors are taken at even 100.04 Hz, for their stamps are times of arrival, in bursts; the published spikes have the "
-        "stamps' "
-        "clock. At the onset the stamps are 17 ms behind the even clock, elsewhere up to 163 ms, and nothing nearer can be said of onset "
-        "and release.",
-        "Around 18.15 s the published network says nothing for a while, though the skin is pressed and its frames arrive: it is this that "
-        "its "
-        "rate and that of our SA-I mostly differ by. The display stops with it.",
-        "The network is one of slowly adapting units; FA-I fire at the edges alone.",
-        "Force: 40 N a nanometre, a choice; a unit feels the sum of all sensors, each times exp(-d^2 / 2 sigma^2), sigma of 20 mm, as far "
-        "as "
-        "sensors in a row stand apart."};
+        "One press shows this about the network's neuron numbers. In rows of 30 the neurons that fired form one round patch, cut by the "
+        "edge of the sheet at column 0. The patch drifts over the rows as the load drifts across the skin, and over the columns as it "
+        "drifts along the skin, both rising. The spacing of the neurons in millimetres and the origin of the sheet remain unknown, because "
+        "only one place was pressed.",
+        "Our sheet is also 30 x 30, with a spacing of 4.5 mm (our choice), centred on the skin's width and starting at its origin. These "
+        "two choices put the network's patch at the place of the press, so only the drift is evidence, not the place.",
+        "Times: sensors are sampled at an even 100.04 Hz, because their timestamps are arrival times in bursts; the published spikes use "
+        "the timestamps' clock. At the onset the timestamps are 17 ms behind the even clock, elsewhere up to 163 ms. Onset and release are "
+        "not known more precisely.",
+        "Around 18.15 s the published network is silent for a while, although the skin is pressed and its frames arrive. This is the main "
+        "difference between its rate and that of our SA-I. The display stops as well.",
+        "The network has slowly adapting neurons; FA-I fire at the edges only.",
+        "Force: 40 N per nanometre, our choice. An afferent's force is the sum over all sensors, each weighted by exp(-d^2 / 2 sigma^2), "
+        "with sigma of 20 mm, the spacing of sensors in a row."};
     return out;
 }
 
 const Study study{"eskin-press", "A press on an electronic skin, and its authors' network",
-                  "Do rates of a sheet of our afferents follow the pressed place, and when do they begin and end beside the published "
-                  "network's? Neuromorphic-Touch-Sensing-Haptic-Display, data of figure 2",
+                  "Do the rates of a sheet of our afferents follow the pressed place, and when do they begin and end compared with the "
+                  "published network's? Neuromorphic-Touch-Sensing-Haptic-Display, data of figure 2",
                   work, folder};
 
 }  // namespace corpuscle::studies::eskin_press

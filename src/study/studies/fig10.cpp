@@ -1,4 +1,4 @@
-// Thesis fig. 10: the differentiator of an ideal operational amplifier.
+// Thesis fig. 10: the differentiator with an ideal operational amplifier.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace corpuscle::studies::fig10 {
 
-/// circuits/differentiator.cir under the press, a volt for each newton.
+/// circuits/differentiator.cir under the press stimulus, one volt per newton.
 constexpr auto under_press = R"(A differentiator under the press
 v1 in 0 dc 0 force 1
 c1 in minus 8n
@@ -20,60 +20,62 @@ e1 out 0 0 minus 1e6
 .save v(in) v(out)
 .end
 )";
-constexpr double plates = 2e-3;  // F/m^2, 2 fF/um^2: what the thesis's MIM capacitors have (errata S4)
+constexpr double capacitor_density = 2e-3;  // F/m^2, 2 fF/um^2: the density of the thesis's MIM capacitors (errata S4)
 
-/// Decades of amplitude for each of frequency.
-double growth(const Line& magnitude, double from, double to) {
+/// Decades of amplitude per decade of frequency.
+double gain_slope(const Line& magnitude, double from, double to) {
     return std::log10(magnitude.at(to) / magnitude.at(from)) / std::log10(to / from);
 }
 
-void tell_press(Outcome& out, const Found& press, double tau) {
-    const auto force = press.line("tran", "v(in)"), answer = press.line("tran", "v(out)");
+void add_press_claims(Outcome& out, const Found& press, double tau) {
+    const auto force = press.line("tran", "v(in)"), response = press.line("tran", "v(out)");
     const auto slope = force.slope().times(1, -tau);
     double off = 0;
-    for (std::size_t k = 0; k < answer.x.size(); ++k)
-        if (const double d = std::abs(answer.y[k] - slope.at(answer.x[k])); d > off) off = d;
-    out.claim("under the press: farthest from -RC dF/dt, as a share of its largest", 100 * off / slope.absolute().most(), "%")
-        .at_most(2, "thesis 2.2 and 2.3: a differentiator; the range is ours, for steps of at most 1 ms");
-    out.plot("Under the press, a volt for each newton", "time (s)", "voltage (V)").add("v(out)", answer).add("-RC dF/dt", slope);
+    for (std::size_t k = 0; k < response.x.size(); ++k)
+        if (const double d = std::abs(response.y[k] - slope.at(response.x[k])); d > off) off = d;
+    out.claim("under the press stimulus: largest difference from -RC dF/dt, of the largest -RC dF/dt", 100 * off / slope.absolute().most(),
+              "%")
+        .at_most(2, "thesis 2.2 and 2.3: a differentiator; the range is our choice, for steps of at most 1 ms");
+    out.plot("Under the press stimulus, one volt per newton", "time (s)", "voltage (V)").add("v(out)", response).add("-RC dF/dt", slope);
 }
 
 Result<Outcome> work(const StudyOptions&) {
     Outcome out;
-    const auto small = found_in({"differentiator", {}, ".ac dec 20 0.1 1k"}), under = found_in({under_press, {}, {}});
-    if (!small) return small.error();
-    if (!under) return under.error();
-    const auto magnitude = small->line("ac", "vm(out)"), phase = small->line("ac", "vp(out)");
+    const auto ac = found_in({"differentiator", {}, ".ac dec 20 0.1 1k"}), press = found_in({under_press, {}, {}});
+    if (!ac) return ac.error();
+    if (!press) return press.error();
+    const auto magnitude = ac->line("ac", "vm(out)"), phase = ac->line("ac", "vp(out)");
     const double tau = 1 / (2 * M_PI * magnitude.where(1)), model_B = 1 / (2 * M_PI * 20), model_C = 1 / (2 * M_PI * 2);
-    out.claim("tau of the differentiator, from where its gain is 1", tau, "s")
-        .between(1e-3, 10e-3, "thesis 2.3: tau = RC in the order of milliseconds; a decade is ours");
-    out.claim("tau of the model's quick filter (20 Hz)", model_B, "s").between(1e-3, 10e-3, "thesis 2.3: accordingly to the model");
-    out.claim("tau of its slow filter (2 Hz)", model_C, "s")
+    out.claim("tau of the differentiator, from the frequency at which its gain is 1", tau, "s")
+        .between(1e-3, 10e-3, "thesis 2.3: tau = RC in the order of milliseconds; a decade is our choice");
+    out.claim("tau of the model's fast filter (20 Hz)", model_B, "s").between(1e-3, 10e-3, "thesis 2.3: accordingly to the model");
+    out.claim("tau of the model's slow filter (2 Hz)", model_C, "s")
         .between(1e-3, 10e-3, "thesis 2.3: accordingly to the model")
-        .because("2.3 speaks of the differentiator of Kim's model; the thesis's own slow filter came later (3.3)");
-    out.claim("gain's growth from 1 to 100 Hz, in decades for a decade", growth(magnitude, 1, 100))
+        .because("section 2.3 is about the differentiator of Kim's model; the thesis's own slow filter comes later (3.3)");
+    out.claim("growth of the gain from 1 to 100 Hz, decades per decade", gain_slope(magnitude, 1, 100))
         .held_to(1, "thesis 3.3: amplitude increases proportionally with frequency");
-    out.claim("and on to 1 kHz", growth(magnitude, 100, 1000)).held_to(1, "thesis 3.3: susceptible to high frequencies");
+    out.claim("growth of the gain from 100 Hz to 1 kHz, decades per decade", gain_slope(magnitude, 100, 1000))
+        .held_to(1, "thesis 3.3: susceptible to high frequencies");
     out.claim("phase at 20 Hz", phase.at(20) * 180 / M_PI, "degrees").held_to(-90, "an inverted derivative: 90 - 180 degrees");
-    const double held = 1 / std::sqrt(1 + std::pow(20.0 / 1e3, 2));
-    out.claim("gain at 1 kHz over that of a high-pass of 20 Hz", magnitude.at(1e3) / held)
-        .at_least(10, "thesis 3.3: to be limited above a corner; ten times is ours");
+    const double high_pass_gain = 1 / std::sqrt(1 + std::pow(20.0 / 1e3, 2));
+    out.claim("gain at 1 kHz over that of a high-pass of 20 Hz", magnitude.at(1e3) / high_pass_gain)
+        .at_least(10, "thesis 3.3: to be limited above a corner; ten times is our choice");
     for (const double R : {1e6, 1e9})
-        out.claim(fmt::format("plate of C for this tau at R = {}", R < 1e9 ? "1 Mohm" : "1 Gohm"), tau / R / plates * 1e12, "um^2");
-    tell_press(out, *under, tau);
+        out.claim(fmt::format("plate area of C for this tau at R = {}", R < 1e9 ? "1 Mohm" : "1 Gohm"), tau / R / capacitor_density * 1e12,
+                  "um^2");
+    add_press_claims(out, *press, tau);
     out.plot("Gain", "frequency (Hz)", "gain", true, true)
         .add("ideal differentiator", magnitude)
         .add("gain 1", {{magnitude.x.front(), magnitude.x.back()}, {1, 1}});
     out.note(
-        "R, C and the amplifier's gain (1 Mohm, 8 nF, 1e6) are chosen; a real amplifier's own corner is left out. That it is \"relatively "
-        "easy to "
-        "implement with discrete components\" and \"a large size\" is seen in its plate: millimetres at a megohm.");
+        "R, C and the amplifier's gain (1 Mohm, 8 nF, 1e6) are our choice; the bandwidth of a real amplifier is left out. The plate area "
+        "shows both \"relatively easy to implement with discrete components\" and \"a large size\": millimetres at a megohm.");
     return out;
 }
 
 const Study study{
-    "fig10", "The differentiator of an ideal operational amplifier",
-    "Its time constant tau = RC is in the order of milliseconds; its gain grows with frequency without end. Thesis 2.2, 2.3, fig. 10",
+    "fig10", "The differentiator with an ideal operational amplifier",
+    "Its time constant tau = RC is in the order of milliseconds; its gain grows with frequency without limit. Thesis 2.2, 2.3, fig. 10",
     work};
 
 }  // namespace corpuscle::studies::fig10

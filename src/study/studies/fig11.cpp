@@ -1,4 +1,4 @@
-// Thesis fig. 11: a passive and an active high-pass: of an ideal resistor, of an ideal transconductor, and of transistors.
+// Thesis fig. 11: a passive and an active high-pass, made of an ideal resistor, an ideal transconductor, and transistors.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace corpuscle::studies::fig11 {
 
-/// A plain inverter and INVC tied to themselves as loads.
+/// A plain inverter and INVC as loads, each with its output tied to its input.
 constexpr auto loads = R"(Currents of loads
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
@@ -24,7 +24,7 @@ xc c c gpc gnc vdd bp bn invc
 .save i(ea) i(ec)
 .end
 )";
-/// Filter C behind a step about half the supply: of INVC, and of a resistor.
+/// Filter C after a voltage step about half the supply, with INVC and with a resistor.
 constexpr auto steps = R"(High-passes under a step
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
@@ -42,18 +42,19 @@ vmid mid 0 0.35
 .save v(hp) v(a)
 .end
 )";
-constexpr double half = 0.35, wide = 0.1, on = 50.1e-3;  // V: half the supply, and how far from it is looked; s
+constexpr double half = 0.35, offset = 0.1,
+                 on = 50.1e-3;  // V: half the supply; V: distance from it at which loads are compared; s: time of the step
 
-double apart(const Line& a, const Line& b) {
+double largest_difference(const Line& a, const Line& b) {
     double out = 0;
     for (std::size_t k = 0; k < a.x.size(); ++k) out = std::max(out, std::abs(a.y[k] - b.y[k]));
     return out;
 }
 
-void tell_ideal(Outcome& out, const Found& ideal) {
+void add_ideal_claims(Outcome& out, const Found& ideal) {
     const auto a = ideal.line("ac", "vm(a)"), b = ideal.line("ac", "vm(b)");
-    out.claim("ideal: farthest of the active one's gain from the passive one's", apart(a, b))
-        .at_most(1e-6, "thesis 2.3: tau = C / G_m for RC; R is 1 / G_m here");
+    out.claim("ideal: largest difference of the active filter's gain from the passive one's", largest_difference(a, b))
+        .at_most(1e-6, "thesis 2.3: tau = C / G_m instead of RC; R is 1 / G_m here");
     for (const auto& [node, C, printed] : {std::tuple{"b", 0.8e-12, 30.0}, {"c", 8.8e-12, 2.7}}) {
         const double f = ideal.line("ac", fmt::format("vp({})", node)).where(M_PI / 4);
         out.claim(fmt::format("ideal, 6.6 Gohm and {:.2g} pF: corner", C * 1e12), f, "Hz").printed_as(printed, "thesis 4.3.1");
@@ -63,27 +64,27 @@ void tell_ideal(Outcome& out, const Found& ideal) {
         .add("passive: C and R", a)
         .add("active: C and G_m", b)
         .add("active, eleven times the C", ideal.line("ac", "vm(c)"))
-        .shape("the same high-pass, with 1 / G_m for R");
+        .shape("the same high-pass, with 1 / G_m instead of R");
 }
 
-/// A load's current times the resistance that touches it at half the supply, over the voltage from there.
-Line straightened(const Line& current) {
+/// A load's current times its resistance at half the supply, over the voltage from there.
+Line normalised_current(const Line& current) {
     const double slope = current.slope_at(half), middle = current.at(half);
     Line out;
     for (std::size_t k = 0; k < current.x.size(); ++k)
         out.x.push_back(current.x[k] - half), out.y.push_back((current.y[k] - middle) / slope);
     return out;
 }
-double bend(const Line& straight) {
-    return 100 * std::max(std::abs(straight.at(-wide) / wide + 1), std::abs(straight.at(wide) / wide - 1));
+double nonlinearity(const Line& straight) {
+    return 100 * std::max(std::abs(straight.at(-offset) / offset + 1), std::abs(straight.at(offset) / offset - 1));
 }
 
-void tell_loads(Outcome& out, const Found& found) {
-    const auto plain = straightened(found.line("dc", "i(ea)")), invc = straightened(found.line("dc", "i(ec)"));
-    out.claim("a plain inverter as a load: bend of its current at 100 mV", bend(plain), "%")
-        .at_least(5, "thesis 2.3: active devices are very non-linear by nature; more than 5 % is ours");
-    out.claim("INVC as a load: the same", bend(invc), "%")
-        .at_most(bend(plain), "thesis 2.3: techniques that balance linearity and low transconductance");
+void add_load_claims(Outcome& out, const Found& found) {
+    const auto plain = normalised_current(found.line("dc", "i(ea)")), invc = normalised_current(found.line("dc", "i(ec)"));
+    out.claim("a plain inverter as a load: nonlinearity of its current at 100 mV", nonlinearity(plain), "%")
+        .at_least(5, "thesis 2.3: active devices are very non-linear by nature; more than 5 % is our choice");
+    out.claim("INVC as a load: the same", nonlinearity(invc), "%")
+        .at_most(nonlinearity(plain), "thesis 2.3: techniques that balance linearity and low transconductance");
     out.plot("Current times the resistance at half the supply", "voltage from half the supply (V)", "current times resistance (V)")
         .add("plain inverter", plain)
         .add("INVC", invc)
@@ -91,54 +92,52 @@ void tell_loads(Outcome& out, const Found& found) {
         .shape("a resistor obeys Ohm's law; a transconductor of transistors does not");
 }
 
-/// What is left of a step after a time, as a share of it at once; of v(hp), v(a).
-struct Left {
+/// Fraction of a step that remains after a time, for v(hp) and v(a).
+struct Remainder {
     double invc, resistor;
 };
-Result<Left> left_of(double size, double resistance, Plot* plot) {
+Result<Remainder> remainder_after_step(double size, double resistance, Plot* plot) {
     const auto found = found_in({steps, {fmt::format("size={}", size), fmt::format("r={}", resistance)}, {}});
     if (!found) return found.error();
-    const auto share = [&](const char* node) {
+    const auto normalised_step = [&](const char* node) {
         auto v = found->line("tran", node);
         const double before = v.at(on - 2e-4), top = v.at(on + 1e-4) - before;
         for (double& y : v.y) y = (y - before) / top;
         return v;
     };
-    const auto hp = share("v(hp)"), a = share("v(a)");
+    const auto hp = normalised_step("v(hp)"), a = normalised_step("v(a)");
     if (plot) plot->add(fmt::format("INVC, {:g} mV", size * 1e3), hp);
-    if (plot && size > wide) plot->add("resistor", a);
-    return Left{hp.at(on + 50e-3), a.at(on + 50e-3)};
+    if (plot && size > offset) plot->add("resistor", a);
+    return Remainder{hp.at(on + 50e-3), a.at(on + 50e-3)};
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto ideal = found_in({"high_pass_ideal", {}, ".ac dec 50 10m 10k"}), bent = found_in({loads, {}, {}});
+    const auto ideal = found_in({"high_pass_ideal", {}, ".ac dec 50 10m 10k"}), real_loads = found_in({loads, {}, {}});
     if (!ideal) return ideal.error();
-    if (!bent) return bent.error();
-    tell_ideal(out, *ideal), tell_loads(out, *bent);
+    if (!real_loads) return real_loads.error();
+    add_ideal_claims(out, *ideal), add_load_claims(out, *real_loads);
     if (auto ok = options.at(0.5); !ok) return ok.error();
-    const double resistance = 1 / bent->line("dc", "i(ec)").absolute().slope().absolute().at(half + 10e-3);
-    Plot plot{"After a step, as a share of it", "time (s)", "share", {}};
-    const auto small = left_of(20e-3, resistance, &plot), large = left_of(200e-3, resistance, &plot),
-               resistor = left_of(20e-3, resistance, nullptr);
+    const double resistance = 1 / real_loads->line("dc", "i(ec)").absolute().slope().absolute().at(half + 10e-3);
+    Plot plot{"Response to a step, relative to its start", "time (s)", "fraction of the step", {}};
+    const auto small = remainder_after_step(20e-3, resistance, &plot), large = remainder_after_step(200e-3, resistance, &plot),
+               resistor = remainder_after_step(20e-3, resistance, nullptr);
     for (const auto* p : {&small, &large, &resistor})
         if (!*p) return p->error();
-    out.claim("resistor: share left of 200 mV after 50 ms, over that of 20 mV", large->resistor / small->resistor)
+    out.claim("resistor: remainder of 200 mV after 50 ms, over that of 20 mV", large->resistor / small->resistor)
         .held_to(1, "thesis 2.3: linear");
     out.claim("INVC: the same", large->invc / small->invc)
-        .at_most(1, "thesis 2.3: large signals are distorted; INVC draws more than a resistor beyond its linear range");
+        .at_most(1, "thesis 2.3: large signals are distorted; beyond its linear range INVC takes more current than a resistor");
     out.plots.push_back(std::move(plot));
     out.note(
-        "Of the references' ways to a low transconductance (bulk or drain driven inputs, pseudo-resistors) only those of figs. 12 and 13 "
-        "and the "
-        "thesis's own are built here.");
+        "Of the ways to a low transconductance in the references (bulk- or drain-driven inputs, pseudo-resistors) only those of figs. 12 "
+        "and 13 and the thesis's own are built here.");
     return out;
 }
 
 const Study study{"fig11", "Passive and active high-pass",
-                  "An active load of transconductance G_m replaces R, so tau = C / G_m; a resistor and an ideal transconductor are linear, "
-                  "transistors are "
-                  "not. Thesis 2.3, fig. 11",
+                  "An active load of transconductance G_m replaces R, so tau = C / G_m. A resistor and an ideal transconductor are linear; "
+                  "transistors are not. Thesis 2.3, fig. 11",
                   work};
 
 }  // namespace corpuscle::studies::fig11

@@ -9,63 +9,64 @@
 namespace corpuscle::studies::fig16 {
 
 constexpr double C = 1e-6, R = 1e6, leak = 500e-9, theta = 1, reset = 0.5;  // F, ohm, A, V, V: thesis 3.2; u_rest is 0
-constexpr double on = 0.5, off = 4;                                         // s, and 2.03 uA below: not printed (errata B7)
-constexpr double amplitude = 2.03e-6;                                       // A
+constexpr double on = 0.5, off = 4;    // s; these times and the 2.03 uA below are not published (errata B7)
+constexpr double amplitude = 2.03e-6;  // A
 
-/// A step of force through SA-IA without its dynamic part is one of current.
-Result<Told> under(const std::string& neuron, double current, double hold = off - on, double rate = 2e3, double u_rest = 0) {
-    const std::string who = "sa1a+" + neuron;
-    return told_of({.afferent = who,
+/// Through SA-IA without its dynamic component a step of force becomes a step of current.
+Result<Told> simulate_step(const std::string& neuron, double current, double hold = off - on, double rate = 2e3, double u_rest = 0) {
+    const std::string afferent = "sa1a+" + neuron;
+    return told_of({.afferent = afferent,
                     .stimulus = "step",
-                    .settings = {who + ".k_d=0", fmt::format("{}.C_m={}", who, C), fmt::format("{}.V_th={}", who, theta),
-                                 fmt::format("{}.V_reset={}", who, reset), fmt::format("{}.E_L={}", who, u_rest),
-                                 neuron == "lif-a" ? fmt::format("{}.R_m={}", who, R) : fmt::format("{}.I_leak0={}", who, leak),
+                    .settings = {afferent + ".k_d=0", fmt::format("{}.C_m={}", afferent, C), fmt::format("{}.V_th={}", afferent, theta),
+                                 fmt::format("{}.V_reset={}", afferent, reset), fmt::format("{}.E_L={}", afferent, u_rest),
+                                 neuron == "lif-a" ? fmt::format("{}.R_m={}", afferent, R) : fmt::format("{}.I_leak0={}", afferent, leak),
                                  fmt::format("step.F_max={}", current / 1e-6), fmt::format("step.t_rest={}", on),
                                  fmt::format("step.t_hold={}", hold), "step.t_post=2"},
                     .rate = rate,
                     .traces = {"u"}});
 }
 
-/// The least current that makes it fire within a hundred seconds; A, by halving.
+/// The smallest current (A) that makes it fire within 100 s, by bisection.
 Result<double> rheobase(const std::string& neuron, double u_rest = 0) {
     double low = 0, high = amplitude;
     for (int k = 0; k < 14; ++k) {
         const double middle = (low + high) / 2;
-        const auto told = under(neuron, middle, 100, 100, u_rest);
-        if (!told) return told.error();
-        (told->spikes.empty() ? low : high) = middle;
+        const auto response = simulate_step(neuron, middle, 100, 100, u_rest);
+        if (!response) return response.error();
+        (response->spikes.empty() ? low : high) = middle;
     }
     return high;
 }
 
-/// After the last spike's reset, from the step's end to when it rests again.
-Line release(const Line& u) { return u.between(off + 1e-3, 6); }
+/// From the end of the step, after the last reset, until the membrane is at rest again.
+Line after_step(const Line& u) { return u.between(off + 1e-3, 6); }
 
-/// The first moment at which it is at rest.
-double at_rest(const Line& u) {
+/// The first time at which it is at rest.
+double time_of_rest(const Line& u) {
     for (std::size_t k = 0; k < u.x.size(); ++k)
         if (u.y[k] <= 0) return u.x[k];
     return Claim::none;
 }
 
-Result<void> tell_rheobases(Outcome& out, const StudyOptions& options) {
+Result<void> report_rheobases(Outcome& out, const StudyOptions& options) {
     const double u_rest = 0.2;
-    const auto A = rheobase("lif-a"), B = rheobase("lif-b"), raised = rheobase("lif-a", u_rest);
+    const auto A = rheobase("lif-a"), B = rheobase("lif-b"), raised_rest = rheobase("lif-a", u_rest);
     if (!A) return A.error();
     if (!B) return B.error();
-    if (!raised) return raised.error();
-    out.claim("LIF-A: least current that fires", *A, "A").held_to(theta / R, "thesis 3.2: theta / R");
-    out.claim("LIF-B: least current that fires", *B, "A").held_to(leak, "thesis 3.2: I_leak0");
-    out.claim(fmt::format("LIF-A with u_rest = {} V: least current that fires", u_rest), *raised, "A")
+    if (!raised_rest) return raised_rest.error();
+    out.claim("LIF-A: smallest current that makes it fire", *A, "A").held_to(theta / R, "thesis 3.2: theta / R");
+    out.claim("LIF-B: smallest current that makes it fire", *B, "A").held_to(leak, "thesis 3.2: I_leak0");
+    out.claim(fmt::format("LIF-A with u_rest = {} V: smallest current that makes it fire", u_rest), *raised_rest, "A")
         .held_to(theta / R, "thesis 3.2: theta / R")
-        .because("it is (theta - u_rest) / R (errata B5a), which is the same at u_rest = 0 alone");
-    out.claim("the same, as mended", *raised, "A").held_to((theta - u_rest) / R, "errata B5a: (theta - u_rest) / R");
+        .because("it is (theta - u_rest) / R (errata B5a), which equals theta / R only for u_rest = 0");
+    out.claim("the same, compared with the corrected formula", *raised_rest, "A")
+        .held_to((theta - u_rest) / R, "errata B5a: (theta - u_rest) / R");
     return options.at(0.8);
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto A = under("lif-a", amplitude), B = under("lif-b", amplitude);
+    const auto A = simulate_step("lif-a", amplitude), B = simulate_step("lif-b", amplitude);
     if (!A) return A.error();
     if (!B) return B.error();
     if (auto ok = options.at(0.3); !ok) return ok.error();
@@ -73,48 +74,47 @@ Result<Outcome> work(const StudyOptions& options) {
     const double near = amplitude / C / (theta - reset);
     out.claim("LIF-A: frequency", f_A, "Hz")
         .held_to(near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R")
-        .because("the approximation is for currents far above the leak's, and this one is about twice it (errata B5b)");
+        .because("the approximation holds for currents far above the leak; this current is about twice the leak (errata B5b)");
     out.claim("LIF-A: frequency, by the solution of (5)", f_A, "Hz")
         .held_to(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))),
                  "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
     out.claim("LIF-B: frequency", f_B, "Hz")
         .held_to((amplitude - leak) / C / (theta - reset), "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]");
-    const auto many = under("lif-a", 100 * amplitude);
+    const auto many = simulate_step("lif-a", 100 * amplitude);
     if (!many) return many.error();
     out.claim("LIF-A: frequency at a hundred times the current", measure<LastRate>(many->spikes, {on, off}), "Hz")
         .held_to(100 * near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R");
-    if (auto ok = tell_rheobases(out, options); !ok) return ok.error();
+    if (auto ok = report_rheobases(out, options); !ok) return ok.error();
 
     const auto &u_A = A->traces.at("u"), &u_B = B->traces.at("u");
-    const auto fall_A = release(u_A), fall_B = release(u_B);
+    const auto fall_A = after_step(u_A), fall_B = after_step(u_B);
     const double from = fall_A.x.front();
-    out.claim("u_A: what is left of it after RC", fall_A.at(from + R * C) / fall_A.at(from))
+    out.claim("u_A: fraction that remains after RC", fall_A.at(from + R * C) / fall_A.at(from))
         .held_to(std::exp(-1), "thesis 3.2: exponentially");
-    out.claim("u_A: what is left of that after another RC, nearly", fall_A.at(6 - 1e-3) / fall_A.at(6 - 1e-3 - R * C))
+    out.claim("u_A: fraction that remains between RC before 6 s and 6 s", fall_A.at(6 - 1e-3) / fall_A.at(6 - 1e-3 - R * C))
         .held_to(std::exp(-1), "thesis 3.2: exponentially");
-    const double ends = at_rest(fall_B);
-    const auto line = fall_B.between(from, ends - 1e-3).straight();
+    const double rest_from = time_of_rest(fall_B);
+    const auto line = fall_B.between(from, rest_from - 1e-3).straight();
     out.claim("u_B: slope of its fall", line.slope, "V/s").held_to(-leak / C, "thesis 3.2: linearly, by (6) and (7)");
-    out.claim("u_B: farthest from a straight line on its way", line.farthest, "V").at_most(1e-3, "thesis 3.2: linearly; within 1 mV here");
-    out.finds("u_B: rests at u_rest from then on", fall_B.between(ends, 6).most() == 0, "thesis 3.2: until it reaches u_rest");
+    out.claim("u_B: largest difference from a straight line while it falls", line.farthest, "V")
+        .at_most(1e-3, "thesis 3.2: linearly; within 1 mV here");
+    out.finds("u_B: stays at u_rest from then on", fall_B.between(rest_from, 6).most() == 0, "thesis 3.2: until it reaches u_rest");
     out.claim("spikes of LIF-A over those of LIF-B", static_cast<double>(A->spikes.size()) / static_cast<double>(B->spikes.size()))
-        .between(0.8, 1.25, "thesis 3.2: similar pulse patterns; the range is ours");
+        .between(0.8, 1.25, "thesis 3.2: similar pulse patterns; the range is our choice");
     out.plot("Membrane", "time (s)", "u (V)")
         .add("u_A", u_A)
         .add("u_B", u_B)
         .shape("u_A falls exponentially once the input is zero, u_B linearly until it reaches u_rest");
     out.plot("Spikes", "time (s)", "").row("LIF-A", A->spikes).row("LIF-B", B->spikes).shape("similar patterns");
     out.note(
-        "The step's height and times are not printed; 2.03 uA from 0.5 to 4 s are a choice, at which no sampled membrane meets its "
-        "threshold "
-        "exactly (errata B7). Traces are of every half millisecond.");
+        "The amplitude and times of the step are not published. 2.03 uA from 0.5 to 4 s are our choice: no sampled membrane then meets its "
+        "threshold exactly (errata B7). Traces are sampled every 0.5 ms.");
     return out;
 }
 
-const Study study{
-    "fig16", "The two leaky integrate-and-fire models",
-    "Under the same step of current LIF-A and LIF-B fire alike; afterwards u_A falls exponentially, u_B linearly. Rates and rheobases are "
-    "printed as formulas. Thesis 3.2, fig. 16",
-    work};
+const Study study{"fig16", "The two leaky integrate-and-fire models",
+                  "Under the same step of current LIF-A and LIF-B fire in the same way; afterwards u_A falls exponentially, u_B linearly. "
+                  "The thesis gives formulas for rates and rheobases. Thesis 3.2, fig. 16",
+                  work};
 
 }  // namespace corpuscle::studies::fig16

@@ -1,4 +1,4 @@
-// Thesis fig. 17: the SA-I model under the press, at the thesis's 1 ms and beside it exactly.
+// Thesis fig. 17: the SA-I model under the press stimulus, at the thesis's 1 ms and with the exact solution.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,12 +8,13 @@
 
 namespace corpuscle::studies::fig17 {
 
-/// What was meant by theta and u_rst is not printed: three readings (errata B10a). V.
-struct Reading {
+/// theta and u_rst are not published: three possible pairs of values (errata B10a). V.
+struct ThresholdCase {
     const char* name;
     double theta, reset;
 };
-constexpr Reading readings[] = {{"fig. 16's, 1 and 0.5 V", 1, 0.5}, {"half of it, ours", 0.5, 0.25}, {"0.2 and 0 V", 0.2, 0}};
+constexpr ThresholdCase threshold_cases[] = {
+    {"1 and 0.5 V as in fig. 16", 1, 0.5}, {"0.5 and 0.25 V (our choice)", 0.5, 0.25}, {"0.2 and 0 V", 0.2, 0}};
 
 Line sum(const Line& a, const Line& b) {
     Line out = a;
@@ -27,86 +28,88 @@ Line positive(Line a) {
 
 struct Currents {
     Line A, B, C, I;
-    explicit Currents(const Told& told)
-        : A(told.traces.at("I_A")), B(told.traces.at("I_B")), C(told.traces.at("I_C")), I(sum(A, sum(positive(B), positive(C)))) {}
+    explicit Currents(const Told& response)
+        : A(response.traces.at("I_A")), B(response.traces.at("I_B")), C(response.traces.at("I_C")),
+          I(sum(A, sum(positive(B), positive(C)))) {}
 };
 
-void tell_currents(Outcome& out, const Currents& i, const Line& force) {
-    const auto words = "thesis 3.3, fig. 17a";
-    double off = 0;
-    for (std::size_t k = 0; k < force.y.size(); ++k) off = std::max(off, std::abs(i.A.y[k] / 1e-6 - force.y[k]));
-    out.claim("I_A / k_A: farthest from the force", off, "N").at_most(1e-9, "thesis 3.3: I_A is an exact copy of the force");
+void report_currents(Outcome& out, const Currents& i, const Line& force) {
+    const auto source = "thesis 3.3, fig. 17a";
+    double worst_error = 0;
+    for (std::size_t k = 0; k < force.y.size(); ++k) worst_error = std::max(worst_error, std::abs(i.A.y[k] / 1e-6 - force.y[k]));
+    out.claim("I_A / k_A: largest difference from the force", worst_error, "N")
+        .at_most(1e-9, "thesis 3.3: I_A is an exact copy of the force");
     const double late = i.B.peak() - force.slope().peak();
-    out.claim("I_B: its peak behind the slope's", late, "s")
-        .between(0, 10e-3, "thesis 3.3: proportional to the derivative; the range is ours, and the filter's time constant is 8 ms");
-    out.claim("I_B: peak, beside that of a derivative of the same gain", i.B.most() / (8e-6 / (2 * M_PI * 20) * force.slope().most()))
-        .between(0.9, 1.1, "thesis 3.3: proportional to the derivative; a tenth is ours");
+    out.claim("I_B: delay of its peak after the peak of the slope", late, "s")
+        .between(0, 10e-3, "thesis 3.3: proportional to the derivative; the range is our choice, the filter's time constant is 8 ms");
+    out.claim("I_B: peak over that of a derivative with the same gain", i.B.most() / (8e-6 / (2 * M_PI * 20) * force.slope().most()))
+        .between(0.9, 1.1, "thesis 3.3: proportional to the derivative; a tenth is our choice");
     const double w = 2 * M_PI * 4, corner = 2 * M_PI * 20;  // the half-cosine of 125 ms is half a period of 4 Hz
-    out.claim("high-pass of 20 Hz at 4 Hz: amplitude short of a derivative's", 100 * (1 - corner / std::hypot(w, corner)), "%");
-    out.claim("high-pass of 20 Hz at 4 Hz: phase behind a derivative's", std::atan(w / corner) * 180 / M_PI, "degrees");
-    const auto held = [&](const Line& x, double t) { return x.at(t); };
-    const double from = press::plateau.from + 50e-3, to = press::plateau.to - 1e-3;  // I_B is gone by then
-    out.claim("share of the plateau's decay of I that is I_C's, from 50 ms on",
-              100 * (held(i.C, from) - held(i.C, to)) / (held(i.I, from) - held(i.I, to)), "%")
-        .between(95, 105, "thesis 3.3: I_C is responsible for the slow decay; the range is ours");
+    out.claim("high-pass of 20 Hz at 4 Hz: amplitude below a derivative's", 100 * (1 - corner / std::hypot(w, corner)), "%");
+    out.claim("high-pass of 20 Hz at 4 Hz: phase lag to a derivative", std::atan(w / corner) * 180 / M_PI, "degrees");
+    const auto value_at = [&](const Line& x, double t) { return x.at(t); };
+    const double from = press::plateau.from + 50e-3, to = press::plateau.to - 1e-3;  // I_B has decayed by then
+    out.claim("fraction of the decay of I in the plateau that is due to I_C, from 50 ms on",
+              100 * (value_at(i.C, from) - value_at(i.C, to)) / (value_at(i.I, from) - value_at(i.I, to)), "%")
+        .between(95, 105, "thesis 3.3: I_C is responsible for the slow decay; the range is our choice");
     const double t = (press::down.from + press::down.to) / 2 + 20e-3;
-    out.claim("I_B + I_C late in retraction, before they are rectified", held(i.B, t) + held(i.C, t), "A")
+    out.claim("I_B + I_C late in retraction, before rectification", value_at(i.B, t) + value_at(i.C, t), "A")
         .at_most(0, "thesis 3.3: negative there");
-    out.claim("what they add to the sum then", held(i.I, t) - held(i.A, t), "A")
+    out.claim("their contribution to I at that time", value_at(i.I, t) - value_at(i.A, t), "A")
         .between(0, 0, "thesis 3.3: negative values do not contribute");
     out.claim("I: peak", i.I.most(), "A");
-    out.plot("Transduction, T = 1 ms", "time (s)", "current (uA)")
+    out.plot("Receptor currents, T = 1 ms", "time (s)", "current (uA)")
         .add("I", i.I.times(1, 1e6))
         .add("I_A", i.A.times(1, 1e6))
         .add("I_B", i.B.times(1, 1e6))
         .add("I_C", i.C.times(1, 1e6))
-        .shape(fmt::format("{}: I_A a copy of the force, I_B its derivative, I_C a slow decay; I without what is negative", words));
+        .shape(fmt::format("{}: I_A a copy of the force, I_B its derivative, I_C a slow decay; I is their sum without negative values",
+                           source));
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    auto asked = press::as_algorithm("sa1");
-    asked.traces = {"I_A", "I_B", "I_C", "u"};
-    const auto told = told_of(asked);
-    if (!told) return told.error();
+    auto spec = press::as_algorithm("sa1");
+    spec.traces = {"I_A", "I_B", "I_C", "u"};
+    const auto response = told_of(spec);
+    if (!response) return response.error();
     const auto force = press::samples(1e-3);
     if (!force) return force.error();
-    tell_currents(out, Currents(*told), *force);
-    out.plot("Membrane, T = 1 ms", "time (s)", "u (V)").add("u", told->traces.at("u"));
+    report_currents(out, Currents(*response), *force);
+    out.plot("Membrane, T = 1 ms", "time (s)", "u (V)").add("u", response->traces.at("u"));
 
     Plot frequencies{"Instantaneous frequency", "time (s)", "frequency (Hz)", {}};
-    for (const auto& r : readings) {
+    for (const auto& r : threshold_cases) {
         const std::vector<std::string> set = {fmt::format("sa1.V_th={}", r.theta), fmt::format("sa1.V_reset={}", r.reset)};
         const auto algorithm = train_of(press::as_algorithm("sa1", set)), exact = train_of({"sa1", "press", set});
         if (!algorithm) return algorithm.error();
         if (!exact) return exact.error();
-        if (auto ok = options.at(static_cast<double>(&r - readings + 1) / 4); !ok) return ok.error();
+        if (auto ok = options.at(static_cast<double>(&r - threshold_cases + 1) / 4); !ok) return ok.error();
         const auto named = [&](const char* what) { return fmt::format("theta, u_rst {}: {}", r.name, what); };
         const auto f = press::frequency(*exact), plateau = f.between(press::plateau.from, press::plateau.to);
         out.claim(named("peak of the frequency"), measure<PeakRate>(*exact, press::up), "Hz");
-        out.claim(named("first of the plateau"), plateau.y.front(), "Hz");
-        out.claim(named("last of the plateau"), measure<LastRate>(*exact, press::plateau), "Hz");
-        out.finds(named("highest in protraction, and the plateau's first above its last"),
+        out.claim(named("first frequency of the plateau"), plateau.y.front(), "Hz");
+        out.claim(named("last frequency of the plateau"), measure<LastRate>(*exact, press::plateau), "Hz");
+        out.finds(named("highest in protraction, and the first frequency of the plateau above its last"),
                   f.peak() < press::up.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
         out.claim(named("spikes after 40 % of retraction"), press::count(*exact, {0.675, 0.75}), "spikes")
-            .at_most(1, "thesis 1.2: almost no response; the number is ours");
-        double apart = algorithm->size() == exact->size() ? 0 : Claim::none;
+            .at_most(1, "thesis 1.2: almost no response; the number is our choice");
+        double worst_difference = algorithm->size() == exact->size() ? 0 : Claim::none;
         for (std::size_t k = 0; k < std::min(algorithm->size(), exact->size()); ++k)
-            apart = std::max(apart, std::abs((*algorithm)[k] - (*exact)[k]));
-        auto& c = out.claim(named("worst spike of T = 1 ms, of the exact solution's"), apart, "s");
-        if (std::isnan(apart)) c.because("they are not equally many");
+            worst_difference = std::max(worst_difference, std::abs((*algorithm)[k] - (*exact)[k]));
+        auto& c = out.claim(named("largest spike time difference between T = 1 ms and the exact solution"), worst_difference, "s");
+        if (std::isnan(worst_difference)) c.because("the numbers of spikes differ");
         frequencies.points(r.name, press::frequency(*algorithm));
     }
-    out.plots.push_back(frequencies.shape("points, one at each discharge, near to the curve of the nerve (which is lost)"));
+    out.plots.push_back(frequencies.shape("points, one per discharge, close to the curve of the nerve (which is lost)"));
     out.note(
-        "theta, u_rst and the curve of fig. 17c are not in the text: a frequency by itself cannot be checked, only its shape. It is drawn "
-        "at the "
-        "spike that begins the interval.");
+        "theta, u_rst and the curve of fig. 17c are not in the text, so only the shape of the frequency can be checked. It is plotted at "
+        "the spike that begins the interval.");
     return out;
 }
 
 const Study study{
-    "fig17", "The SA-I model under the press",
+    "fig17", "The SA-I model under the press stimulus",
     "Currents I_A, I_B, I_C and their sum, membrane, and instantaneous frequency at T = 1 ms; \"a similar response to the data\". "
     "Thesis 3.3, fig. 17",
     work};

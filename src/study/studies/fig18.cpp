@@ -1,4 +1,4 @@
-// Thesis fig. 18: the FA-I model under the press, at the thesis's 1 ms.
+// Thesis fig. 18: the FA-I model under the press stimulus, at the thesis's 1 ms.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,15 +11,15 @@ namespace corpuscle::studies::fig18 {
 constexpr double leak = 1e-6, C = 500e-9;  // A, F: thesis 3.4
 constexpr Stretch rising{0.25, 0.625}, falling{0.625, 1.0};
 
-/// I_A and I_B; one of them is always none.
+/// I_A and I_B; one of them is always zero.
 struct Currents {
     Line A, B, I;
-    explicit Currents(const Told& told) : A(told.traces.at("I_A")), B(told.traces.at("I_B")), I(A) {
+    explicit Currents(const Told& response) : A(response.traces.at("I_A")), B(response.traces.at("I_B")), I(A) {
         for (std::size_t k = 0; k < I.y.size(); ++k) I.y[k] += B.y[k];
     }
 };
 
-/// What is above the leak between two times, as a charge; C.
+/// Charge (C) of the current above the leak between two times.
 double net_charge(const Line& current, const Stretch& s) {
     const auto part = current.between(s.from, s.to);
     double out = 0;
@@ -28,34 +28,34 @@ double net_charge(const Line& current, const Stretch& s) {
     return out;
 }
 
-Result<Told> under(const std::vector<std::string>& settings, double rate = 10e3) {
+Result<Told> simulate(const std::vector<std::string>& settings, double rate = 10e3) {
     return told_of({.afferent = "fa1", .settings = settings, .rate = rate, .traces = {"I_A", "I_B", "u"}});
 }
 
-void tell_currents(Outcome& out, const Currents& i, const Line& force) {
-    bool one = true;
-    for (std::size_t k = 0; k < i.A.y.size(); ++k) one = one && (i.A.y[k] == 0 || i.B.y[k] == 0);
-    out.finds("I is I_A while the filtered force is positive and I_B while it is negative", one, "thesis 3.4, fig. 18a");
+void report_currents(Outcome& out, const Currents& i, const Line& force) {
+    bool exclusive = true;
+    for (std::size_t k = 0; k < i.A.y.size(); ++k) exclusive = exclusive && (i.A.y[k] == 0 || i.B.y[k] == 0);
+    out.finds("I is I_A while the filtered force is positive and I_B while it is negative", exclusive, "thesis 3.4, fig. 18a");
     const double up = i.A.most(), down = i.B.most();
     out.claim("largest I_A", up, "A"), out.claim("largest I_B", down, "A");
-    auto& ratio = out.claim("their ratio", up / down).held_to(3.5 / 2.75, "thesis 3.4: k_A and k_B");
-    if (ratio.needs_reason()) ratio.because("what the filter still holds of the rise when the force begins to fall takes from I_B");
-    out.claim("the same above the leak", (up - leak) / (down - leak)).held_to(3.5 / 2.75, "thesis 3.4: k_A and k_B");
-    out.claim("I_A: its peak behind the slope's", i.A.peak() - force.slope().peak(), "s")
-        .at_least(1e-3, "thesis 3.4: slightly delayed in protraction; at least a sample of 1 ms");
-    out.claim("I above the leak until, after protraction", i.A.where(leak, i.A.peak()) - press::up.to, "s");
-    out.claim("I above the leak until, after retraction", i.B.where(leak, i.B.peak()) - press::down.to, "s");
+    auto& ratio = out.claim("ratio of the two", up / down).held_to(3.5 / 2.75, "thesis 3.4: k_A and k_B");
+    if (ratio.needs_reason()) ratio.because("the filter still holds charge from the rise when the force begins to fall, which reduces I_B");
+    out.claim("the same ratio, above the leak", (up - leak) / (down - leak)).held_to(3.5 / 2.75, "thesis 3.4: k_A and k_B");
+    out.claim("I_A: delay of its peak after the peak of the slope", i.A.peak() - force.slope().peak(), "s")
+        .at_least(1e-3, "thesis 3.4: slightly delayed in protraction; at least one sample of 1 ms");
+    out.claim("I stays above the leak after protraction for", i.A.where(leak, i.A.peak()) - press::up.to, "s");
+    out.claim("I stays above the leak after retraction for", i.B.where(leak, i.B.peak()) - press::down.to, "s");
     out.claim("charge above the leak in protraction", net_charge(i.I, press::up), "C");
-    out.claim("theta - u_rest must be below, for a discharge in protraction", net_charge(i.I, press::up) / C, "V");
-    out.plot("Transduction", "time (s)", "current (uA)")
+    out.claim("upper limit of theta - u_rest for a discharge in protraction", net_charge(i.I, press::up) / C, "V");
+    out.plot("Receptor currents", "time (s)", "current (uA)")
         .add("I", i.I.times(1, 1e6))
         .add("I_A", i.A.times(1, 1e6))
         .add("I_B", i.B.times(1, 1e6))
-        .shape("two parts, unequally high, one in protraction and one in retraction");
+        .shape("two components with unequal peaks, one in protraction and one in retraction");
 }
 
-/// Discharges only in protraction and retraction?
-void tell_train(Outcome& out, const std::string& name, const std::vector<double>& train, const char* why) {
+/// Claims that the train discharges in protraction and retraction only.
+void report_train(Outcome& out, const std::string& name, const std::vector<double>& train, const char* why) {
     out.claim(name + ": discharges in protraction", press::count(train, press::up), "spikes").at_least(1, "thesis 3.4, fig. 18c");
     out.claim(name + ": discharges in retraction", press::count(train, press::down), "spikes").at_least(1, "thesis 3.4, fig. 18c");
     out.claim(name + ": discharges in plateau and after", press::count(train, press::plateau) + press::count(train, press::after), "spikes")
@@ -66,44 +66,45 @@ void tell_train(Outcome& out, const std::string& name, const std::vector<double>
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto told = under({}), fig16s = under({"fa1.V_th=1", "fa1.V_reset=0.5"}), quick = under({"fa1.f=20"}),
-               strong = under({"fa1.f=20", "fa1.k_A=35e-6", "fa1.k_B=27.5e-6", "fa1.V_th=1", "fa1.V_reset=0.5"});
-    for (const auto* t : {&told, &fig16s, &quick, &strong})
+    const auto response = simulate({}), with_fig16_threshold = simulate({"fa1.V_th=1", "fa1.V_reset=0.5"}),
+               with_20_Hz = simulate({"fa1.f=20"}),
+               with_20_Hz_and_gain = simulate({"fa1.f=20", "fa1.k_A=35e-6", "fa1.k_B=27.5e-6", "fa1.V_th=1", "fa1.V_reset=0.5"});
+    for (const auto* t : {&response, &with_fig16_threshold, &with_20_Hz, &with_20_Hz_and_gain})
         if (!*t) return t->error();
     const auto algorithm = train_of(press::as_algorithm("fa1"));
     if (!algorithm) return algorithm.error();
     const auto force = press::samples(1e-4);
     if (!force) return force.error();
     if (auto ok = options.at(0.8); !ok) return ok.error();
-    const Currents i(*told);
-    tell_currents(out, i, *force);
-    const double up = measure<PeakRate>(told->spikes, rising), down = measure<PeakRate>(told->spikes, falling);
+    const Currents i(*response);
+    report_currents(out, i, *force);
+    const double up = measure<PeakRate>(response->spikes, rising), down = measure<PeakRate>(response->spikes, falling);
     out.claim("peak of the frequency, rising", up, "Hz"), out.claim("peak of the frequency, falling", down, "Hz");
-    out.claim("one over the other", up / down).at_least(1, "thesis 1.2 and 3.4: asymmetrical, protraction above retraction");
-    tell_train(out, "f = 2 Hz as printed, theta 0.5 V", told->spikes,
-               "what a filter of 2 Hz holds at the end of a ramp stays above the leak for as long as is told above (errata B13)");
-    tell_train(
-        out, "theta 1 V and u_rst 0.5 V as in fig. 16", fig16s->spikes,
-        "the charge above the leak in protraction is less than C times 1 V (errata B10a), so the first discharge comes in the plateau");
-    tell_train(out, "f = 20 Hz", quick->spikes, "with the printed gains the current hardly passes the leak (errata B13)");
-    tell_train(out, "f = 20 Hz, ten times the gains, fig. 16's theta", strong->spikes, "why is not known");
+    out.claim("ratio of the two peaks", up / down).at_least(1, "thesis 1.2 and 3.4: asymmetrical, protraction above retraction");
+    report_train(
+        out, "f = 2 Hz as printed, theta 0.5 V", response->spikes,
+        "the charge of a filter of 2 Hz at the end of a ramp keeps the current above the leak for the time given above (errata B13)");
+    report_train(
+        out, "theta 1 V and u_rst 0.5 V as in fig. 16", with_fig16_threshold->spikes,
+        "the charge above the leak in protraction is less than C times 1 V (errata B10a), so the first discharge falls in the plateau");
+    report_train(out, "f = 20 Hz", with_20_Hz->spikes, "with the published gains the current hardly exceeds the leak (errata B13)");
+    report_train(out, "f = 20 Hz, ten times the gains, theta as in fig. 16", with_20_Hz_and_gain->spikes, "reason unknown");
     out.plot("Membrane", "time (s)", "u (V)")
-        .add("theta 0.5 V, u_rst 0.25 V", told->traces.at("u"))
-        .add("1 and 0.5 V", fig16s->traces.at("u"));
+        .add("theta 0.5 V, u_rst 0.25 V", response->traces.at("u"))
+        .add("1 and 0.5 V", with_fig16_threshold->traces.at("u"));
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("T = 1 ms", press::frequency(*algorithm))
-        .points("exactly", press::frequency(told->spikes))
-        .add("force, 10 Hz for a newton", force->times(1, 10))
+        .points("exact solution", press::frequency(response->spikes))
+        .add("force, 10 Hz per newton", force->times(1, 10))
         .shape(
             "in protraction, slightly late, and in retraction; \"the maximum amplitude for the protraction and retraction phase matches\" "
             "data that are lost");
     return out;
 }
 
-const Study study{
-    "fig18", "The FA-I model under the press",
-    "Currents I_A and I_B, membrane, and instantaneous frequency: discharges in protraction and retraction, unequally high, those in "
-    "protraction slightly late. Thesis 3.4, fig. 18",
-    work};
+const Study study{"fig18", "The FA-I model under the press stimulus",
+                  "Currents I_A and I_B, membrane, and instantaneous frequency: discharges in protraction and retraction with unequal "
+                  "peaks, those in protraction slightly late. Thesis 3.4, fig. 18",
+                  work};
 
 }  // namespace corpuscle::studies::fig18

@@ -1,4 +1,4 @@
-// Fig. 19: the sensor, an FSR 400, by eq. 13 with the numbers of 4.1: its resistance (a) and its conductance (b) over force.
+// Fig. 19: the sensor, an FSR 400, by eq. 13 with the parameters of 4.1: its resistance (a) and its conductance (b) over force.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,21 +8,21 @@
 
 namespace corpuscle::studies::fig19 {
 
-constexpr double from = 50, to = 4000;  // gf: where the thesis calls the model fairly accurate
+constexpr double from = 50, to = 4000;  // gf: the range in which the thesis calls the model fairly accurate
 
-Line over(const ForceSensor& sensor, double (ForceSensor::*what)(double) const) {
+Line sample_logarithmically(const ForceSensor& sensor, double (ForceSensor::*what)(double) const) {
     Line out;
     for (double gf = 10; gf <= 1e4; gf *= std::pow(10, 1.0 / 20)) out.x.push_back(gf), out.y.push_back((sensor.*what)(gf));
     return out;
 }
 
-/// How far a curve is from the straight line that comes nearest, as a share of what it spans.
-double bend(const Line& line) { return line.straight().farthest / (line.most() - line.least()); }
+/// Largest difference of a curve from its fitted straight line, as a fraction of its range.
+double nonlinearity(const Line& line) { return line.straight().farthest / (line.most() - line.least()); }
 
-/// The netlist's sensor under 1 V: its current over the force in gf.
-Result<Line> in_netlist() {
+/// The netlist's sensor at 1 V: its current over the force in gf.
+Result<Line> simulate_sensor() {
     const auto found =
-        found_in({"The sensor alone\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\n"
+        found_in({"The sensor\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\n"
                   "vgf gf 0 20\neforce force 0 gf 0 9.80665m\nva a 0 1\nvi a b 0\nxfsr force b 0 fsr\n",
                   {},
                   ".dc vgf 20 4000 20"});
@@ -34,42 +34,44 @@ Result<Outcome> work(const StudyOptions&) {
     Outcome out;
     const std::string source = "thesis 4.1", sheet = "FSR 400 series data sheet (Interlink)";
     const ForceSensor sensor, as_printed{.a = 170};
-    const auto netlist = in_netlist();
+    const auto netlist = simulate_sensor();
     if (!netlist) return netlist.error();
-    double apart = 0;
+    double worst_error = 0;
     for (std::size_t k = 0; k < netlist->x.size(); ++k)
-        apart = std::max(apart, std::abs(netlist->y[k] / sensor.conductance(netlist->x[k]) - 1));
-    out.claim("the netlist's sensor against eq. 13, largest", 100 * apart, "%").at_most(0.001, "the same formula; stated here");
+        worst_error = std::max(worst_error, std::abs(netlist->y[k] / sensor.conductance(netlist->x[k]) - 1));
+    out.claim("the netlist's sensor against eq. 13, largest difference", 100 * worst_error, "%")
+        .at_most(0.001, "the same formula; the bound is our choice");
     out.claim("resistance without force", sensor.resistance(0), "ohm").printed_as(10e6, source + ": R_0; \"> 10 Mohms\" in the " + sheet);
     for (const double gf : {least_gf, from, 100.0, most_gf, 1000.0, to})
         out.claim(fmt::format("resistance at {:g} gf", gf), sensor.resistance(gf), "ohm");
-    out.claim("the same with a = 170 ohm gf: resistance at 100 gf", as_printed.resistance(100), "ohm")
-        .at_least(100, "a sensor of some kilohms, by " + sheet + "; the bound is stated here")
+    out.claim("with a = 170 ohm gf: resistance at 100 gf", as_printed.resistance(100), "ohm")
+        .at_least(100, "a sensor of some kilohms, by the " + sheet + "; the bound is our choice")
         .if_off("170 ohm is a misprint for 170 kohm (errata F1)");
-    out.claim("a as it stands, 170 times F^m as a conductance: resistance at 100 gf", 1 / (170 * std::pow(100, sensor.m)), "ohm")
+    out.claim("with a as printed, 170 times F^m as a conductance: resistance at 100 gf", 1 / (170 * std::pow(100, sensor.m)), "ohm")
         .at_least(100, "as above")
-        .if_off("a of eq. 13 multiplies as a conductance and has the unit of a resistance (errata F1)");
+        .if_off("a of eq. 13 is used as a conductance and has the unit of a resistance (errata F1)");
     const auto G = sensor.conductances(least_gf, most_gf);
     Line R = G;
     for (double& v : R.y) v = 1 / v;
-    out.claim("19b: conductance off the straight line from 20 to 400 gf", 100 * bend(G), "%")
-        .at_most(10, source + ": \"almost linearly\"; the bound is stated here");
+    out.claim("19b: nonlinearity of the conductance from 20 to 400 gf", 100 * nonlinearity(G), "%")
+        .at_most(10, source + ": \"almost linearly\"; the bound is our choice");
     out.claim("19b: slope at 20 gf over slope at 400 gf", sensor.slope(least_gf) / sensor.slope(most_gf), "times")
         .held_to(1, source + ": \"as the slope factor m is close to unity\"")
-        .if_off("m is 0.72, so that the slope falls as F^-0.28 (errata F3)");
-    out.claim("19a: resistance off the straight line from 20 to 400 gf", 100 * bend(R), "%")
-        .at_least(10, source + ": \"highly non-linear\"; the bound is stated here");
-    out.claim("the press, from", 0.2 / gram_force, "gf")
+        .if_off("m is 0.72, so the slope falls as F^-0.28 (errata F3)");
+    out.claim("19a: nonlinearity of the resistance from 20 to 400 gf", 100 * nonlinearity(R), "%")
+        .at_least(10, source + ": \"highly non-linear\"; the bound is our choice");
+    out.claim("smallest force of the press stimulus", 0.2 / gram_force, "gf")
         .between(from, to, source + ": fairly accurate from 50 to 4000 g")
         .if_off("0.2 N lies below the range of the fit (errata F2)");
-    out.claim("the press, to", 4 / gram_force, "gf").between(from, to, source + ": fairly accurate from 50 to 4000 g");
-    out.claim("the fit's upper end as a force", to * gram_force, "N")
+    out.claim("largest force of the press stimulus", 4 / gram_force, "gf")
+        .between(from, to, source + ": fairly accurate from 50 to 4000 g");
+    out.claim("upper end of the fit as a force", to * gram_force, "N")
         .at_most(20, sheet + ": 0.2 to 20 N")
-        .if_off("4000 g is beyond what the sensor is rated for (errata F2)");
+        .if_off("4000 g exceeds the rating of the sensor (errata F2)");
     Plot& a = out.plot("19a: resistance", "force (gf)", "ohm");
     a.log_x = a.log_y = true;
-    a.add("eq. 13, a = 170 kohm", over(sensor, &ForceSensor::resistance))
-        .add("a = 170 ohm, as printed", over(as_printed, &ForceSensor::resistance));
+    a.add("eq. 13, a = 170 kohm", sample_logarithmically(sensor, &ForceSensor::resistance))
+        .add("a = 170 ohm, as printed", sample_logarithmically(as_printed, &ForceSensor::resistance));
     a.shape("the supplier's typical curve, straight on two logarithmic axes, with the model on it");
     out.plot("19b: conductance", "force (gf)", "conductance (uS)")
         .add("eq. 13", sensor.conductances(0, 1000, 5).times(1, 1e6))
@@ -77,12 +79,11 @@ Result<Outcome> work(const StudyOptions&) {
         .shape("almost linear");
     out.note(
         "Whether the model is \"fairly accurate\" cannot be checked: the supplier's points are in the lost figure. It \"does not show "
-        "hysteresis\" by "
-        "assumption; the data sheet says 10 % on the average.");
+        "hysteresis\" by assumption; the data sheet gives 10 % on average.");
     return out;
 }
 
 const Study study{"fig19", "The force-sensitive resistor",
-                  "Resistance falls with force as a power, conductance rises almost linearly. Thesis 4.1, fig. 19, eq. 13", work};
+                  "Resistance falls with force as a power law, conductance rises almost linearly. Thesis 4.1, fig. 19, eq. 13", work};
 
 }  // namespace corpuscle::studies::fig19

@@ -1,4 +1,5 @@
-// Fig. 21: force to current by one transistor whose bulk is at vss. No size is printed: what a larger one buys.
+// Fig. 21: force to current by one transistor with its bulk at vss. No size is published; this study shows the benefit of a larger
+// transistor.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -14,10 +15,11 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto found = found_in({"force_to_current_plain", {}, ".dc vgf 1 500 1"});
     if (!found) return found.error();
     const auto I = found->line("dc", "i(vif)"), I_4 = found->line("dc", "i(vif4)"), V_X = found->line("dc", "v(vx)");
-    double apart = 0;
+    double worst_error = 0;
     for (double gf = least_gf; gf <= most_gf; ++gf)
-        apart = std::max(apart, std::abs(I.at(gf) / (V_X.at(gf) * ForceSensor().conductance(gf)) - 1));
-    out.claim("I_F against V_X G_FSR, largest from 20 to 400 gf", 100 * apart, "%").at_most(0.1, "thesis eq. 15; the bound is stated here");
+        worst_error = std::max(worst_error, std::abs(I.at(gf) / (V_X.at(gf) * ForceSensor().conductance(gf)) - 1));
+    out.claim("I_F against V_X G_FSR, largest difference from 20 to 400 gf", 100 * worst_error, "%")
+        .at_most(0.1, "thesis eq. 15; the bound is our choice");
     out.claim("V_X at 400 gf", V_X.at(400), "V").held_to(0.1, source + ": \"to force V_X to follow V_Y\"");
     out.claim("I_F at 400 gf", I.at(400), "A").held_to(0.1 * ForceSensor().conductance(400), "thesis eq. 15 at V_Y = 0.1 V");
     out.claim("dI_F/dF at 20 gf", I.slope_at(20), "A/gf").held_to(0.1 * ForceSensor().slope(20), "thesis eq. 13 and 15");
@@ -44,21 +46,21 @@ Result<Outcome> work(const StudyOptions& options) {
     out.claim("lowest supply at 4 N with 16x1", supply.at(16), "V");
     out.claim("lowest supply at 4 N with 256x1", supply.at(256), "V")
         .at_most(supply.at(16), source + ": \"and consequently, a lower supply voltage\"");
-    out.claim("units with which it is as low as fig. 22, which has 40", supply.where(lowest->back()));
+    out.claim("number of unit transistors for the lowest supply of fig. 22, which has 40", supply.where(lowest->back()));
     out.claim("doubling S_1 at 256x1 lowers V_Z by", V_Z.at(256) - V_Z.at(512), "V");
     out.plot("21: I_F", "force (gf)", "uA")
         .add("16x1", I.times(1, 1e6))
         .add("64x1", I_4.times(1, 1e6))
         .shape("all of the sensor's current");
-    Plot& plot = out.plot("What a larger M_1 buys at 4 N", "units of M_1", "V");
+    Plot& plot = out.plot("Benefit of a larger M_1 at 4 N", "unit transistors of M_1", "V");
     plot.log_x = true;
     plot.add("V_Z at 0.7 V", V_Z).add("lowest V_DD", supply);
-    out.note("Lowest supply: V_X at least 95 % of V_Y, I_F's end held at the supply. The three transducers stand side by side in fig22.");
+    out.note("Lowest supply: V_X at least 95 % of V_Y, with the output at the supply. The study fig22 compares the three transducers.");
     return out;
 }
 
-const Study study{"fig21", "Force to current, plainly",
-                  "One transistor takes the sensor's current; a larger one lets V_Z and the supply be lower. Thesis 4.2, fig. 21, eq. 15",
-                  work};
+const Study study{
+    "fig21", "Force to current with one transistor",
+    "One transistor carries the sensor's current; a larger one allows a lower V_Z and a lower supply. Thesis 4.2, fig. 21, eq. 15", work};
 
 }  // namespace corpuscle::studies::fig21

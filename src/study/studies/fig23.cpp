@@ -1,5 +1,5 @@
-// Fig. 23 and table 2: the transducer's amplifier by itself, and the bulks that 4.2 lifts, lifted and not. Its mirrors stand in
-// fig23_mirrors.cpp, its loop in transducer_loop.cpp.
+// Fig. 23 and table 2: the transducer's amplifier, with and without the forward-biased bulks of 4.2. fig23_mirrors.cpp has its mirrors,
+// transducer_loop.cpp its feedback loop.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -10,18 +10,18 @@
 namespace corpuscle::studies::fig23 {
 
 using Changes = std::vector<std::pair<std::string, std::string>>;
-const std::string text = "thesis 4.2, fig. 23";
+const std::string source = "thesis 4.2, fig. 23";
 
 const Changes pair_at_supply = {{" t b3 pch", " t vdd pch"}, {" t b4 pch", " t vdd pch"}};
 const Changes pair_at_source = {{" t b3 pch", " t t pch"}, {" t b4 pch", " t t pch"}};
 const Changes n_unlifted = {{" 0 b5 nch", " 0 0 nch"}, {" f1 b6 nch", " f1 0 nch"}, {" f2 b6 nch", " f2 0 nch"}};
 const Changes p_unlifted = {{" vdd b1 pch", " vdd vdd pch"}, {" b2 pch w=6u l=0.5u m=16", " vdd pch w=6u l=0.5u m=16"}};
-/// The input pair's bulks straight at vss, each through a source that shows what they take.
-const Changes unlimited = {{"mp3c plus  0 b3 b3 pch w=6u l=0.5u m=16", "vb3 b3 0 0"},
-                           {"mp3d minus 0 b4 b4 pch w=6u l=0.5u m=16", "vb4 b4 0 0"}};
+/// The input pair's bulks directly at vss, each through a source that measures the bulk current.
+const Changes bulks_at_vss = {{"mp3c plus  0 b3 b3 pch w=6u l=0.5u m=16", "vb3 b3 0 0"},
+                              {"mp3d minus 0 b4 b4 pch w=6u l=0.5u m=16", "vb4 b4 0 0"}};
 
-/// circuits/amplifier.cir with these changes in its parts.
-Result<Found> amplifier(const Changes& changes, const std::string& orders = "") {
+/// circuits/amplifier.cir with these changes in its subcircuits.
+Result<Found> simulate_amplifier(const Changes& changes, const std::string& orders = "") {
     const auto parts = changed_text("circuits/parts/transducer.inc", changes);
     if (!parts) return parts.error();
     auto netlist = changed_text("circuits/amplifier.cir", {{".include 'parts/transducer.inc'", *parts}});
@@ -29,17 +29,17 @@ Result<Found> amplifier(const Changes& changes, const std::string& orders = "") 
     return found_in({std::move(*netlist), {}, orders});
 }
 
-/// Transconductance over the common mode: of circuits/amplifier.cir's pair of cells, 0.1 mV apart either way.
+/// Transconductance over the common mode, from the pair of cells in circuits/amplifier.cir with inputs of +0.1 mV and -0.1 mV.
 Result<Line> transconductance(const Changes& changes) {
-    const auto found = amplifier(changes, ".dc vs 0 0.7 2m");
+    const auto found = simulate_amplifier(changes, ".dc vs 0 0.7 2m");
     if (!found) return found.error();
     return found->line("dc", "par('(i(v1)-i(v2))/0.2m')");
 }
-double up_to(const Line& g_m) { return g_m.where(g_m.at(0.1) / 2, 0.1); }
+double common_mode_limit(const Line& g_m) { return g_m.where(g_m.at(0.1) / 2, 0.1); }
 
-/// Gain, band and ranges of the amplifier by itself.
-Result<void> tell_alone(Outcome& out) {
-    const auto found = amplifier({});
+/// Gain, bandwidth and ranges of the amplifier without the sensor loop.
+Result<void> report_amplifier(Outcome& out) {
+    const auto found = simulate_amplifier({});
     if (!found) return found.error();
     const auto supply =
         found_in({"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvi vdd top 0\n"
@@ -51,39 +51,41 @@ Result<void> tell_alone(Outcome& out) {
     out.claim("gain into the transducer's M_1 to M_3", 20 * std::log10(found->number("gain")), "dB");
     out.claim("gain-bandwidth there", found->number("f_unity"), "Hz");
     out.claim("phase margin there, with feedback of one", found->number("margin"), "degrees")
-        .at_least(45, "not printed; the bound is stated here");
+        .at_least(45, "not published; the bound is our choice");
     out.claim("input transconductance at V_Y", found->number("g_m"), "S");
     out.claim("offset", found->number("offset"), "V");
-    out.claim("supply current", I, "A").held_to(500e-9, "five trapezoids of I_BIASA, fig. 23 and table 2");
+    out.claim("supply current", I, "A").held_to(500e-9, "five trapezoidal arrays of I_BIASA, fig. 23 and table 2");
     out.claim("power at 0.7 V", 0.7 * I, "W");
     const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')");
     Line gain = found->line("dc", "i(v3)").slope().absolute();
     for (double& g : gain.y) g = g_m.at(0.1) / g;
     const double half = gain.most() / 2;
-    out.claim("common mode up to (half of the transconductance)", up_to(g_m), "V").at_least(0.1, "V_Y, which it must take (errata F12)");
+    out.claim("common-mode input up to (half of the transconductance)", common_mode_limit(g_m), "V")
+        .at_least(0.1, "V_Y, which must be in its input range (errata F12)");
     out.claim("output from (half of the gain)", gain.where(half), "V");
     out.claim("output to", gain.where(half, gain.peak()), "V")
         .at_least(525e-3, "thesis 4.2, fig. 24c: the largest V_Z")
-        .if_off("half of the gain is a bound stated here; beyond it gain is left, and the loop needs little of it (transducer-loop)");
-    out.claim("gain that is left at 525 mV", 20 * std::log10(gain.at(525e-3)), "dB");
-    out.plot("Gain along the output", "V_Z (V)", "gain").add("by g_m over the output's conductance", gain);
+        .if_off("half of the gain is our bound; beyond it the gain that remains is enough for the loop (transducer-loop)");
+    out.claim("gain at 525 mV", 20 * std::log10(gain.at(525e-3)), "dB");
+    out.plot("Gain over the output voltage", "V_Z (V)", "gain").add("g_m over the output conductance", gain);
     return {};
 }
 
-Result<void> tell_input_pair(Outcome& out) {
+Result<void> report_input_pair(Outcome& out) {
     const auto lifted = transconductance({}), at_supply = transconductance(pair_at_supply), at_source = transconductance(pair_at_source);
     for (const auto* r : {&lifted, &at_supply, &at_source})
         if (!*r) return r->error();
-    out.claim("common mode up to, bulks of the pair at the supply", up_to(*at_supply), "V");
-    out.claim("common mode up to, bulks at the source", up_to(*at_source), "V");
-    out.claim("what the bias of the bulks gains beside bulks at the supply", up_to(*lifted) - up_to(*at_supply), "V")
-        .at_least(0, text + ": \"to increase the OTA common-mode input voltage excursion\"");
-    out.plot("Transconductance along the common mode", "V (both inputs)", "g_m (uS)")
+    out.claim("common-mode input up to, bulks of the pair at the supply", common_mode_limit(*at_supply), "V");
+    out.claim("common-mode input up to, bulks at the source", common_mode_limit(*at_source), "V");
+    out.claim("gain in common-mode range by the biased bulks, compared with bulks at the supply",
+              common_mode_limit(*lifted) - common_mode_limit(*at_supply), "V")
+        .at_least(0, source + ": \"to increase the OTA common-mode input voltage excursion\"");
+    out.plot("Transconductance over the common mode", "V (both inputs)", "g_m (uS)")
         .add("fig. 23: bulks by M_3C, D", lifted->times(1, 1e6))
         .add("bulks at the source", at_source->times(1, 1e6))
         .add("bulks at the supply", at_supply->times(1, 1e6));
-    const auto bulks = amplifier(unlimited, ".dc vs 0 0.7 2m"),
-               held = amplifier({}, ".save v(x3.b3) v(x3.t) i(vplus) i(vs)\n.dc vs 0 0.7 2m");
+    const auto bulks = simulate_amplifier(bulks_at_vss, ".dc vs 0 0.7 2m"),
+               held = simulate_amplifier({}, ".save v(x3.b3) v(x3.t) i(vplus) i(vs)\n.dc vs 0 0.7 2m");
     if (!bulks) return bulks.error();
     if (!held) return held.error();
     const auto free_current = bulks->line("dc", "i(x1.vb3)").absolute();
@@ -94,19 +96,19 @@ Result<void> tell_input_pair(Outcome& out) {
                   ".dc vp 0 0.7 2m"});
     if (!limited) return limited.error();
     const auto kept = limited->line("dc", "i(vm)").absolute();
-    out.claim("a bulk's current with both inputs at 0.4 V, straight at vss", free_current.at(0.4), "A");
-    out.claim("the same limited by M_3C, D, which it leaves through the input", kept.at(0.4), "A")
-        .at_most(free_current.at(0.4), text + ": M_3C, D limit the parasitic substrate current");
+    out.claim("bulk current with both inputs at 0.4 V, bulk directly at vss", free_current.at(0.4), "A");
+    out.claim("the same limited by M_3C, D; it flows out of the input", kept.at(0.4), "A")
+        .at_most(free_current.at(0.4), source + ": M_3C, D limit the parasitic substrate current");
     out.claim("current out of an input at V_Y", kept.at(0.1), "A");
     return {};
 }
 
-/// What lifted bulks in the mirrors do for the supply: of the amplifier (from where on it has half of the transconductance that it has at
-/// 0.7 V, inputs at V_Y, output at half the supply), of I_BIASA's diode, and of the transducer at 0.2 N.
+/// Lowest supplies: of the amplifier (half of its transconductance at 0.7 V, inputs at V_Y, output at half the supply), of I_BIASA's
+/// diode, and of the transducer at 0.2 N.
 struct Supplies {
     double amplifier, diode, transducer;
 };
-Result<Supplies> supplies(const Changes& changes) {
+Result<Supplies> find_supplies(const Changes& changes) {
     const TransducerCell cell{"t", improved_cell()};
     const auto parts = changed_text("circuits/parts/transducer.inc", changes);
     if (!parts) return parts.error();
@@ -118,49 +120,47 @@ Result<Supplies> supplies(const Changes& changes) {
                               *parts),
                   {},
                   ".dc vdd 0.25 0.7 5m"});
-    const auto whole = lowest_supplies({&cell, 1}, 0.2, {}, *parts);
+    const auto transducer = lowest_supplies({&cell, 1}, 0.2, {}, *parts);
     if (!found) return found.error();
-    if (!whole) return whole.error();
+    if (!transducer) return transducer.error();
     const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')"), diode = found->line("dc", "v(vdd,pg1)");
-    return Supplies{g_m.where(g_m.at(0.7) / 2), diode.at(0.7), whole->front()};
+    return Supplies{g_m.where(g_m.at(0.7) / 2), diode.at(0.7), transducer->front()};
 }
 
-Result<void> tell_supply(Outcome& out) {
-    const auto lifted = supplies({}), no_n = supplies(n_unlifted), no_p = supplies(p_unlifted);
+Result<void> report_supply(Outcome& out) {
+    const auto lifted = find_supplies({}), no_n = find_supplies(n_unlifted), no_p = find_supplies(p_unlifted);
     for (const auto* r : {&lifted, &no_n, &no_p})
         if (!*r) return r->error();
-    const std::string lower = text + ": forward body bias in the mirrors \"to decrease the minimum voltage supply requirement\"";
+    const std::string lower = source + ": forward body bias in the mirrors \"to decrease the minimum voltage supply requirement\"";
     out.claim("lowest supply of the amplifier", lifted->amplifier, "V");
     out.claim("lowest supply of the amplifier, N mirrors' bulks at vss", no_n->amplifier, "V").at_least(lifted->amplifier, lower);
-    out.claim("what I_BIASA's diode needs", lifted->diode, "V");
-    out.claim("what I_BIASA's diode needs, P mirrors' bulks at the supply", no_p->diode, "V").at_least(lifted->diode, lower);
+    out.claim("voltage of I_BIASA's diode", lifted->diode, "V");
+    out.claim("voltage of I_BIASA's diode, P mirrors' bulks at the supply", no_p->diode, "V").at_least(lifted->diode, lower);
     out.claim("lowest supply of the transducer at 0.2 N", lifted->transducer, "V");
     out.claim("lowest supply of the transducer at 0.2 N, N mirrors' bulks at vss", no_n->transducer, "V")
         .at_least(lifted->transducer, lower)
         .if_off(
-            "V_Z, not the mirrors, sets it: there both legs are short of supply, and with the bulks at vss the left one, whose end then "
-            "stands about as high "
-            "as V_Z, is as short as the right one, so that they stay alike");
+            "V_Z limits it, not the mirrors: both branches then have too little supply. With the bulks at vss the end of the left branch "
+            "is about as high as V_Z, so both branches lack the same voltage and stay matched");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     double done = 0;
-    for (const auto tell : {tell_alone, tell_input_pair, tell_supply}) {
-        if (auto ok = tell(out); !ok) return ok.error();
+    for (const auto report : {report_amplifier, report_input_pair, report_supply}) {
+        if (auto ok = report(out); !ok) return ok.error();
         if (auto ok = options.at(done += 0.3); !ok) return ok.error();
     }
     out.note(
-        "Nothing of the amplifier but sizes, I_BIASA and words is printed. That its pair is of P is a reading (errata F10a); how it folds "
-        "into the N mirror, "
-        "too (circuits/parts/transducer.inc).");
+        "The thesis gives only sizes, I_BIASA and text for the amplifier. That its pair is PMOS (errata F10a) and how it folds into the N "
+        "mirror are our interpretation (circuits/parts/transducer.inc).");
     return out;
 }
 
 const Study study{"fig23", "The transducer's amplifier",
-                  "A folded cascode with self-cascode mirrors and lifted bulks: larger ranges of input and output, a lower supply. Thesis "
-                  "4.2, fig. 23, table 2",
+                  "A folded cascode with self-cascode mirrors and forward-biased bulks: larger ranges of input and output, a lower supply. "
+                  "Thesis 4.2, fig. 23, table 2",
                   work};
 
 }  // namespace corpuscle::studies::fig23

@@ -1,5 +1,5 @@
-// The mirrors of fig. 23's amplifier beside those that they stand in place of: a conventional cascode, bulks that are not lifted, an array
-// without its trapezoid.
+// The mirrors of fig. 23's amplifier compared with alternatives: a conventional cascode, bulks without bias, an array without its
+// trapezoid.
 
 #include <cmath>
 
@@ -8,16 +8,16 @@
 
 namespace corpuscle::studies::fig23_mirrors {
 
-const std::string text = "thesis 4.2, fig. 23";
+const std::string source = "thesis 4.2, fig. 23";
 
-/// Mirrors of 100 nA, their inputs fed alike: from where on the output's resistance is at least half of that at 0.5 V.
+/// Mirrors of 100 nA with equal inputs: the output voltage from which the resistance is at least half of that at 0.5 V.
 Result<Outcome> work(const StudyOptions&) {
     Outcome out;
-    const auto found = found_in({R"(Mirrors of fig. 23 beside others
+    const auto found = found_in({R"(Mirrors of fig. 23 and alternatives
 .lib '../process/tsmc180.lib' tt
 vdd vdd 0 0.7
 vout out 0 0.35
-* self-cascode, bulks lifted as in fig. 23
+* self-cascode, bulks forward biased as in fig. 23
 i1 vdd a 100n
 mn5a a a f b6 nch w=1.5u l=0.5u m=16
 mn4a f a 0 b5 nch w=1.5u l=0.5u m=4 stack=4
@@ -33,19 +33,19 @@ mc4a h c 0 0 nch w=1.5u l=0.5u m=4 stack=4
 vc out oc 0
 mc5b oc c k 0 nch w=1.5u l=0.5u m=16
 mc4b k c 0 0 nch w=1.5u l=0.5u m=4 stack=4
-* the conventional cascode, a diode on a diode, from a supply that it needs
+* the conventional cascode, two stacked diodes, with a supply high enough for them
 i3 0 d 100n
 md5a d d e 0 nch w=1.5u l=0.5u m=16
 md4a e e 0 0 nch w=1.5u l=0.5u m=4 stack=4
 vd out od 0
 md5b od d l 0 nch w=1.5u l=0.5u m=16
 md4b l e 0 0 nch w=1.5u l=0.5u m=4 stack=4
-* the lower array alone
+* the lower array only
 i4 vdd p 100n
 me4a p p 0 0 nch w=1.5u l=0.5u m=4 stack=4
 ve out oe 0
 me4b oe p 0 0 nch w=1.5u l=0.5u m=4 stack=4
-* P: trapezoid as table 2, and its upper array alone
+* P: trapezoid as in table 2, and its upper array only
 i5 q 0 100n
 mp1a r q vdd vdd pch w=6u l=0.5u m=4 stack=4
 mp2a q q r vdd pch w=6u l=0.5u m=16
@@ -60,32 +60,32 @@ vq oq out 0
                                  {},
                                  ".dc vout 0 0.7 1m"});
     if (!found) return found.error();
-    const auto low = [&](const char* current) {
+    const auto output_from = [&](const char* current) {
         const auto G = found->line("dc", current).slope().absolute();
         return G.where(2 * G.at(0.5));
     };
     const auto resistance = [&](const char* current) { return 1 / std::abs(found->line("dc", current).slope_at(0.35)); };
-    out.claim("self-cascode mirror of 100 nA: output from (half of its resistance at 0.5 V)", low("i(va)"), "V");
-    out.claim("conventional cascode, a diode on a diode: output from", low("i(vd)"), "V")
-        .at_least(low("i(va)"), text + ": the self-cascode \"allows a larger output voltage excursion\"");
+    out.claim("self-cascode mirror of 100 nA: output from (half of its resistance at 0.5 V)", output_from("i(va)"), "V");
+    out.claim("conventional cascode, two stacked diodes: output from", output_from("i(vd)"), "V")
+        .at_least(output_from("i(va)"), source + ": the self-cascode \"allows a larger output voltage excursion\"");
     Line ratio = found->line("dc", "i(va)").slope().absolute();
     const auto other = found->line("dc", "i(vd)").slope().absolute();
     for (std::size_t k = 0; k < ratio.x.size(); ++k) ratio.y[k] /= other.y[k];
-    out.claim("the conventional one has the higher resistance from", ratio.where(1, 0.2), "V");
-    out.claim("what the diodes of the conventional one need", found->line("dc", "v(d)").at(0.35), "V")
-        .at_least(0.7, text + ": the self-cascode's advantage at \"similar ... power supplies\"; 0.7 V leave it nothing");
-    out.claim("self-cascode: its input, bulks at vss", found->line("dc", "v(c)").at(0.35), "V");
-    out.claim("self-cascode: its input, bulks lifted", found->line("dc", "v(a)").at(0.35), "V")
-        .at_most(found->line("dc", "v(c)").at(0.35), text + ": \"to decrease the minimum voltage supply requirement\"");
+    out.claim("the conventional cascode has the higher resistance from", ratio.where(1, 0.2), "V");
+    out.claim("voltage of the conventional cascode's diodes", found->line("dc", "v(d)").at(0.35), "V")
+        .at_least(0.7, source + ": the self-cascode's advantage at \"similar ... power supplies\"; at 0.7 V nothing would remain");
+    out.claim("self-cascode: input voltage, bulks at vss", found->line("dc", "v(c)").at(0.35), "V");
+    out.claim("self-cascode: input voltage, bulks forward biased", found->line("dc", "v(a)").at(0.35), "V")
+        .at_most(found->line("dc", "v(c)").at(0.35), source + ": \"to decrease the minimum voltage supply requirement\"");
     out.claim("P trapezoid: output resistance at 0.35 V", resistance("i(vp)"), "ohm")
-        .at_least(resistance("i(vq)"), text + ": trapezoidal arrays \"to increase the output impedance\", beside the array of 4x4 alone");
-    out.claim("the array of 4x4 alone", resistance("i(vq)"), "ohm");
+        .at_least(resistance("i(vq)"), source + ": trapezoidal arrays \"to increase the output impedance\", compared with the 4x4 array");
+    out.claim("the 4x4 array without the trapezoid", resistance("i(vq)"), "ohm");
     Plot& plot = out.plot("Output resistance of N mirrors of 100 nA", "V_OUT (V)", "Mohm");
     plot.log_y = true;
-    for (const auto& [name, current] : {std::pair{"self-cascode, bulks lifted (fig. 23)", "i(va)"},
+    for (const auto& [name, current] : {std::pair{"self-cascode, bulks forward biased (fig. 23)", "i(va)"},
                                         {"self-cascode, bulks at vss", "i(vc)"},
                                         {"conventional cascode", "i(vd)"},
-                                        {"4x4 alone", "i(ve)"}}) {
+                                        {"4x4 array", "i(ve)"}}) {
         auto R = found->line("dc", current).slope().absolute().times(1, 1e6);
         for (double& v : R.y) v = 1 / v;
         plot.add(name, std::move(R));
@@ -94,9 +94,8 @@ vq oq out 0
 }
 
 const Study study{"fig23-mirrors", "The mirrors of the transducer's amplifier",
-                  "Self-cascode mirrors allow a larger output range than conventional cascodes, trapezoids raise the output impedance, "
-                  "lifted bulks lower the supply. "
-                  "Thesis 4.2, fig. 23, table 2",
+                  "Self-cascode mirrors allow a larger output range than conventional cascodes, trapezoidal arrays raise the output "
+                  "impedance, forward-biased bulks lower the supply. Thesis 4.2, fig. 23, table 2",
                   work};
 
 }  // namespace corpuscle::studies::fig23_mirrors

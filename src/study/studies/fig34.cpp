@@ -1,4 +1,4 @@
-// SA-I's analog signal processing under the press, fig. 34: what its three paths make of the transducer's current.
+// Fig. 34: SA-I's analog signal processing under the press stimulus: the currents of its three paths.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -11,55 +11,55 @@
 namespace corpuscle::studies::fig34 {
 
 constexpr auto source = "thesis 4.3.1";
-constexpr double at_rest = 0.2, at_hold = 0.6, mid_rise = 0.3125;  // s, of the press
-constexpr double step = 0.5e-3;  // s, at which currents are looked at, so that pulses of microseconds are told apart from them
+constexpr double at_rest = 0.2, at_hold = 0.6, mid_rise = 0.3125;  // s, in the press stimulus
+constexpr double step = 0.5e-3;  // s, sampling step for currents, to separate them from pulses of microseconds
 
-void tell_static(const Found& found, Outcome& out) {
+void report_static(const Found& found, Outcome& out) {
     const auto V_F = found.line("tran", "v(vf)"), I_A = found.line("tran", "i(via)");
     const auto I_F = found.line("tran", "i(xccvs.mp3a)").absolute();
     out.claim("I_F at 0.2 N", I_F.at(at_rest), "A"), out.claim("I_F at 4 N", I_F.at(at_hold), "A");
     out.claim("V_F at 0.2 N", V_F.at(at_rest), "V"), out.claim("V_F at 4 N", V_F.at(at_hold), "V");
     out.finds("V_F stays where its transconductor is linear, 300 to 500 mV", V_F.least() >= 0.3 && V_F.most() <= 0.5,
               "thesis 4.3.1, fig. 28")
-        .because(
-            fmt::format("I_F / 2 - I_BIASF goes from {:.0f} to {:.0f} nA with these sizes and V_Y = 0.1 V, where 150 mV over the printed "
-                        "413 kohm are {:.0f}; the rest of the way is compressed",
-                        1e9 * (I_F.at(at_rest) / 2 - 700e-9), 1e9 * (I_F.at(at_hold) / 2 - 700e-9), 150e-3 / 413e3 * 1e9));
+        .because(fmt::format("I_F / 2 - I_BIASF rises from {:.0f} to {:.0f} nA with these sizes and V_Y = 0.1 V, while 150 mV over the "
+                             "published 413 kohm need {:.0f} nA; beyond that V_F is compressed",
+                             1e9 * (I_F.at(at_rest) / 2 - 700e-9), 1e9 * (I_F.at(at_hold) / 2 - 700e-9), 150e-3 / 413e3 * 1e9));
     out.claim("I_A at 4 N", I_A.at(at_hold), "A"), out.claim("I_A at 0.2 N", I_A.at(at_rest), "A");
-    const double share = I_A.at(at_rest) / I_A.at(at_hold), wanted = I_F.at(at_rest) / I_F.at(at_hold);
-    out.claim("I_A is proportional to I_F: its part at 0.2 N of that at 4 N", 100 * share, "%").held_to(100 * wanted, source);
+    const double fraction = I_A.at(at_rest) / I_A.at(at_hold), expected = I_F.at(at_rest) / I_F.at(at_hold);
+    out.claim("I_A is proportional to I_F: I_A at 0.2 N as a fraction of I_A at 4 N", 100 * fraction, "%").held_to(100 * expected, source);
 }
 
-/// A component that is rectified: most, when, and what is left where max{I_X, 0} is 0.
-void tell_dynamic(const Found& found, const std::string& name, const char* curve, const char* enable, Outcome& out) {
+/// A rectified component: its largest value, its time, and the rest where max{I_X, 0} is 0.
+void report_dynamic(const Found& found, const std::string& name, const char* curve, const char* enable, Outcome& out) {
     const auto all = found.line("tran", curve), I = all.every(step), en = found.line("tran", enable);
     const auto rise = I.between(0.26, 0.5);
-    out.claim(name + " at its most", rise.most(), "A"), out.claim("... behind the ramp's steepest moment by", rise.peak() - mid_rise, "s");
-    out.claim(name + " at rest", I.at(at_rest), "A")
-        .between(-0.1e-12, 0.1e-12, "thesis 4.3.1, eq. 4 and 8: otherwise I_X = 0; 0.1 pA is set here");
+    out.claim(name + ": largest value", rise.most(), "A"),
+        out.claim(name + ": delay of its peak after the steepest point of the ramp", rise.peak() - mid_rise, "s");
+    out.claim(name + ": at rest", I.at(at_rest), "A")
+        .between(-0.1e-12, 0.1e-12, "thesis 4.3.1, eq. 4 and 8: otherwise I_X = 0; 0.1 pA is our choice");
     auto& least = out.finds(name + " is never negative", I.least() >= -0.1e-12, "thesis 4.3.1, max{I_X, 0}");
-    const double opens = en.between(0.63, 1).where(0.35);
+    const double opening = en.between(0.63, 1).where(0.35);
     if (least.needs_reason())
-        least.because(
-            fmt::format("while its switch is closed it gives back what M5A leaks ({:.1f} pA at 620 ms), and the comparator opens it only "
-                        "{:.0f} ms after the force begins to fall, as it turns capacitances with picoamperes; {:.1f} pA then",
-                        1e12 * I.at(0.62), 1e3 * (opens - 0.625), 1e12 * I.least()));
-    const double closes = en.where(0.35, 0.25);
-    out.claim(name + "'s glitch as its switch closes: the largest, for microseconds",
-              all.between(closes - 1e-3, closes + 1e-3).absolute().most(), "A");
-    out.claim("... as it opens", all.between(opens - 1e-3, opens + 1e-3).absolute().most(), "A");
-    out.claim(name + " 25 ms after its switch has opened", I.at(opens + 25e-3), "A")
+        least.because(fmt::format(
+            "while its switch is closed it outputs the leakage of M5A as a negative current ({:.1f} pA at 620 ms). The comparator has to "
+            "charge capacitances with picoamperes, so it opens the switch only {:.0f} ms after the force begins to fall; {:.1f} pA then",
+            1e12 * I.at(0.62), 1e3 * (opening - 0.625), 1e12 * I.least()));
+    const double closing = en.where(0.35, 0.25);
+    out.claim(name + ": largest glitch when its switch closes, for microseconds",
+              all.between(closing - 1e-3, closing + 1e-3).absolute().most(), "A");
+    out.claim(name + ": largest glitch when its switch opens", all.between(opening - 1e-3, opening + 1e-3).absolute().most(), "A");
+    out.claim(name + ": 25 ms after its switch has opened", I.at(opening + 25e-3), "A")
         .between(-0.1e-12, 0.1e-12, "thesis 4.3.1: the switch is open");
 }
 
 double largest_step(const Line& line) {
     const auto even = line.between(0.25, 0.3).every(10e-6);
-    double most = 0;
-    for (std::size_t k = 1; k < even.y.size(); ++k) most = std::max(most, std::abs(even.y[k] - even.y[k - 1]));
-    return most;
+    double largest = 0;
+    for (std::size_t k = 1; k < even.y.size(); ++k) largest = std::max(largest, std::abs(even.y[k] - even.y[k - 1]));
+    return largest;
 }
 
-Result<void> tell_comparator(Outcome& out) {
+Result<void> report_comparator(Outcome& out) {
     const auto found = found_in({R"(The comparator of I_B's rectifier
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
@@ -76,9 +76,9 @@ xb gp gn u vdd rectifier_sa
 )"});
     if (!found) return found.error();
     const auto en = hysteresis_in(*found, "v(xb.en)");
-    out.claim("comparator: closes at a filter's output of", en.V_H, "V"), out.claim("... opens at", en.V_L, "V");
-    out.claim("... hysteresis there", en.V_H - en.V_L, "V")
-        .between(0.1e-3, 10e-3, "thesis 4.3.1: a small hysteresis; 0.1 to 10 mV beside signals of 30 to 200 mV is set here");
+    out.claim("comparator: closes at a filter output of", en.V_H, "V"), out.claim("comparator: opens at a filter output of", en.V_L, "V");
+    out.claim("comparator: hysteresis", en.V_H - en.V_L, "V")
+        .between(0.1e-3, 10e-3, "thesis 4.3.1: a small hysteresis; 0.1 to 10 mV, compared with signals of 30 to 200 mV, is our choice");
     return {};
 }
 
@@ -90,30 +90,30 @@ Result<Outcome> work(const StudyOptions& options) {
                   ".save v(vf) v(hpb) v(hpc) i(vi) i(via) i(vib) i(vic) v(xrectb.en) v(xrectc.en) i(xccvs.mp3a)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
     if (auto ok = options.at(0.5); !ok) return ok.error();
-    tell_static(*found, out);
-    tell_dynamic(*found, "I_B", "i(vib)", "v(xrectb.en)", out);
-    tell_dynamic(*found, "I_C", "i(vic)", "v(xrectc.en)", out);
+    report_static(*found, out);
+    report_dynamic(*found, "I_B", "i(vib)", "v(xrectb.en)", out);
+    report_dynamic(*found, "I_C", "i(vic)", "v(xrectc.en)", out);
     const auto I_B = found->line("tran", "i(vib)").every(step), I_C = found->line("tran", "i(vic)").every(step);
-    out.finds("I_B is over when the ramp is, I_C decays through the plateau: at 420 ms I_B has a tenth of its most at the most, I_C more",
-              I_B.at(0.42) < 0.1 * I_B.most() && I_C.at(0.42) > 0.1 * I_C.most(), "thesis 3.3, fig. 17a, for which it stands");
+    out.finds("I_B ends with the ramp and I_C decays through the plateau: at 420 ms I_B is below a tenth of its largest value, I_C above",
+              I_B.at(0.42) < 0.1 * I_B.most() && I_C.at(0.42) > 0.1 * I_C.most(), "thesis 3.3, fig. 17a, which this circuit implements");
     const auto I = found->line("tran", "i(vi)").every(step), I_A = found->line("tran", "i(via)").every(step);
-    out.claim("I at its most", I.most(), "A");
-    if (auto ok = tell_comparator(out); !ok) return ok.error();
+    out.claim("I: largest value", I.most(), "A");
+    if (auto ok = report_comparator(out); !ok) return ok.error();
     Plot& a = out.plot("34a, voltages", "time (s)", "V")
-                  .shape("V_F, V_HPB (there V_HPA) and V_HPC (V_HPB) under the press; no more of it is in the text");
+                  .shape("V_F, V_HPB (printed as V_HPA) and V_HPC (printed as V_HPB) under the press stimulus; the text gives no details");
     for (const auto& [name, curve] : {std::pair{"V_F", "v(vf)"}, {"V_HPB", "v(hpb)"}, {"V_HPC", "v(hpc)"}})
         a.add(name, found->line("tran", curve));
-    Plot& b = out.plot("34b, currents", "time (s)", "pA").shape("I_A, I_B and I_C, which make up I");
+    Plot& b = out.plot("34b, currents", "time (s)", "pA").shape("I_A, I_B and I_C, whose sum is I");
     b.add("I_A", I_A.times(1, 1e12)).add("I_B", I_B.times(1, 1e12)).add("I_C", I_C.times(1, 1e12)).add("I", I.times(1, 1e12));
-    out.finds("I has a glitch where the rectifiers switch, I_A has none: the largest step of I_A in 10 us is less than a tenth of I_B's",
+    out.finds("I has a glitch when the rectifiers switch, I_A has none: the largest step of I_A in 10 us is less than a tenth of I_B's",
               largest_step(found->line("tran", "i(via)")) < 0.1 * largest_step(found->line("tran", "i(vib)")), "thesis 4.4, errata S18");
     out.note(
-        "As in circuits/asp_sa1.cir: 0.7 V, I_BIASB 200 nA, I_BIASF 700 nA, 27 C, typical, as printed; the membrane is held at half the "
-        "supply. Gains as intended (errata S9a, S10a). The figure's numbers are not in the text; what is claimed are its words.");
+        "As in circuits/asp_sa1.cir: 0.7 V, I_BIASB 200 nA, I_BIASF 700 nA, 27 C, typical, as published; the membrane is held at half the "
+        "supply. Gains as intended (errata S9a, S10a). The numbers of the figure are not in the text; the claims come from its words.");
     return out;
 }
 
-const Study study{"fig34", "SA-I's analog signal processing under the press",
-                  "V_F, V_HPB, V_HPC, and I_A, I_B, I_C that sum to I. Thesis 4.3.1, fig. 34", work};
+const Study study{"fig34", "SA-I's analog signal processing under the press stimulus",
+                  "V_F, V_HPB, V_HPC, and I_A, I_B, I_C with their sum I. Thesis 4.3.1, fig. 34", work};
 
 }  // namespace corpuscle::studies::fig34

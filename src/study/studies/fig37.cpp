@@ -1,4 +1,4 @@
-// FA-I's analog signal processing under the press, fig. 37: both signs of one filter's current, each with its gain.
+// Fig. 37: FA-I's analog signal processing under the press stimulus: both signs of one filter's current, each with its own gain.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,21 +11,22 @@ namespace corpuscle::studies::fig37 {
 
 constexpr double K_A = 3.5, K_B = 2.75;  // uA/N, of the model (thesis 3.4)
 
-/// The gains of the rectified source, as table 8 sizes it and as intended.
-Result<void> tell_gains(Outcome& out) {
+/// The gains of the rectified source, with the sizes of table 8 and as intended.
+Result<void> report_gains(Outcome& out) {
     const auto found = found_in({"rectifier_fa", {}, ".dc vhp 0.31 0.39 1m"});
     if (!found) return found.error();
     const auto I_N = found->line("dc", "i(vn)"), as_printed = found->line("dc", "i(v3)"), intended = found->line("dc", "i(v6)");
     const auto gain = [&](const Line& line, double v) { return std::abs(line.slope_at(v) / I_N.slope_at(v)); };
-    const double up = gain(as_printed, 0.38), down = gain(as_printed, 0.32), mended = gain(intended, 0.32);
+    const double up = gain(as_printed, 0.38), down = gain(as_printed, 0.32), corrected = gain(intended, 0.32);
     out.claim("table 8: gain while the force rises", up, "times").held_to(8, "table 8, M1A over table 5's M5B");
-    out.claim("table 8: gain while it falls", down, "times").held_to(3, "table 8, M1B over table 5's M5B");
-    out.finds("a full-wave rectifier with different gains: both signs of the filter's current sink, one more than the other",
-              as_printed.at(0.38) > 0 && as_printed.at(0.32) > 0 && up > 1.1 * down, "thesis 4.3.2");
-    out.claim("table 8: one gain over the other", up / down, "times")
+    out.claim("table 8: gain while the force falls", down, "times").held_to(3, "table 8, M1B over table 5's M5B");
+    out.finds(
+        "a full-wave rectifier with different gains: both signs of the filter's current give a sinking current, one larger than the other",
+        as_printed.at(0.38) > 0 && as_printed.at(0.32) > 0 && up > 1.1 * down, "thesis 4.3.2");
+    out.claim("table 8: ratio of the gains", up / down, "times")
         .held_to(K_A / K_B, "thesis 3.4, 3.5 over 2.75 uA/N of the model")
-        .because("table 8's sizes are 8 to 3 (errata S15)");
-    out.claim("as intended here, pair B 6x4: one over the other", up / mended, "times").held_to(K_A / K_B, "thesis 3.4, of the model");
+        .because("the ratio of table 8's sizes is 8 to 3 (errata S15)");
+    out.claim("as intended here, pair B 6x4: ratio of the gains", up / corrected, "times").held_to(K_A / K_B, "thesis 3.4, of the model");
     return {};
 }
 
@@ -33,56 +34,55 @@ Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto found = found_in({"asp_fa1", {}, ".save v(vf) v(hpc) i(vi) i(via) i(vib) v(xrect.en)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
-    if (auto ok = tell_gains(out); !ok) return ok.error();
+    if (auto ok = report_gains(out); !ok) return ok.error();
     if (auto ok = options.at(0.8); !ok) return ok.error();
-    // at even steps, so that the pulses of microseconds with which its switches turn are told apart
+    // resampled at even steps, to remove the microsecond pulses of the switches
     const auto all = found->line("tran", "i(vi)"), I = all.every(0.5e-3);
     const auto I_A = found->line("tran", "i(via)").every(0.5e-3), I_B = found->line("tran", "i(vib)").every(0.5e-3);
     const auto model = told_of({.afferent = "fa1", .traces = {"I"}});
     if (!model) return model.error();
-    const auto& wanted = model->traces.at("I");
-    const auto up = I.between(0.26, 0.5), down = I.between(0.68, 0.9), model_up = wanted.between(0.26, 0.5),
-               model_down = wanted.between(0.63, 0.9);
-    out.claim("I at its most, rising", up.most(), "A"), out.claim("I at its most, falling", down.most(), "A");
-    out.claim("one over the other", up.most() / down.most(), "times")
+    const auto& expected = model->traces.at("I");
+    const auto up = I.between(0.26, 0.5), down = I.between(0.68, 0.9), model_up = expected.between(0.26, 0.5),
+               model_down = expected.between(0.63, 0.9);
+    out.claim("I: largest value, rising", up.most(), "A"), out.claim("I: largest value, falling", down.most(), "A");
+    out.claim("ratio of the two", up.most() / down.most(), "times")
         .held_to(model_up.most() / model_down.most(), "of the model, thesis 3.4 and fig. 18a");
     const auto macro = told_of({.afferent = "fa1-macro", .traces = {"i(vi)"}});
     if (!macro) return macro.error();
-    const double by_blocks = macro->traces.at("i(vi)").between(0.26, 0.5).peak() - model_up.peak();
-    out.claim("rising: later than the model's by", up.peak() - model_up.peak(), "s")
-        .because(fmt::format(
-            "the same design of ideal blocks: {:.1f} ms, by the sensor's curve and a corner above the model's 2 Hz; the rest is likely "
-            "V_F's compression above 500 mV",
-            1e3 * by_blocks));
-    out.claim("falling: later by", down.peak() - model_down.peak(), "s");
-    out.finds("rising it is I_A's, falling I_B's: at its most the other has less than a tenth",
+    const double delay_of_ideal_blocks = macro->traces.at("i(vi)").between(0.26, 0.5).peak() - model_up.peak();
+    out.claim("rising: delay after the model", up.peak() - model_up.peak(), "s")
+        .because(fmt::format("the same design of ideal blocks is {:.1f} ms late, because of the sensor's curve and a corner above the "
+                             "model's 2 Hz; the rest is probably V_F's compression above 500 mV",
+                             1e3 * delay_of_ideal_blocks));
+    out.claim("falling: delay after the model", down.peak() - model_down.peak(), "s");
+    out.finds("I_A drives the rise and I_B the fall: at the peak of one the other is below a tenth of it",
               std::abs(I_B.at(up.peak())) < 0.1 * I_A.at(up.peak()) && std::abs(I_A.at(down.peak())) < 0.1 * I_B.at(down.peak()),
               "thesis 4.3.2");
-    out.claim("I at rest", I.at(0.2), "A").between(-0.2e-12, 0.2e-12, "thesis 4.3.2: it has no static current; 0.2 pA is set here");
-    const double turns = found->line("tran", "v(xrect.en)").where(0.35, 0.63);
+    out.claim("I at rest", I.at(0.2), "A").between(-0.2e-12, 0.2e-12, "thesis 4.3.2: it has no static current; 0.2 pA is our choice");
+    const double switching_time = found->line("tran", "v(xrect.en)").where(0.35, 0.63);
     auto& least = out.finds("I is never negative", I.least() > -0.2e-12, "thesis 4.3.2, fig. 36: a full-wave rectifier");
     if (least.needs_reason())
         least.because(
-            fmt::format("the comparator, which turns its input with what the filter has, changes over {:.0f} ms after the force begins to "
-                        "fall; so long the source gives back, {:.0f} pA at the most",
-                        1e3 * (turns - 0.625), -1e12 * I.least()));
-    out.claim("glitch as the comparator turns, falling: the largest, for microseconds",
-              all.between(turns - 1e-3, turns + 1e-3).absolute().most(), "A");
-    out.plot("37a, the filter's output", "time (s)", "V")
-        .shape("V_HP; no more of it is in the text")
+            fmt::format("the comparator's input is driven by the filter's small current, so it switches {:.0f} ms after the force begins "
+                        "to fall. Until then the current has the wrong sign, at most {:.0f} pA",
+                        1e3 * (switching_time - 0.625), -1e12 * I.least()));
+    out.claim("largest glitch when the comparator switches, falling, for microseconds",
+              all.between(switching_time - 1e-3, switching_time + 1e-3).absolute().most(), "A");
+    out.plot("37a, filter output", "time (s)", "V")
+        .shape("V_HP; the text gives no details")
         .add("V_HP", found->line("tran", "v(hpc)"))
         .add("V_F", found->line("tran", "v(vf)"));
     const double scale = up.most() / model_up.most();
     out.plot("37b, currents", "time (s)", "pA")
-        .shape("I_A and I_B, rectified, which make up I")
+        .shape("I_A and I_B, rectified, whose sum is I")
         .add("I_A", I_A.times(1, 1e12))
         .add("I_B", I_B.times(1, 1e12))
-        .add("the model's I, as high where it rises", wanted.times(1, scale * 1e12));
+        .add("the model's I, scaled to the same rising peak", expected.times(1, scale * 1e12));
     out.note("As in circuits/asp_fa1.cir, gains as intended (errata S15); the membrane is held at half the supply.");
     return out;
 }
 
-const Study study{"fig37", "FA-I's analog signal processing under the press",
-                  "One filter's current rectified both ways, with different gains. Thesis 4.3.2, figs. 36 and 37, table 8", work};
+const Study study{"fig37", "FA-I's analog signal processing under the press stimulus",
+                  "One filter's current rectified for both signs, with different gains. Thesis 4.3.2, figs. 36 and 37, table 8", work};
 
 }  // namespace corpuscle::studies::fig37

@@ -1,4 +1,4 @@
-// The fingertip experiment's force: thesis 1.2, fig. 4.
+// The force of the fingertip experiment: thesis 1.2, fig. 4.
 
 #include <cmath>
 
@@ -9,8 +9,8 @@ namespace corpuscle::studies::fig4 {
 
 constexpr auto source = "thesis 1.2, fig. 4";
 
-/// How long the force is on its way between its two levels within a stretch.
-double moving(const Line& force, const Stretch& s) {
+/// Time (s) within a window during which the force changes.
+double ramp_duration(const Line& force, const Stretch& s) {
     double from = Claim::none, to = Claim::none;
     const auto part = force.between(s.from, s.to);
     for (std::size_t k = 1; k < part.x.size(); ++k)
@@ -21,7 +21,7 @@ double moving(const Line& force, const Stretch& s) {
     return to - from;
 }
 
-/// How far the way back is from the way up, told backwards; N.
+/// Largest difference (N) between retraction and time-reversed protraction.
 double asymmetry(const Line& force) {
     const double middle = (press::up.from + press::down.to) / 2;
     double out = 0;
@@ -29,13 +29,13 @@ double asymmetry(const Line& force) {
     return out;
 }
 
-/// How far protraction is from half a cosine; N.
-double off_the_cosine(const Line& force) {
+/// Largest difference (N) between protraction and half a cosine.
+double cosine_error(const Line& force) {
     double out = 0;
     const auto ramp = force.between(press::up.from, press::up.to);
     for (std::size_t k = 0; k < ramp.x.size(); ++k) {
-        const double share = (ramp.x[k] - press::up.from) / (press::up.to - press::up.from);
-        out = std::max(out, std::abs(ramp.y[k] - (force.least() + (force.most() - force.least()) * (1 - std::cos(M_PI * share)) / 2)));
+        const double fraction = (ramp.x[k] - press::up.from) / (press::up.to - press::up.from);
+        out = std::max(out, std::abs(ramp.y[k] - (force.least() + (force.most() - force.least()) * (1 - std::cos(M_PI * fraction)) / 2)));
     }
     return out;
 }
@@ -45,48 +45,47 @@ Result<Outcome> work(const StudyOptions&) {
     const auto force = press::samples(1e-4);
     if (!force) return force.error();
     const double half = (press::plateau.from + press::plateau.to) / 2, end = press::after.to;
-    const double up = moving(*force, {0, half}), down = moving(*force, {half, end});
-    out.claim("least force", force->least(), "N").printed_as(0.2, source);
+    const double up = ramp_duration(*force, {0, half}), down = ramp_duration(*force, {half, end});
+    out.claim("smallest force", force->least(), "N").printed_as(0.2, source);
     out.claim("largest force", force->most(), "N").printed_as(4, source);
     out.claim("rest before protraction", force->where(force->least() + 1e-9), "s").printed_as(250e-3, source);
     out.claim("protraction", up, "s").printed_as(125e-3, source);
-    out.claim("plateau", moving(*force, {0, end}) - up - down, "s").printed_as(250e-3, source);
+    out.claim("plateau", ramp_duration(*force, {0, end}) - up - down, "s").printed_as(250e-3, source);
     out.claim("retraction", down, "s")
         .printed_as(250e-3, source)
         .because(
-            "\"symmetrical to the protraction phase\" and 250 ms exclude each other; symmetry is kept (errata B1): a later paper of "
-            "the same group has forces that rise in 125 ms");
-    out.claim("retraction, as its symmetry says", down, "s").printed_as(125e-3, "thesis 1.2: \"symmetrical to the protraction phase\"");
-    out.claim("farthest of retraction from protraction told backwards", asymmetry(*force), "N")
+            "\"symmetrical to the protraction phase\" and 250 ms contradict each other; symmetry is used here (errata B1). A later paper "
+            "of the same group has forces that rise in 125 ms");
+    out.claim("retraction, if symmetrical", down, "s").printed_as(125e-3, "thesis 1.2: \"symmetrical to the protraction phase\"");
+    out.claim("retraction against time-reversed protraction, largest difference", asymmetry(*force), "N")
         .at_most(1e-3, "thesis 1.2: symmetrical; within 1 mN here");
-    out.claim("farthest of protraction from half a cosine", off_the_cosine(*force), "N")
+    out.claim("protraction against half a cosine, largest difference", cosine_error(*force), "N")
         .at_most(1e-3, "thesis 1.2: a sinusoidal ramp; within 1 mN here");
     out.claim("steepest slope", force->slope().most(), "N/s");
-    const auto slow = touch_of({{}, "press", {"press.t_down=250ms"}});
-    if (!slow) return slow.error();
+    const auto slow_retraction = touch_of({{}, "press", {"press.t_down=250ms"}});
+    if (!slow_retraction) return slow_retraction.error();
     for (const char* name : {"sa1", "fa1"}) {
-        const auto as_read = train_of({name}), as_printed = train_of({name, "press", {"press.t_down=250ms"}});
-        if (!as_read) return as_read.error();
+        const auto as_used = train_of({name}), as_printed = train_of({name, "press", {"press.t_down=250ms"}});
+        if (!as_used) return as_used.error();
         if (!as_printed) return as_printed.error();
         const Stretch later{press::down.from, 2};
-        out.claim(std::string(name) + ": spikes from the retraction's start, of 125 ms", press::count(*as_read, later), "spikes");
-        out.claim(std::string(name) + ": spikes from the retraction's start, of 250 ms", press::count(*as_printed, later), "spikes");
+        out.claim(std::string(name) + ": spikes from the start of a retraction of 125 ms", press::count(*as_used, later), "spikes");
+        out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::count(*as_printed, later), "spikes");
     }
     out.plot("Force of the experiment", "time (s)", "force (N)")
-        .add("as read: retraction of 125 ms", *force)
-        .add("as printed: of 250 ms", slow->line())
-        .shape("rest, sinusoidal ramp, plateau and a symmetrical way back, 0.2 to 4 N");
-    out.note("Five directions and several places on the fingertip (fig. 4 A, B) have no counterpart: the models feel one force.");
+        .add("as used here: retraction of 125 ms", *force)
+        .add("as printed: retraction of 250 ms", slow_retraction->line())
+        .shape("rest, sinusoidal ramp, plateau and a symmetrical retraction, 0.2 to 4 N");
+    out.note("The five directions and several places on the fingertip (fig. 4 A, B) are not modelled: the models have one force input.");
     out.note(
-        "The abstract of Birznieks et al. 2001 tells of 196 afferents, not of \"196 afferent nerve impulses\" (errata B18a). That the "
-        "protocol is 250, 125, 250 and 125 ms between 0.2 and 4 N was read in the thesis alone.");
+        "The abstract of Birznieks et al. 2001 reports 196 afferents, not \"196 afferent nerve impulses\" (errata B18a). The protocol of "
+        "250, 125, 250 and 125 ms between 0.2 and 4 N was found in the thesis only.");
     return out;
 }
 
-const Study study{
-    "fig4", "The force of the fingertip experiment",
-    "Four phases between 0.2 and 4 N: 250 ms of rest, a sinusoidal ramp of 125 ms, a plateau of 250 ms, and a retraction printed both "
-    "as 250 ms and as symmetrical. Thesis 1.2, fig. 4",
-    work};
+const Study study{"fig4", "The force of the fingertip experiment",
+                  "Four phases between 0.2 and 4 N: 250 ms of rest, a sinusoidal ramp of 125 ms, a plateau of 250 ms, and a retraction "
+                  "described both as 250 ms and as symmetrical. Thesis 1.2, fig. 4",
+                  work};
 
 }  // namespace corpuscle::studies::fig4

@@ -1,4 +1,5 @@
-// FA-I's chip under the press, fig. 41: the current into its oscillator, membrane and spikes, and its frequency beside the model's.
+// Fig. 41: FA-I's chip under the press stimulus: the current into its oscillator, membrane and spikes, and its frequency compared with the
+// model's.
 
 #include <cmath>
 
@@ -9,27 +10,27 @@ namespace corpuscle::studies::fig41 {
 
 namespace P = press;
 
-void tell_pattern(const Beside& b, Outcome& out) {
-    const std::string similar = "thesis 4.4: similar to the model's of fig. 18; printed: the model's, made here";
+void report_pattern(const Beside& b, Outcome& out) {
+    const std::string similar = "thesis 4.4: similar to the model's of fig. 18; the published value is the model's, computed here";
     const auto& chip = b.chip.spikes;
     out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model.size()), similar);
-    const auto f = press::frequency(chip), wanted = press::frequency(b.model);
+    const auto f = press::frequency(chip), expected = press::frequency(b.model);
     for (const auto& [name, phase] : {std::pair{"rising", P::up}, {"falling", P::down}}) {
         out.claim(std::string("spikes while the force is ") + name, press::count(chip, phase))
             .held_to(press::count(b.model, phase), similar);
-        const Stretch about{phase.from, phase.to + 0.1};
-        auto& c = out.claim(std::string("highest frequency, ") + name, f.between(about.from, about.to).most(), "Hz")
-                      .held_to(wanted.between(about.from, about.to).most(), similar);
+        const Stretch window{phase.from, phase.to + 0.1};
+        auto& c = out.claim(std::string("highest frequency, ") + name, f.between(window.from, window.to).most(), "Hz")
+                      .held_to(expected.between(window.from, window.to).most(), similar);
         if (c.needs_reason())
-            c.because("two or three intervals are all there are in each ramp, and each moves with the first spike; the comparator is late");
+            c.because("each ramp has only two or three intervals, and each depends on the first spike; the comparator is late");
     }
-    out.finds("it answers the ramps alone: nothing at rest and in the plateau's last 100 ms",
+    out.finds("it responds to the ramps only: no spike at rest and in the last 100 ms of the plateau",
               press::count(chip, P::rest) == 0 && press::count(chip, P::late) == 0 && press::count(chip, P::up) > 0 &&
                   press::count(chip, P::down) > 0,
               "thesis 1.2, fig. 5b");
     out.finds("asymmetrical: faster while the force rises",
               f.between(P::up.from, P::plateau.from + 0.1).most() > f.between(P::down.from, 1).most(), "thesis 1.2, fig. 5b");
-    out.claim("first spike, later than the model's by", chip.empty() ? NAN : chip[0] - b.model[0], "s");
+    out.claim("delay of the first spike after the model's", chip.empty() ? NAN : chip[0] - b.model[0], "s");
 }
 
 Result<Outcome> work(const StudyOptions& options) {
@@ -37,30 +38,32 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto b = beside({.afferent = "fa1-circuit", .rate = 20e3, .traces = {"i(vi)", "v(u)", "v(s)"}}, "fa1");
     if (!b) return b.error();
     if (auto ok = options.at(0.9); !ok) return ok.error();
-    tell_pattern(*b, out);
+    report_pattern(*b, out);
     const auto& I = b->chip.traces.at("i(vi)");
     const std::vector<double> rising(
         b->chip.spikes.begin(), b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::count(b->chip.spikes, {0, P::plateau.to})));
-    out.claim("glitch in I at each firing up to the plateau's end: least, over I just before it", least_jump(I, rising, 0.3e-3), "times")
+    out.claim("glitch in I at each spike up to the end of the plateau: smallest, over I just before it", least_jump(I, rising, 0.3e-3),
+              "times")
         .because(
-            "its membrane is three times SA-I's and so filled at a third of the speed, which draws a third of the current through the "
-            "rectifier's capacitances");
+            "its membrane capacitance is three times SA-I's, so it is charged at a third of the speed and draws a third of the current "
+            "through the rectifier's capacitances");
     out.plot("41a, input", "time (s)", "pA").shape("similar to SA-I's").add("I", I.times(1, 1e12));
     out.plot("41b, membrane and output", "time (s)", "V")
         .shape("similar to the model's firing pattern")
         .add("u", b->chip.traces.at("v(u)"))
         .add("s", b->chip.traces.at("v(s)"));
-    out.plot("Frequency beside the model's of fig. 18c", "time (s)", "frequency (Hz)")
+    out.plot("Frequency compared with the model's of fig. 18c", "time (s)", "frequency (Hz)")
         .shape("similar to the model's")
         .points("chip", press::frequency(b->chip.spikes))
         .points("model", press::frequency(b->model));
     out.plot("Spikes", "time (s)", "").row("chip", b->chip.spikes).row("model", b->model);
     out.note(
-        "Gains as intended (errata S15), a leak of 10 pA and a membrane of 14.4 pF; with table 8's sizes, 5 pA and 5.4 pF: errata-signal.");
+        "Gains as intended (errata S15), a leak of 10 pA and a membrane of 14.4 pF. For table 8's sizes, 5 pA and 5.4 pF see "
+        "errata-signal.");
     return out;
 }
 
-const Study study{"fig41", "FA-I's chip under the press", "Signals and a firing pattern like the model's of fig. 18. Thesis 4.4, fig. 41",
-                  work};
+const Study study{"fig41", "FA-I's chip under the press stimulus",
+                  "Signals and a firing pattern similar to the model's of fig. 18. Thesis 4.4, fig. 41", work};
 
 }  // namespace corpuscle::studies::fig41

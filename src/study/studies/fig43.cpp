@@ -1,4 +1,4 @@
-// Fig. 43: the layout of the rectangular arrays, drawn by one rule.
+// Fig. 43: the layout of the rectangular arrays, computed with one rule.
 
 #include "study/studies.hpp"
 #include "study/thesis/layout.hpp"
@@ -6,10 +6,10 @@
 namespace corpuscle::studies::fig43 {
 
 Result<Outcome> work(const StudyOptions&) {
-    return tell_layout(rectangles, "fig. 43", "A is alone: by the same rule its rectangle is larger than printed.");
+    return tell_layout(rectangles, "fig. 43", "A has a single channel; by the same rule its rectangle is larger than published.");
 }
 
 const Study study{"fig43", "Layout of the rectangular arrays",
-                  "Channels in rows and columns, and the rectangles that are counted. Thesis B.1, fig. 43", work};
+                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.1, fig. 43", work};
 
 }  // namespace corpuscle::studies::fig43

@@ -1,4 +1,4 @@
-// Fig. 45: the layout of the trapezoidal arrays, drawn by one rule.
+// Fig. 45: the layout of the trapezoidal arrays, computed with one rule.
 
 #include "study/studies.hpp"
 #include "study/thesis/layout.hpp"
@@ -6,11 +6,12 @@
 namespace corpuscle::studies::fig45 {
 
 Result<Outcome> work(const StudyOptions&) {
-    return tell_layout(trapezoids, "fig. 45",
-                       "F's two channels stand closer than units do: by the same rule its rectangle is longer than printed.");
+    return tell_layout(
+        trapezoids, "fig. 45",
+        "F's two channels are closer together than those of the other arrays; by the same rule its rectangle is longer than published.");
 }
 
 const Study study{"fig45", "Layout of the trapezoidal arrays",
-                  "Channels in rows and columns, and the rectangles that are counted. Thesis B.2, fig. 45", work};
+                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.2, fig. 45", work};
 
 }  // namespace corpuscle::studies::fig45

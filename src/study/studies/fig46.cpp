@@ -1,5 +1,5 @@
-// Fig. 46: the conventional mirror and the one of parallel and series arrays: ratio and output conductance along the output's voltage,
-// and why arrays: lengths of other thresholds make another ratio than the aspect ratios say.
+// Fig. 46: the conventional mirror and the mirror of parallel and series arrays: ratio and output conductance over the output voltage. It
+// also shows the reason for arrays: different lengths have different thresholds, so the ratio differs from that of the aspect ratios.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -15,8 +15,9 @@ namespace corpuscle::studies::fig46 {
 constexpr double I_in = 100e-9, V_out = 0.35;  // A, V
 constexpr int sizes[] = {1, 2, 4, 8};
 
-/// A mirror of a short unit and a long transistor of its own threshold, as B1's of table 11, against one of the same ratio by arrays.
-Result<void> put_lengths(Outcome& out) {
+/// Compares a mirror of a short and a long transistor, each with its own threshold (B1 of table 11), with a mirror of the same ratio made
+/// of arrays.
+Result<void> add_lengths(Outcome& out) {
     const auto b1 = circuit_of({"rectangular_arrays"});
     if (!b1) return b1.error();
     const auto& values = (*b1)->elements[static_cast<std::size_t>((*b1)->element("xb1.mg1"))].values;
@@ -30,18 +31,19 @@ Result<void> put_lengths(Outcome& out) {
     const auto by_length = mirror(fmt::format("mb out in 0 0 nch018 w=0.42u l={} delvto={}\n", L, shift));
     const auto by_array = mirror(units_text("b", "out", "in", "0", 1, n, unit));
     if (!by_length || !by_array) return by_length ? by_array.error() : by_length.error();
-    const double long_one = I_in / -by_length->at_rest("i(vo)"), array = I_in / -by_array->at_rest("i(vo)");
-    out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the aspect ratios'", 1e6 * L), long_one / ratio).held_to(1, "thesis eq. 33");
+    const double long_transistor = I_in / -by_length->at_rest("i(vo)"), array = I_in / -by_array->at_rest("i(vo)");
+    out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the ratio of aspect ratios", 1e6 * L), long_transistor / ratio)
+        .held_to(1, "thesis eq. 33");
     if (auto& c = out.claims.back(); c.needs_reason()) c.because("their thresholds differ (table 11, A and B1)");
-    out.claim(fmt::format("0.18 um to {} units of 0.18 um in series: the same", n), array / ratio)
+    out.claim(fmt::format("0.18 um to {} unit transistors of 0.18 um in series: the same", n), array / ratio)
         .held_to(1, "thesis C.1: a better mirror");
-    out.finds("The array's ratio is nearer to what the sizes say than the long transistor's",
-              std::abs(array / ratio - 1) < std::abs(long_one / ratio - 1), "thesis C.1");
+    out.finds("the ratio of the array is closer to the ratio of sizes than that of the long transistor",
+              std::abs(array / ratio - 1) < std::abs(long_transistor / ratio - 1), "thesis C.1");
     return {};
 }
 
-/// How far 1/16 is spread over chips, made by 4 units in parallel to 4 in series, and by 16 in parallel to one.
-Result<void> put_spread(Outcome& out) {
+/// Spread over chips of a ratio of 1/16, made by 4 unit transistors in parallel to 4 in series, and by 16 in parallel to one.
+Result<void> add_spread(Outcome& out) {
     const std::string unit = "0 nch w=1.5u l=0.5u";
     const auto deviation = [&](int m, int n) -> Result<double> {
         const auto chips = all_found_in({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", whole_card, V_out) +
@@ -53,9 +55,9 @@ Result<void> put_spread(Outcome& out) {
     };
     const auto arrays = deviation(4, 4), parallel = deviation(16, 1);
     if (!arrays || !parallel) return arrays ? parallel.error() : arrays.error();
-    out.claim("1/16 by 4 units in parallel to 4 in series: deviation of I_out over 1000 chips", std::abs(*arrays), "%")
+    out.claim("1/16 by 4 unit transistors in parallel to 4 in series: standard deviation of I_out over 1000 chips", std::abs(*arrays), "%")
         .at_most(std::abs(*parallel),
-                 "thesis C.2: less variability, and less area, than parallel alone, which has the number at the right");
+                 "thesis C.2: less variability, and less area, than parallel unit transistors only; the bound is the deviation of those");
     return {};
 }
 
@@ -76,22 +78,23 @@ Result<Outcome> work(const StudyOptions&) {
             I.at(V_out) / slope.at(V_out) / (found->line("dc", "i(v1)").at(V_out) / found->line("dc", "i(v1)").slope().at(V_out)));
         c.held_to(n, "thesis eq. 36: V_A = V_E L");
         if (c.needs_reason())
-            c.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
+            c.because(
+                "only the unit transistor at the drain has length modulation, which reduces it to less than its fraction of the stack's "
+                "length");
         currents.add(name, I.times(1, 1e9 * N2)), slopes.add(name, slope.between(0.02, 0.7).times(1, 1e9 * N2));
         if (n == 1) continue;
-        const double units = 2 * n, single = circuit::array_area(1.5e-6, 0.5e-6, units),
-                     plain = circuit::array_area(1.5e-6, 0.5e-6, N2 + 1);
-        out.claim(fmt::format("{}: its {:g} units in their rectangle over {:g} units in parallel to one", name, units, N2 + 1),
-                  single / plain)
+        const double units = 2 * n, array = circuit::array_area(1.5e-6, 0.5e-6, units), plain = circuit::array_area(1.5e-6, 0.5e-6, N2 + 1);
+        out.claim(fmt::format("{}: area of its {:g} unit transistors over that of {:g} in parallel to one", name, units, N2 + 1),
+                  array / plain)
             .at_most(1, "thesis B.1, C.1: area-efficient");
     }
-    for (const auto put : {put_lengths, put_spread})
+    for (const auto put : {add_lengths, add_spread})
         if (auto ok = put(out); !ok) return ok.error();
     out.plots = {currents.shape("C.1: I_out is I_in over N^2"), slopes.shape("C.1: G_o falls as the channel lengthens (eq. 36)")};
     return out;
 }
 
 const Study study{"fig46", "Current mirrors, conventional and of arrays",
-                  "Ratio, output conductance, and what other lengths do. Thesis C.1, fig. 46", work};
+                  "Ratio, output conductance, and the effect of different lengths. Thesis C.1, fig. 46", work};
 
 }  // namespace corpuscle::studies::fig46

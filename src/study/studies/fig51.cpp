@@ -1,4 +1,4 @@
-// Fig. 51: the circuits that extract V_Q and V_Q0; V_Q over the body voltages, V_Q0 over process and temperature.
+// Fig. 51: the circuits that extract V_Q and V_Q0: V_Q over the body voltages, V_Q0 over process and temperature.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,35 +8,34 @@
 
 namespace corpuscle::studies::fig51 {
 
-constexpr double n = 1.27, V_DD = 0.7;  // n of tables 11 and 12, and of the card
+constexpr double n = 1.27, V_DD = 0.7;  // n of tables 11 and 12, and of the process card
 
-/// V_Q0, and unbiased V_Q, somewhere.
-struct Place {
+/// V_Q0, and V_Q without bias, under some settings.
+struct QuiescentPoint {
     double V_Q0, V_Q;
 };
-Result<Place> at(const std::vector<std::string>& settings) {
+Result<QuiescentPoint> quiescent_point(const std::vector<std::string>& settings) {
     const auto found = found_in({"quiescent", settings, ".op"});
     if (!found) return found.error();
-    return Place{found->at_rest("v(qb)"), found->at_rest("v(qa)")};
+    return QuiescentPoint{found->at_rest("v(qb)"), found->at_rest("v(qa)")};
 }
 
-Result<void> claim_sensitivity(Outcome& out, const Place& usual) {
-    double most = 0;
+Result<void> claim_sensitivity(Outcome& out, const QuiescentPoint& nominal) {
+    double largest = 0;
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
-        const auto there = at({fmt::format("corner={}", corner)});
-        if (!there) return there.error();
-        most = std::max(most, std::abs(there->V_Q0 - usual.V_Q0));
+        const auto in_corner = quiescent_point({fmt::format("corner={}", corner)});
+        if (!in_corner) return in_corner.error();
+        largest = std::max(largest, std::abs(in_corner->V_Q0 - nominal.V_Q0));
     }
-    const auto hot = at({"temp=95"}), cold = at({"temp=-55"});
+    const auto hot = quiescent_point({"temp=95"}), cold = quiescent_point({"temp=-55"});
     if (!hot || !cold) return (hot ? cold : hot).error();
-    out.claim("V_Q0 over the five corners moves by at most", most, "V")
-        .at_least(5e-3, "E.1: sensitive to process; 5 mV is our word for it");
-    auto& c = out.claim("V_Q0 from -55 to 95 C moves by", std::abs(hot->V_Q0 - cold->V_Q0), "V")
-                  .at_least(5e-3, "E.1: sensitive to temperature variations; 5 mV is our word for it");
+    out.claim("largest change of V_Q0 over the five corners", largest, "V").at_least(5e-3, "E.1: sensitive to process; 5 mV is our choice");
+    auto& c = out.claim("change of V_Q0 from -55 to 95 C", std::abs(hot->V_Q0 - cold->V_Q0), "V")
+                  .at_least(5e-3, "E.1: sensitive to temperature variations; 5 mV is our choice");
     if (c.needs_reason())
         c.because(
-            "the card gives N and P one temperature law (ACM2's), so that V_TP + V_TN stays, and both arrays one I_S, so that the "
-            "logarithm is small");
+            "the process card has one temperature law (ACM2's) for N and P, so V_TP + V_TN is constant, and one I_S for both arrays, so "
+            "the logarithm is small");
     return {};
 }
 
@@ -44,38 +43,39 @@ Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto found = found_in({"quiescent", {}, ".dc vbn 0 0.4 5m"});
     if (!found) return found.error();
-    const auto both = found->line("dc", "v(qa)"), alone = found->line("dc", "v(qe)"), V_Q0 = found->line("dc", "v(qb)"),
+    const auto both = found->line("dc", "v(qa)"), v_bn_only = found->line("dc", "v(qe)"), V_Q0 = found->line("dc", "v(qb)"),
                I_Q = found->line("dc", "i(visa)");
     out.claim("V_Q, bulks at the rails", both.at(0), "V").printed_as(355.1e-3, "table 17, mean without biasing, mismatch only");
     out.claim("I_Q, bulks at the rails", I_Q.at(0), "A").printed_as(17.59e-9, "table 18, mean without biasing, mismatch only");
     out.claim("V_Q0, bulks at the output", V_Q0.at(0), "V");
-    const auto line = alone.straight();
-    out.claim("V_Q over V_BN alone: slope", line.slope, "V/V").held_to(-(n - 1) / 2, "eq. 47a: -(n-1)/2");
-    out.claim("farthest that is from a straight line, of what V_Q moves", 100 * line.farthest / (alone.most() - alone.least()), "%")
-        .at_most(5, "E.1: V_Q varies almost proportionally with the bulks' voltages; a twentieth is our word for it");
-    out.claim("V_Q moves while both bulks are lifted alike, 0 to 0.35 V, by", std::abs(both.at(0.35) - both.at(0)), "V")
-        .at_most(5e-3, "eq. 47a: not at all, as V_BP + V_BN stays; 5 mV is our word for it");
-    out.claim("I_Q with both lifted to half the supply, over that at the rails", I_Q.at(0.35) / I_Q.at(0), "times");
-    const auto usual = at({});
-    if (!usual) return usual.error();
-    if (auto ok = claim_sensitivity(out, *usual); !ok) return ok.error();
+    const auto line = v_bn_only.straight();
+    out.claim("V_Q over V_BN, V_BP fixed: slope", line.slope, "V/V").held_to(-(n - 1) / 2, "eq. 47a: -(n-1)/2");
+    out.claim("largest difference of that from a straight line, of the change of V_Q",
+              100 * line.farthest / (v_bn_only.most() - v_bn_only.least()), "%")
+        .at_most(5, "E.1: V_Q varies almost proportionally with the bulk voltages; a twentieth is our choice");
+    out.claim("change of V_Q when both bulks are biased equally, 0 to 0.35 V", std::abs(both.at(0.35) - both.at(0)), "V")
+        .at_most(5e-3, "eq. 47a: no change, as V_BP + V_BN is constant; 5 mV is our choice");
+    out.claim("I_Q with both bulks at half the supply, over that with bulks at the rails", I_Q.at(0.35) / I_Q.at(0), "times");
+    const auto nominal = quiescent_point({});
+    if (!nominal) return nominal.error();
+    if (auto ok = claim_sensitivity(out, *nominal); !ok) return ok.error();
     Line by_47a;
     for (const double V_BN : {0.0, 0.4}) {
         const double V_0 = V_Q0.at(0);
         by_47a.x.push_back(V_BN), by_47a.y.push_back(V_0 + (n - 1) * (V_0 - (V_DD + V_BN) / 2));
     }
-    out.plot("V_Q over the bulks' voltages", "V_BN (V)", "V")
-        .add("V_Q (51a), V_BN alone", alone)
+    out.plot("V_Q over the bulk voltages", "V_BN (V)", "V")
+        .add("V_Q (51a), V_BN only", v_bn_only)
         .add("eq. 47a with V_Q0 of 51b", by_47a)
-        .add("V_Q (51a), both lifted alike", both)
+        .add("V_Q (51a), both biased equally", both)
         .add("V_Q0 (51b)", V_Q0)
-        .shape("circuits only: 51a and 51b extract V_Q and V_Q0");
-    out.plot("I_Q with both bulks lifted alike", "V_BN, V_DD - V_BP (V)", "I_Q (nA)").add("I_Q", I_Q.times(1, 1e9)).log_y = true;
+        .shape("the figure shows circuits only: 51a and 51b extract V_Q and V_Q0");
+    out.plot("I_Q with both bulks biased equally", "V_BN, V_DD - V_BP (V)", "I_Q (nA)").add("I_Q", I_Q.times(1, 1e9)).log_y = true;
     return options.at(0.9) ? Result<Outcome>(out) : options.at(0.9).error();
 }
 
-const Study study{
-    "fig51", "Where an inverter tied to itself rests",
-    "V_Q varies almost in proportion with the bulks' voltages, V_Q0 is sensitive to process and temperature. Thesis E.1, fig. 51", work};
+const Study study{"fig51", "Operating point of an inverter with its output tied to its input",
+                  "V_Q varies almost in proportion to the bulk voltages; V_Q0 is sensitive to process and temperature. Thesis E.1, fig. 51",
+                  work};
 
 }  // namespace corpuscle::studies::fig51

@@ -1,4 +1,4 @@
-// Fig. 53: the bias generator along its current.
+// Fig. 53: the bias generator over its current.
 
 #include "study/studies.hpp"
 #include "study/thesis/bias_figure.hpp"
@@ -7,8 +7,8 @@ namespace corpuscle::studies::fig53 {
 
 constexpr BiasFigure figure{BiasAxis::current, "53", "I_BIAS (nA)", "A", 1e9, {100e-9, 2e-6}, {100e-9, 700e-9}};
 
-/// Whether both transistors between which BN lies are saturated.
-Result<bool> saturated(double I_BIAS) {
+/// True if both transistors at node BN are saturated.
+Result<bool> is_saturated(double I_BIAS) {
     const auto s = bias_state({bias_setting(BiasAxis::current, I_BIAS)});
     if (!s) return s.error();
     return s->V_M3B >= s->needs_M3B && s->V_M4A >= s->needs_M4A;
@@ -21,28 +21,29 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto& typical = corners->front();
     const auto V_BN = typical.sweep.line("v(bn)");
     const std::string why =
-        "V_BN follows from V_T, n and I_SQ of the card, whose V_T is set so that the unbiased inverter carries 17.5 nA as printed; what "
-        "thresholds lower by some tens of millivolts would do stands in bias-valid";
+        "V_BN follows from V_T, n and I_SQ of the process card. Its V_T is set so that the unbiased inverter carries the published 17.5 "
+        "nA; the study bias-valid shows the effect of thresholds some tens of millivolts lower";
     for (const auto& [I, printed] : {std::pair{100e-9, 100e-3}, {2e-6, 600e-3}}) {
         auto& c =
             out.claim(I < 1e-6 ? "typical: V_BN at 100 nA" : "typical: V_BN at 2 uA", V_BN.at(I), "V").printed_as(printed, figure.source());
         if (c.needs_reason()) c.because(why);
     }
     out.finds("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).least() > 0, figure.source());
-    const auto inside = saturated(200e-9), below = saturated(0.5 * typical.works.from), above = saturated(2 * typical.works.to);
+    const auto inside = is_saturated(200e-9), below = is_saturated(0.5 * typical.works.from), above = is_saturated(2 * typical.works.to);
     for (const auto* s : {&inside, &below, &above})
         if (!*s) return s->error();
-    const char* words = "E.2: they are in the range, and in the linear region below and above it";
-    out.finds("M3B and M4A are saturated at 200 nA", *inside, words);
-    out.finds("one of them is not at half the current at which it begins to work", !*below, words);
-    out.finds("one of them is not at twice the current up to which it works", !*above, words);
+    const char* source = "E.2: saturated in the range, in the linear region below and above it";
+    out.finds("M3B and M4A are saturated at 200 nA", *inside, source);
+    out.finds("not both are saturated at half the lower end of the working range", !*below, source);
+    out.finds("not both are saturated at twice the upper end of the working range", !*above, source);
     out.plots[0].shape("V_BN from 100 to 600 mV over 100 nA to 2 uA");
-    out.plots[1].shape("three corners, each with its own range; common to all is 100 to 700 nA");
+    out.plots[1].shape("three corners, each with its own range; 100 to 700 nA is common to all");
     return out;
 }
 
-const Study study{"fig53", "The bias generator along its current",
-                  "It works from 100 nA to 2 uA typically, V_BN from 100 to 600 mV, and from 100 to 700 nA in corners. Thesis E.2, fig. 53",
-                  work};
+const Study study{
+    "fig53", "The bias generator over its current",
+    "It works from 100 nA to 2 uA typically with V_BN from 100 to 600 mV, and from 100 to 700 nA in all corners. Thesis E.2, fig. 53",
+    work};
 
 }  // namespace corpuscle::studies::fig53

@@ -1,4 +1,4 @@
-// Fig. 54: the bias generator along its supply.
+// Fig. 54: the bias generator over its supply.
 
 #include <algorithm>
 #include <cmath>
@@ -15,24 +15,24 @@ Result<Outcome> work(const StudyOptions& options) {
     const auto corners = make(figure, out, options);
     if (!corners) return corners.error();
     const auto& typical = corners->front();
-    double halved = 0;
+    double largest_error = 0;
     const auto V_REF = typical.sweep.line("v(ref)");
-    for (std::size_t k = 0; k < V_REF.x.size(); ++k) halved = std::max(halved, std::abs(V_REF.y[k] / V_REF.x[k] - 0.5));
-    out.finds("V_REF is half the supply, within a thousandth of it, from 0.4 to 0.9 V", halved < 1e-3, "thesis E.2");
+    for (std::size_t k = 0; k < V_REF.x.size(); ++k) largest_error = std::max(largest_error, std::abs(V_REF.y[k] / V_REF.x[k] - 0.5));
+    out.finds("V_REF is half the supply, within a thousandth of it, from 0.4 to 0.9 V", largest_error < 1e-3, "thesis E.2");
     const auto from = typical.works.from, to = typical.works.to;
     out.finds("V_BP rises with the supply", typical.sweep.line("v(bp)").between(from, to).slope().least() > 0,
               "E.2: as V_DD increases, so does V_REF, and V_BP and V_BN");
-    out.finds("V_BN falls with it", typical.sweep.line("v(bn)").between(from, to).slope().most() < 0,
-              "follows from E.2: V_REF drives M4A, whose current stays, so that its bulk needs less");
+    out.finds("V_BN falls as the supply rises", typical.sweep.line("v(bn)").between(from, to).slope().most() < 0,
+              "follows from E.2: V_REF drives M4A, whose current is constant, so its bulk needs less bias");
     out.note(
-        "I_BIAS is not said; it is 200 nA here, as in table 18. The words may be read as V_BN rising with the supply, too; then they "
-        "are at odds with the circuit: BN comes nearer to its rail, as BP does to its own.");
+        "I_BIAS is not given; it is 200 nA here, as in table 18. The text can also be read as V_BN rising with the supply, which would "
+        "contradict the circuit: BN comes closer to its rail, as BP does to its own.");
     out.plots[0].shape("V_DD from 400 to 900 mV, typical, at room temperature");
-    out.plots[1].shape("corners limit the supply severely");
+    out.plots[1].shape("the corners limit the supply range severely");
     return out;
 }
 
-const Study study{"fig54", "The bias generator along its supply",
-                  "It works from 550 to 800 mV typically, from 650 to 750 mV in corners. Thesis E.2, fig. 54 (errata I7)", work};
+const Study study{"fig54", "The bias generator over its supply",
+                  "It works from 550 to 800 mV typically, from 650 to 750 mV in all corners. Thesis E.2, fig. 54 (errata I7)", work};
 
 }  // namespace corpuscle::studies::fig54

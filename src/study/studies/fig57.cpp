@@ -8,51 +8,56 @@
 
 namespace corpuscle::studies::fig57 {
 
-/// The largest difference between both sides of V_IN = 0, of the largest value.
-double lopsided(const Line& G) {
+/// The largest difference between the two sides of V_IN = 0, over the largest value.
+double asymmetry(const Line& G) {
     double out = 0;
     for (std::size_t k = 0; k < G.x.size(); ++k)
         if (G.x[k] >= 0 && !std::isnan(G.at(-G.x[k]))) out = std::max(out, std::abs(G.y[k] - G.at(-G.x[k])));
     return out / G.most();
 }
 
-/// E.3: the tails M1A and M2A are resistors, held in the linear region by the diodes; the transistors of INVA are in weak inversion.
+/// E.3: the tails M1A and M2A are resistors that the diodes hold in the linear region; the transistors of INVA are in weak inversion.
 Result<void> claim_regions(Outcome& out) {
     const auto found = found_in({"invb", {}, ".op"});
     if (!found) return found.error();
     const double tail_N = found->at_rest("v(xh.sn)"), tail_P = 0.7 - found->at_rest("v(xh.sp)");
     const auto state = bias_state({});
     if (!state) return state.error();
-    out.claim("INVB: across M2A, which is held in the linear region", tail_N, "V")
-        .at_most(state->needs_M4A, "E.3, fig. 56 (errata I11); such an array at 200 nA is saturated from there on");
-    out.claim("INVB: across M1A, likewise", tail_P, "V").at_most(state->needs_M3B, "E.3, fig. 56 (errata I11); as above");
+    out.claim("INVB: voltage across M2A, which is held in the linear region", tail_N, "V")
+        .at_most(state->needs_M4A, "E.3, fig. 56 (errata I11); such an array at 200 nA is saturated from this voltage on");
+    out.claim("INVB: voltage across M1A, which is held in the linear region", tail_P, "V")
+        .at_most(state->needs_M3B, "E.3, fig. 56 (errata I11); as above");
     const double i_f = std::pow(state->needs_M4A / (1.380649e-23 * 300.15 / 1.602176634e-19) - 3, 2) - 1;
     auto& weak =
         out.claim("inversion level i_f of INVA's arrays at 200 nA", i_f).at_most(1, "E.3: the transistors operate in weak inversion");
-    if (weak.needs_reason()) weak.because("200 nA in these arrays is moderate inversion, as I_SQ of tables 11 to 14 has it");
+    if (weak.needs_reason()) weak.because("200 nA in these arrays is moderate inversion by I_SQ of tables 11 to 14");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto both = Inverters::swept(2e-3);
-    if (!both) return both.error();
-    const auto I_A = both->current('a'), I_B = both->current('b'), G_A = both->transconductance('a'), G_B = both->transconductance('b');
+    const auto inverters = Inverters::swept(2e-3);
+    if (!inverters) return inverters.error();
+    const auto I_A = inverters->current('a'), I_B = inverters->current('b'), G_A = inverters->transconductance('a'),
+               G_B = inverters->transconductance('b');
     auto& currents = out.plot("Fig. 57a: output current, held at 0 V", "V_IN (mV)", "I_o (uA)");
     currents.add("INVA", I_A.times(1e3, 1e6)).add("INVB", I_B.times(1e3, 1e6)).shape("INVA's much larger; V_IN from -350 to 350 mV");
     auto& conductances = out.plot("Fig. 57b: transconductance", "V_IN (mV)", "G_m (uS)");
     conductances.add("INVA", G_A.times(1e3, 1e6)).add("INVB", G_B.times(1e3, 1e6)).shape("INVA's higher, and much more non-linear");
-    double least = 1e300;
+    double smallest_ratio = 1e300;
     for (std::size_t k = 0; k < I_A.x.size(); ++k)
-        if (std::abs(I_A.x[k]) > 0.05) least = std::min(least, std::abs(I_A.y[k] / I_B.y[k]));
-    out.claim("INVA's current over INVB's, at least, beyond 50 mV", least, "times")
-        .at_least(2, "E.3: much larger; twice is our word for it");
+        if (std::abs(I_A.x[k]) > 0.05) smallest_ratio = std::min(smallest_ratio, std::abs(I_A.y[k] / I_B.y[k]));
+    out.claim("INVA's current over INVB's, smallest beyond 50 mV", smallest_ratio, "times")
+        .at_least(2, "E.3: much larger; a factor of two is our choice");
     out.claim("INVA: transconductance at V_IN = 0", G_A.at(0), "S");
     out.claim("INVB: transconductance at V_IN = 0", G_B.at(0), "S").printed_as(2.5e-6, "E.4: about 2.5 uS");
-    out.claim("INVA's over INVB's at V_IN = 0", G_A.at(0) / G_B.at(0), "times").at_least(1, "E.3: a higher transconductance");
-    auto& even = out.claim("INVA: by how much both sides of V_IN = 0 differ at most, of the largest", 100 * lopsided(G_A), "%")
-                     .at_most(10, "E.3: symmetrical; a tenth is our word for it");
-    if (even.needs_reason()) even.because("the rails, where N is in velocity saturation more than P");
+    out.claim("INVA's transconductance over INVB's at V_IN = 0", G_A.at(0) / G_B.at(0), "times")
+        .at_least(1, "E.3: a higher transconductance");
+    auto& asymmetry_claim =
+        out.claim("INVA: largest difference between both sides of V_IN = 0, over the largest value", 100 * asymmetry(G_A), "%")
+            .at_most(10, "E.3: symmetrical; a tenth is our choice");
+    if (asymmetry_claim.needs_reason())
+        asymmetry_claim.because("the difference is at the rails, where velocity saturation affects N more than P");
     if (auto ok = claim_regions(out); !ok) return ok.error();
     if (auto ok = options.at(0.9); !ok) return ok.error();
     out.note("Half the supply counts as 0 V in these figures (errata I16). The gate transconductance is meant, not gate-to-drain (I3).");

@@ -1,4 +1,4 @@
-// Fig. 60: INVC's current and transconductance beside INVB's.
+// Fig. 60: INVC's current and transconductance compared with INVB's.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace corpuscle::studies::fig60 {
 
-/// How far two normalised curves are apart, of the larger one's largest.
-double apart(const Line& a, const Line& b, double within) {
+/// Largest difference between two normalised curves, over the largest value of the first.
+double largest_difference(const Line& a, const Line& b, double within) {
     double out = 0;
     for (std::size_t k = 0; k < a.x.size(); ++k)
         if (std::abs(a.x[k]) <= within) out = std::max(out, std::abs(a.y[k] - b.at(a.x[k])));
@@ -22,44 +22,45 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!all) return all.error();
     const double G_B = all->at_rest('b'), G_C = all->at_rest('c');
     const auto I_B = all->current('b').times(1, 1 / G_B), I_C = all->current('c').times(1, 1 / G_C);
-    const auto plain = [] {  // the ratios of table 20 alone: M3 and M4 split (eq. 38, 39), M5 and M6 divide
+    const auto by_ratios = [] {  // from the ratios of table 20 only: M3 and M4 split (eq. 38, 39), M5 and M6 divide
         constexpr double wide = 8, narrow = 2.0 / 4, last = (2.0 / 8) / 16;
         return 1 / (narrow * narrow / (wide * (wide + 2 * narrow)) * last);
     }();
     const auto why = fmt::format(
-        "the ratios of table 20 alone make {:.5g} (errata S7b), length modulation of the diodes in parallel the rest; by what "
-        "less the foundry's mirrors divide is not known",
-        plain);
+        "the ratios of table 20 only give {:.5g} (errata S7b); the rest is length modulation of the parallel diodes. Why the foundry's "
+        "mirrors divide by less is not known",
+        by_ratios);
     auto& G = out.claim("INVC: transconductance at V_IN = 0", G_C, "S").printed_as(146e-12, "E.4, fig. 60b");
     if (G.needs_reason()) G.because(why);
     auto& ratio = out.claim("INVB's over INVC's", G_B / G_C, "times").printed_as(16000, "E.4: approximately 16000 times less");
     if (ratio.needs_reason()) ratio.because(why);
-    out.claim("table 20's ratios alone", plain, "times")
+    out.claim("by the ratios of table 20 only", by_ratios, "times")
         .printed_as(16000, "E.4")
         .because("8x1 and 2x4 split by 1/288, not 1/256: errata S7b");
-    out.claim("the printed transconductances alone", 2.5e-6 / 146e-12, "times").printed_as(16000, "E.4: 2.5 uS and 146 pS");
+    out.claim("from the published transconductances only", 2.5e-6 / 146e-12, "times").printed_as(16000, "E.4: 2.5 uS and 146 pS");
     const auto current = all->current('c');
     out.claim("INVC: current at V_IN = -350 mV", current.y.front(), "A").between(1e-12, 999e-12, "E.4: in the pico ampere range");
     out.claim("INVC: current at V_IN = 350 mV", -current.y.back(), "A").between(1e-12, 999e-12, "E.4: in the pico ampere range");
-    auto& shape = out.claim("INVC's normalised current is apart from INVB's by at most", 100 * apart(I_B, I_C, 0.35), "%")
-                      .at_most(5, "E.4: the exact same shape; a twentieth is our word for it");
-    if (shape.needs_reason()) shape.because("the mirrors divide more where they carry less: their diodes' drains bear less voltage");
+    auto& shape = out.claim("largest difference of INVC's normalised current from INVB's", 100 * largest_difference(I_B, I_C, 0.35), "%")
+                      .at_most(5, "E.4: the exact same shape; a twentieth is our choice");
+    if (shape.needs_reason())
+        shape.because("the mirrors divide by more where they carry less, because their diodes then have less drain voltage");
     out.plot("Fig. 60a: output currents", "V_IN (mV)", "I_o (INVB: uA, INVC: 20 pA)")
         .add("INVB", all->current('b').times(1e3, 1e6))
         .add("INVC", current.times(1e3, 0.05e12))
-        .shape("INVC's of the exact same shape as INVB's, in the pico ampere range");
+        .shape("INVC's has exactly the same shape as INVB's, in the picoampere range");
     auto& both = out.plot("Fig. 60b: transconductances", "V_IN (mV)", "G_m (S)");
     both.log_y = true;
     for (int k = 0; k < 3; ++k) both.add(inverter_names[k], all->transconductance(inverter_letters[k]).times(1e3, 1));
-    both.points("printed", {{0, 0}, {2.5e-6, 146e-12}}).shape("146 pS at V_IN = 0");
-    out.plot("Shapes, each by its transconductance at 0", "V_IN (mV)", "I_o / G_m(0) (mV)")
+    both.points("published", {{0, 0}, {2.5e-6, 146e-12}}).shape("146 pS at V_IN = 0");
+    out.plot("Normalised currents, over the transconductance at 0", "V_IN (mV)", "I_o / G_m(0) (mV)")
         .add("INVB", I_B.times(1e3, 1e3))
         .add("INVC", I_C.times(1e3, 1e3));
     return options.at(0.9) ? Result<Outcome>(out) : options.at(0.9).error();
 }
 
-const Study study{"fig60", "INVC's current and transconductance",
-                  "Some 146 pS, 16000 times less than INVB's, of the same shape and in picoamperes. Thesis E.4, fig. 60 (errata S7, S8)",
-                  work};
+const Study study{
+    "fig60", "INVC's current and transconductance",
+    "About 146 pS, 16000 times less than INVB's, with the same shape and picoampere currents. Thesis E.4, fig. 60 (errata S7, S8)", work};
 
 }  // namespace corpuscle::studies::fig60

@@ -1,4 +1,4 @@
-// Fig. 62: noise of the three inverters, as if at their inputs, outputs held.
+// Fig. 62: input-referred noise of the three inverters, outputs held.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -9,38 +9,39 @@
 namespace corpuscle::studies::fig62 {
 
 constexpr double slow = 1e-3, fast = 1e5;  // Hz
-constexpr double largest = 0.35;           // V: half the supply, what a filter's node can go to either side
+constexpr double largest = 0.35;           // V: half the supply, the largest excursion of a filter's node
 
-/// V/sqrt(Hz) over Hz; alone: without what the bias generator adds.
-Result<Line> input_noise(char which, bool alone) {
-    const auto found = Inverters::ordered(fmt::format(".noise v(i{}) vin dec 10 {} {}", which, slow, fast),
-                                          {fmt::format("c_bias={}", alone ? "1000" : "0")});
+/// V/sqrt(Hz) over Hz; without_bias: leaves out the noise of the bias generator.
+Result<Line> input_noise(char inverter, bool without_bias) {
+    const auto found = Inverters::ordered(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, slow, fast),
+                                          {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
     if (!found) return found.error();
     return found->found.line("noise", "inoise_spectrum");
 }
 
-/// The least density is thermal; where 1/f noise is as large, Hz.
-double corner(const Line& noise) { return noise.where(std::sqrt(2) * noise.least()); }
+/// Corner frequency (Hz): 1/f noise equals the thermal noise, which is the smallest density.
+double corner_frequency(const Line& noise) { return noise.where(std::sqrt(2) * noise.least()); }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    out.plot("Fig. 62: noise as if at the input", "Hz", "V/sqrt(Hz)");
+    out.plot("Fig. 62: input-referred noise", "Hz", "V/sqrt(Hz)");
     Line noise[3];
     for (int k = 0; k < 3; ++k) {
-        auto alone = input_noise(inverter_letters[k], true), whole = input_noise(inverter_letters[k], false);
-        for (const auto* line : {&alone, &whole})
+        auto without_bias = input_noise(inverter_letters[k], true), with_bias = input_noise(inverter_letters[k], false);
+        for (const auto* line : {&without_bias, &with_bias})
             if (!*line) return line->error();
         const std::string name = inverter_names[k];
-        out.plots[0].add(name, *alone).add(name + " with its bias generator", *whole);
-        out.claim(name + ": thermal noise", alone->least(), "V/sqrt(Hz)");
-        out.claim(name + ": at 1 mHz", alone->y.front(), "V/sqrt(Hz)");
-        out.claim(name + ": thermal and 1/f noise are equal at", corner(*alone), "Hz");
-        out.claim(name + ": at 100 Hz with the bias generator's, over its own", whole->at(100) / alone->at(100), "times");
-        noise[k] = std::move(*alone);
+        out.plots[0].add(name, *without_bias).add(name + " with its bias generator", *with_bias);
+        out.claim(name + ": thermal noise", without_bias->least(), "V/sqrt(Hz)");
+        out.claim(name + ": at 1 mHz", without_bias->y.front(), "V/sqrt(Hz)");
+        out.claim(name + ": corner frequency of thermal and 1/f noise", corner_frequency(*without_bias), "Hz");
+        out.claim(name + ": at 100 Hz, with over without the noise of the bias generator", with_bias->at(100) / without_bias->at(100),
+                  "times");
+        noise[k] = std::move(*without_bias);
         if (auto ok = options.at(0.3 * (k + 1)); !ok) return ok.error();
     }
     out.plots[0].log_x = out.plots[0].log_y = true;
-    out.plots[0].shape("INVC's thermal noise orders of magnitude larger, its 1/f noise larger, too");
+    out.plots[0].shape("INVC's thermal noise is orders of magnitude larger, its 1/f noise is larger as well");
     const auto over = [](const Line& a, const Line& b, bool thermal) {
         return thermal ? a.least() / b.least() : a.y.front() / b.y.front();
     };
@@ -54,20 +55,21 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!filter) return filter.error();
     const double total = filter->found.number("onoise_total");
     out.claim("INVC as a load of 0.8 pF (filter B): noise from 1 mHz to 100 kHz", total, "V");
-    out.claim("half the supply over that", 20 * std::log10(largest / total), "dB")
-        .at_least(40, "E.4: adequate for its application; 40 dB is our word for it");
+    out.claim("half the supply over this noise", 20 * std::log10(largest / total), "dB")
+        .at_least(40, "E.4: adequate for its application; 40 dB is our choice");
     const auto rest = Inverters::swept(0.35);
     if (!rest) return rest.error();
     double taken[3];
     for (int k = 0; k < 3; ++k)
-        out.claim(fmt::format("{}: current taken at V_IN = 0", inverter_names[k]), taken[k] = rest->taken(inverter_letters[k]).at(0), "A");
-    out.finds("INVC takes more than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
+        out.claim(fmt::format("{}: supply current at V_IN = 0", inverter_names[k]), taken[k] = rest->taken(inverter_letters[k]).at(0), "A");
+    out.finds("INVC takes more current than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
               "E.4: very power inefficient (INVC is meant, errata I14)");
     out.note(
-        "The bias generator's divider is of very large resistances (E.2); its noise comes in through BN and BP until the capacitances at "
-        "REF short "
-        "it.");
-    out.note("The cards' flicker noise is a choice (nt), so 1/f noises compare with each other, not with the thesis's.");
+        "The divider of the bias generator has very large resistances (E.2); its noise enters through BN and BP up to the frequency at "
+        "which the capacitances at REF short it.");
+    out.note(
+        "The flicker noise parameter of the process card (nt) is our choice, so 1/f noises can be compared with each other but not with "
+        "the thesis's.");
     return out;
 }
 

@@ -1,4 +1,5 @@
-// The loop of a high-pass filter: INVC tied to itself behind its capacitor. "Inherently stable" (E.4): its gain, its phase margin.
+// The feedback loop of a high-pass filter (INVC with its output tied to its input, behind its capacitor), which E.4 calls "inherently
+// stable": its gain and phase margin.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,7 +12,8 @@ namespace corpuscle::studies::invc_loop {
 
 constexpr auto source = "thesis E.4";
 
-/// Opened to small signals, closed at rest; at its end the capacitor, and a second cell for what the first one's input loads it with.
+/// The loop is open for small signals and closed for the operating point. Its end has the capacitor and a second cell, which loads it as
+/// the input of the first one does.
 constexpr auto opened = R"(INVC's loop, opened
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
@@ -30,10 +32,10 @@ vnext next 0 0.35
 )";
 
 struct Loop {
-    Line dB, phase;                    ///< phase: degrees above -180 of the loop that is fed back
-    double gain, unity, margin, turn;  ///< dB, Hz, degrees, Hz: where the phase is used up
-    double spare;                      ///< dB below unity there
-    double inner;                      ///< Hz: 45 degrees more than the outer pole's 90
+    Line dB, phase;                               ///< phase: degrees above -180 of the closed loop's return ratio
+    double gain, unity, margin, phase_crossover;  ///< dB, Hz, degrees, Hz; turn: phase margin zero
+    double gain_margin;                           ///< dB below unity at that frequency
+    double inner;                                 ///< Hz: 45 degrees more than the 90 degrees of the outer pole
 };
 Result<Loop> loop_with(double farad) {
     const auto found = found_in({opened, {fmt::format("c_hp={}", farad)}});
@@ -43,43 +45,43 @@ Result<Loop> loop_with(double farad) {
     for (double& p : out.phase.y)
         if (p < -90) p += 360;  // -180 is 180
     out.gain = out.dB.y[0], out.unity = out.dB.where(0), out.margin = out.phase.at(out.unity);
-    out.turn = out.phase.where(0, out.unity), out.spare = -out.dB.at(out.turn), out.inner = out.phase.where(45, out.unity);
+    out.phase_crossover = out.phase.where(0, out.unity), out.gain_margin = -out.dB.at(out.phase_crossover),
+    out.inner = out.phase.where(45, out.unity);
     return out;
 }
 
-void tell(const std::string& name, const Loop& loop, Outcome& out) {
-    out.claim(name + ": the loop's gain is one at", loop.unity, "Hz");
-    out.claim(name + ": phase margin", loop.margin, "degrees").at_least(60, "thesis E.4: inherently stable; 60 degrees are set here");
-    out.claim(name + ": gain margin", loop.spare, "dB").at_least(20, "thesis E.4: inherently stable; 20 dB are set here");
-    out.claim(name + ": the inner nodes' poles, over it", loop.inner / loop.unity, "times")
-        .at_least(10, "thesis E.4: its output's impedance is very large beside the inner nodes'; ten times is set here");
+void add_claims(const std::string& name, const Loop& loop, Outcome& out) {
+    out.claim(name + ": unity-gain frequency of the loop", loop.unity, "Hz");
+    out.claim(name + ": phase margin", loop.margin, "degrees").at_least(60, "thesis E.4: inherently stable; 60 degrees is our choice");
+    out.claim(name + ": gain margin", loop.gain_margin, "dB").at_least(20, "thesis E.4: inherently stable; 20 dB is our choice");
+    out.claim(name + ": poles of the inner nodes over the unity-gain frequency", loop.inner / loop.unity, "times")
+        .at_least(10, "thesis E.4: its output impedance is very large compared with the inner nodes'; ten times is our choice");
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     auto& gain = out.plot("Gain of the loop", "frequency (Hz)", "dB");
     gain.log_x = true;
-    Plot phase{"Phase left before it is -180 degrees", "frequency (Hz)", "degrees", {}, true};
+    Plot phase{"Phase above -180 degrees", "frequency (Hz)", "degrees", {}, true};
     for (const auto& [name, farad] : {std::pair{"filter B, 0.8 pF", 0.8e-12}, {"filter C, 8.8 pF", 8.8e-12}, {"no capacitor", 1e-18}}) {
         const auto loop = loop_with(farad);
         if (!loop) return loop.error();
         if (farad == 0.8e-12) {
-            out.claim("the loop's gain at 0.1 mHz", loop->gain, "dB");
-            out.finds("it inverts: three times in all", std::abs(loop->phase.y[0] - 180) < 5, source);
+            out.claim("loop gain at 0.1 mHz", loop->gain, "dB");
+            out.finds("the loop inverts: three inversions in all", std::abs(loop->phase.y[0] - 180) < 5, source);
         }
-        tell(name, *loop, out);
+        add_claims(name, *loop, out);
         gain.add(name, loop->dB.between(0.1, 1e5)), phase.add(name, loop->phase.between(0.1, 1e5));
         if (auto ok = options.at(0.3); !ok) return ok.error();
     }
     out.plots.push_back(std::move(phase));
     out.note(
-        "The loop is opened between output and input by an inductance that closes it at rest; margins are of the loop as the filter has "
-        "it, whose "
-        "capacitor makes the outer pole. Nothing but a first-order fall is left up to a hundred times the corner.");
+        "An inductance between output and input opens the loop for small signals and closes it for the operating point. The margins are "
+        "those of the filter, whose capacitor makes the outer pole. Up to a hundred times the corner only a first-order roll-off remains.");
     return out;
 }
 
 const Study study{"invc-loop", "Is the ultra-low transconductor's loop stable?",
-                  "Inverted only three times, with one large impedance at its output, it is inherently stable. Thesis 4.3.1, E.4", work};
+                  "With only three inversions and one large impedance, at its output, it is inherently stable. Thesis 4.3.1, E.4", work};
 
 }  // namespace corpuscle::studies::invc_loop

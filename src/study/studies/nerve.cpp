@@ -1,4 +1,4 @@
-// What the literature says of the nerve, held against the named afferents. Gates are ours where a paper gives a shape and no number.
+// Published properties of the nerve compared with the named afferents. Bounds are our choice where a paper gives a shape and no number.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace corpuscle::studies::nerve {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The least amplitude (N) that makes it fire at all, once the first half second is over; by halving, in ratio.
-Result<double> least_amplitude(const std::string& afferent, double f, double rate) {
+/// The smallest amplitude (N) that evokes a spike after the first 0.5 s, by bisection on a logarithmic scale.
+Result<double> detection_threshold(const std::string& afferent, double f, double rate) {
     double low = 1e-4, high = 4;
     for (int k = 0; k < 14; ++k) {
         const double middle = std::sqrt(low * high);
@@ -28,10 +28,10 @@ Result<double> least_amplitude(const std::string& afferent, double f, double rat
     return high;
 }
 
-Result<Plot::Series> tuning(const std::string& afferent, const StudyOptions& options, double& done) {
+Result<Plot::Series> tuning_curve(const std::string& afferent, const StudyOptions& options, double& done) {
     Plot::Series curve{afferent, {}, {}, Plot::Style::line};
     for (const double f : {4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 200.0, 250.0, 300.0, 400.0, 600.0}) {
-        const auto amplitude = least_amplitude(afferent, f, 20e3);
+        const auto amplitude = detection_threshold(afferent, f, 20e3);
         if (!amplitude) return amplitude.error();
         if (*amplitude < 4) curve.x.push_back(f), curve.y.push_back(1e3 * *amplitude);
         if (!options.keep_on(done += 1.0 / 33)) return Error{Code::interrupted, "interrupted"};
@@ -39,45 +39,48 @@ Result<Plot::Series> tuning(const std::string& afferent, const StudyOptions& opt
     return curve;
 }
 
-/// The frequencies at which it needs at most a tenth more than the least.
-std::pair<double, double> best(const Plot::Series& curve) {
+/// The frequency range in which it needs at most a tenth more than the smallest amplitude.
+std::pair<double, double> most_sensitive_band(const Plot::Series& curve) {
     std::pair band{none, none};
     if (curve.y.empty()) return band;
-    const double least = *std::min_element(curve.y.begin(), curve.y.end());
+    const double smallest = *std::min_element(curve.y.begin(), curve.y.end());
     for (std::size_t k = 0; k < curve.x.size(); ++k)
-        if (curve.y[k] <= 1.1 * least) band = {std::isnan(band.first) ? curve.x[k] : band.first, curve.x[k]};
+        if (curve.y[k] <= 1.1 * smallest) band = {std::isnan(band.first) ? curve.x[k] : band.first, curve.x[k]};
     return band;
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    Plot plot{"Least vibration that is answered", "frequency (Hz)", "amplitude (mN)", {}, true, true};
+    Plot plot{"Detection threshold of vibration", "frequency (Hz)", "amplitude (mN)", {}, true, true};
     double done = 0;
     for (const auto& [name, low, high, source] :
          {std::tuple{"sa1", none, 60.0, "SA lowest: Johansson et al. 1982, Brain Res 244:17"},
           {"fa1", 8.0, 64.0, "RA most excitable at 8 to 64 Hz: Johansson et al. 1982, Brain Res 244:17"},
           {"fa2", 200.0, 300.0, "PC best at 200 to 300 Hz: PMC2657072, table 1"}}) {
-        auto curve = tuning(name, options, done);
+        auto curve = tuning_curve(name, options, done);
         if (!curve) return curve.error();
-        const auto [from, to] = best(*curve);
+        const auto [from, to] = most_sensitive_band(*curve);
         for (const auto& [end, f] : {std::pair{"from", from}, {"to", to}})
             out.claim(fmt::format("{}: most sensitive {}", name, end), f, "Hz")
                 .between(low, high, source)
-                .if_off("above their high-passes sa1 and fa1 are equally sensitive to all frequencies: no low-pass of the skin");
+                .if_off(
+                    "above the corners of their high-passes sa1 and fa1 are equally sensitive to all frequencies: the low-pass of the skin "
+                    "is not modelled");
         plot.series.push_back(std::move(*curve));
     }
     out.plots.push_back(std::move(plot));
     out.notes = {
-        "Papers move the skin by a depth, here it is a force about 0.2 N, the least that the models are fitted to; between the two lies "
-        "the skin, which is not modelled.",
-        "Most sensitive: at most a tenth more than the least amplitude; answered is a spike between 0.5 and 1 s.",
-        "sa1 and fa1 are the thesis's: behind their high-passes they rectify, so that any faster vibration adds the same mean current, and "
-        "above their corner they are equally sensitive to all. The nerve is not: the skin and the receptor are low-passes, which these "
-        "models leave out."};
+        "The papers displace the skin; here the stimulus is a force that oscillates about 0.2 N, the smallest that the models are fitted "
+        "to. The skin "
+        "between the two is not modelled.",
+        "Most sensitive: at most a tenth above the smallest amplitude. A response is a spike between 0.5 and 1 s.",
+        "sa1 and fa1 are the thesis's models. They rectify behind their high-passes, so any vibration above the corner adds the same mean "
+        "current and they are equally sensitive to all such frequencies. The nerve is not: the skin and the receptor are low-passes, which "
+        "these models leave out."};
     return out;
 }
 
-const Study study{"nerve", "What is known of the nerve",
-                  "Which vibration does each class answer best? Johansson et al. 1982; the press itself is fig5", work};
+const Study study{"nerve", "Published vibration sensitivity of the nerve",
+                  "To which vibration is each class most sensitive? Johansson et al. 1982; for the press stimulus see fig5", work};
 
 }  // namespace corpuscle::studies::nerve

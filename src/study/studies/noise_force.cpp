@@ -1,5 +1,5 @@
-// What the circuits' noise is as a force: sensor, transducer, signal processing and oscillator input of SA-I, at 0.2 and at 4 N, from 1 Hz
-// (the press lasts a second; what is slower is drift) to 100 Hz (above it no afferent here fires, and filter B ends at 30 Hz).
+// The circuits' noise expressed as a force: sensor, transducer, signal processing and oscillator input of SA-I, at 0.2 and 4 N. The band is
+// 1 Hz (the stimulus lasts a second; slower noise is drift) to 100 Hz (no afferent here fires faster, and filter B ends at 30 Hz).
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,9 +11,9 @@ namespace corpuscle::studies::noise_force {
 
 constexpr double from = 1, to = 100;  // Hz
 constexpr double boltzmann = 1.380649e-23, kelvin = 300.15;
-constexpr double repeats = 0.02;  // of the force: the sensor's own repeatability, by its data sheet
+constexpr double repeatability = 0.02;  // relative: the sensor's repeatability, from its data sheet
 
-/// Sensor, transducer and signal processing as circuits/sa1.cir has them; the membrane is held at half the supply.
+/// Sensor, transducer and signal processing as in circuits/sa1.cir; the membrane is held at half the supply.
 const std::string chain = R"(Force to membrane current
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transducer.inc'
@@ -34,7 +34,7 @@ rf i_f 0 1g
 ri i_m 0 1g
 .nodeset v(xrectb.en)=0 v(xrectc.en)=0 v(xrectb.cmp)=0.5 v(xrectc.cmp)=0.5
 )";
-const std::string oscillator = R"(What the oscillator's input adds to the membrane current
+const std::string oscillator = R"(Noise current of the oscillator's input
 .lib '../process/tsmc180.lib' tt
 .include 'parts/trigger.inc'
 .include 'parts/oscillator.inc'
@@ -48,10 +48,10 @@ ro out 0 1g
 .nodeset v(s)=0 v(xcco.sb)=0.7
 )";
 
-/// Force noise in the band at one place of a netlist with a source vforce, N rms.
-Result<double> as_force(const std::string& circuit, const std::string& output, double newtons, const std::string& more = "") {
-    const auto found =
-        found_in({circuit, {fmt::format("vforce={}", newtons)}, more + fmt::format(".noise v({}) vforce dec 20 {} {}", output, from, to)});
+/// Force noise in the band (N rms) at a node of a netlist with a source vforce.
+Result<double> force_noise(const std::string& circuit, const std::string& output, double newtons, const std::string& extra_lines = "") {
+    const auto found = found_in(
+        {circuit, {fmt::format("vforce={}", newtons)}, extra_lines + fmt::format(".noise v({}) vforce dec 20 {} {}", output, from, to)});
     if (!found) return found.error();
     return found->number("inoise_total");
 }
@@ -63,53 +63,54 @@ Result<double> gain(double newtons) {
     return found->line("dc", "i(vi)").slope_at(newtons);
 }
 
-/// Of the sensor as a resistor, N rms.
-double of_sensor(double newtons) {
+/// Thermal noise of the sensor as a resistor, N rms.
+double sensor_noise(double newtons) {
     const ForceSensor sensor;
     const double gf = newtons / gram_force;
     return std::sqrt(4 * boltzmann * kelvin * sensor.conductance(gf) * (to - from)) / (0.1 * sensor.slope(gf) / gram_force);
 }
 
-struct Parts {
+struct NoiseParts {
     double sensor, transducer, processing, oscillator, chain, filter_B, filter_C;
 };
-Result<Parts> parts_at(double newtons) {
+Result<NoiseParts> noise_parts(double newtons) {
     const auto dI_dF = gain(newtons);
     const auto cco = found_in({oscillator, {}, fmt::format(".noise v(out) ilk dec 20 {} {}", from, to)});
     if (!dI_dF) return dI_dF.error();
     if (!cco) return cco.error();
-    const std::string read = "ha i_a 0 via 1\nra i_a 0 1g\n";
-    const auto t = as_force(chain, "i_f", newtons), all = as_force(chain, "i_m", newtons), asp = as_force("asp_sa1", "i_a", newtons, read);
-    const auto b = as_force(chain, "hpb", newtons), c = as_force(chain, "hpc", newtons);
+    const std::string readout = "ha i_a 0 via 1\nra i_a 0 1g\n";
+    const auto t = force_noise(chain, "i_f", newtons), all = force_noise(chain, "i_m", newtons),
+               asp = force_noise("asp_sa1", "i_a", newtons, readout);
+    const auto b = force_noise(chain, "hpb", newtons), c = force_noise(chain, "hpc", newtons);
     for (const auto* r : {&t, &all, &asp, &b, &c})
         if (!*r) return r->error();
-    return Parts{of_sensor(newtons), *t, *asp, cco->number("onoise_total") / *dI_dF, *all, *b, *c};
+    return NoiseParts{sensor_noise(newtons), *t, *asp, cco->number("onoise_total") / *dI_dF, *all, *b, *c};
 }
 
-Result<void> tell(Outcome& out, double newtons) {
-    const auto p = parts_at(newtons);
+Result<void> add_claims(Outcome& out, double newtons) {
+    const auto p = noise_parts(newtons);
     if (!p) return p.error();
-    const auto what = [&](const char* words) { return fmt::format("{:g} N: {}", newtons, words); };
+    const auto what = [&](const char* quantity) { return fmt::format("{:g} N: {}", newtons, quantity); };
     const double total = std::hypot(p->sensor, p->chain, p->oscillator);
     out.claim(what("sensor, as a resistor (4 k T G)"), p->sensor, "N");
     out.claim(what("transducer, at I_F"), p->transducer, "N");
     out.claim(what("signal processing, at I_A"), p->processing, "N");
     out.claim(what("transducer and signal processing, at the membrane"), p->chain, "N");
-    out.claim(what("oscillator's input, by dI/dF"), p->oscillator, "N");
-    out.claim(what("all of it"), total, "N")
-        .at_most(repeats * newtons,
+    out.claim(what("oscillator's input, from dI/dF"), p->oscillator, "N");
+    out.claim(what("total"), total, "N")
+        .at_most(repeatability * newtons,
                  "thesis E.4: \"adequate for its application\"; taken here as below the sensor's own repeatability, 2 % of the force "
                  "(FSR 400 series data sheet, Interlink)");
-    out.claim(what("filter B's output alone"), p->filter_B, "N").at_most(repeats * newtons, "the same");
-    out.claim(what("filter C's output alone"), p->filter_C, "N").at_most(repeats * newtons, "the same");
-    out.claim(what("of the press's 3.8 N, all of it"), 100 * total / 3.8, "%");
+    out.claim(what("at filter B's output"), p->filter_B, "N").at_most(repeatability * newtons, "as above");
+    out.claim(what("at filter C's output"), p->filter_C, "N").at_most(repeatability * newtons, "as above");
+    out.claim(what("total, over the 3.8 N range of the press stimulus"), 100 * total / 3.8, "%");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     for (const double newtons : {0.2, 4.0}) {
-        if (auto ok = tell(out, newtons); !ok) return ok.error();
+        if (auto ok = add_claims(out, newtons); !ok) return ok.error();
         if (auto ok = options.at(newtons / 10); !ok) return ok.error();
     }
     Plot& spectrum = out.plot("Noise of transducer and signal processing as a force", "frequency (Hz)", "mN / sqrt(Hz)");
@@ -123,30 +124,28 @@ Result<Outcome> work(const StudyOptions& options) {
         }
     Line transducer, membrane, sensor;
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0}) {
-        const auto t = as_force(chain, "i_f", newtons), m = as_force(chain, "i_m", newtons);
+        const auto t = force_noise(chain, "i_f", newtons), m = force_noise(chain, "i_m", newtons);
         if (!t) return t.error();
         if (!m) return m.error();
-        for (auto [line, value] : {std::pair{&transducer, *t}, {&membrane, *m}, {&sensor, repeats * newtons}})
+        for (auto [line, value] : {std::pair{&transducer, *t}, {&membrane, *m}, {&sensor, repeatability * newtons}})
             line->x.push_back(newtons), line->y.push_back(1e3 * value);
     }
-    Plot& along = out.plot("Noise from 1 to 100 Hz along the force", "force (N)", "mN rms");
+    Plot& along = out.plot("Noise from 1 to 100 Hz over the force", "force (N)", "mN rms");
     along.log_x = along.log_y = true;
     along.add("transducer", transducer).add("at the membrane", membrane).add("2 %, the sensor's repeatability", sensor);
     out.note(
-        "By .noise about rest: force stands still, the rectifiers of I_B and I_C are open, so that the membrane has I_A's noise alone; "
-        "what I_B and I_C "
-        "add while the force moves is told at the filters' outputs. The oscillator's trigger (jitter of its thresholds) is left out.");
+        "The .noise analysis linearises about the operating point: the force is constant and the rectifiers of I_B and I_C are open, so "
+        "the membrane has only I_A's noise. The claims at the filters' outputs show the noise of I_B and I_C while the force changes. The "
+        "oscillator's trigger (jitter of its thresholds) is left out.");
     out.note(
-        "The thesis names no resolution of the sensor and no noise of the chain. The sensor's own 1/f noise is left out: no number is "
-        "known of it. "
-        "The card's 1/f noise is a choice (process/tsmc180.lib).");
+        "The thesis gives no resolution of the sensor and no noise of the chain. The sensor's 1/f noise is left out because no value is "
+        "known. The 1/f noise of the process card is our choice (process/tsmc180.lib).");
     return out;
 }
 
 const Study study{"noise-force", "The circuits' noise as a force",
-                  "The thesis names noise as the price of analog processing (1.3) and calls INVC's adequate for its application (E.4); how "
-                  "many newtons is "
-                  "it?",
+                  "The thesis names noise as the price of analog processing (1.3) and calls INVC's adequate for its application (E.4). How "
+                  "many newtons is it?",
                   work};
 
 }  // namespace corpuscle::studies::noise_force

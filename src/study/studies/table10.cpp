@@ -1,4 +1,4 @@
-// Table 10: sizes of the rectangular arrays; and what the text beside it says of them.
+// Table 10: sizes of the rectangular arrays, and the statements of the text on them.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace corpuscle::studies::table10 {
 
-/// A is larger by so much as printed than by what else is printed of it.
-void put_erratum(Outcome& out, const OurArrays& ours) {
+/// The printed A against its value from other published numbers.
+void add_erratum(Outcome& out, const OurArrays& ours) {
     const auto& c1 = printed(rectangles, "C1");
-    const std::string source = "errata U11, of C1's A = 1.0800";
-    out.claim("C1: A by A_T and A/A_T as printed", c1.A_T * c1.share, "um^2").held_to(1.0080, source);
-    out.claim("C1: A by g_mg (table 11) and g_mg/A (table 12) as printed", c1.g_mg / c1.g_by_A, "um^2").held_to(1.0080, source);
+    const std::string source = "errata U11, C1's A = 1.0800";
+    out.claim("C1: A from A_T and A/A_T as printed", c1.A_T * c1.share, "um^2").held_to(1.0080, source);
+    out.claim("C1: A from g_mg (table 11) and g_mg/A (table 12) as printed", c1.g_mg / c1.g_by_A, "um^2").held_to(1.0080, source);
     out.finds("C1: W L is 1.0080 um^2, not 1.0800", std::abs(ours("C1").A * 1e12 - 1.0080) < 5e-5, source);
 }
 
@@ -22,37 +22,37 @@ Result<Outcome> work(const StudyOptions&) {
     if (!ours) return ours.error();
     Outcome out;
     put_sizes(out, rectangles, *ours);
-    put_erratum(out, *ours);
+    add_erratum(out, *ours);
 
     const std::string source = "thesis B.1";
     const auto& arrays = *ours;
-    const auto by = [](auto number) { return [number](const OurArray& a, const OurArray& b) { return number(a) < number(b); }; };
-    const auto S = by([](const OurArray& a) { return a.S; });
-    const auto share = by([](const OurArray& a) { return a.A / a.A_T; });
+    const auto compare_by = [](auto property) {
+        return [property](const OurArray& a, const OurArray& b) { return property(a) < property(b); };
+    };
+    const auto S = compare_by([](const OurArray& a) { return a.S; });
+    const auto share = compare_by([](const OurArray& a) { return a.A / a.A_T; });
     out.finds("B1 has the lowest S_eq, D1 the highest",
               std::min_element(arrays.begin(), arrays.end(), S)->printed->name == std::string_view("B1") &&
                   std::max_element(arrays.begin(), arrays.end(), S)->printed->name == std::string_view("D1"),
               source);
-    out.finds("C1 has the most active area of its total",
+    out.finds("C1 has the largest ratio of active to total area",
               std::max_element(arrays.begin(), arrays.end(), share)->printed->name == std::string_view("C1"), source);
     const double A_T = arrays("C1").A_T;
-    out.finds("All but A have the same total area",
+    out.finds("all except A have the same total area",
               std::all_of(arrays.begin() + 1, arrays.end(), [&](const OurArray& a) { return std::abs(a.A_T / A_T - 1) < 1e-9; }), source);
     out.finds("B2, C2 and D2 have the same active area, and less than B1, C1 and D1",
               std::abs(arrays("B2").A / arrays("C2").A - 1) < 1e-9 && std::abs(arrays("D2").A / arrays("C2").A - 1) < 1e-9 &&
                   arrays("B2").A < std::min({arrays("B1").A, arrays("C1").A, arrays("D1").A}),
               source);
-    out.claim("A and C2: the one S_eq over the other", arrays("A").S / arrays("C2").S).held_to(1, source + ": the same");
+    out.claim("S_eq of A over S_eq of C2", arrays("A").S / arrays("C2").S).held_to(1, source + ": the same");
     out.note(
-        "A_T is the area of a rectangle about polysilicon and diffusion (errata U16: not its perimeter), whose margins are inferred from "
-        "this "
-        "table and table 13: one rule for all, r rows by c columns take (r W + (r - 1) 0.28 um + 0.5 um)(c L + (c - 1) 0.54 um + 0.96 "
-        "um).");
+        "A_T is the area of a rectangle around polysilicon and diffusion (errata U16: not its perimeter). Its margins are inferred from "
+        "this table and table 13 as one rule: r rows by c columns take (r W + (r - 1) 0.28 um + 0.5 um)(c L + (c - 1) 0.54 um + 0.96 um).");
     return out;
 }
 
-const Study study{"table10", "Sizes of the rectangular arrays",
-                  "Equivalent aspect ratios, active and total areas of seven arrays, six of them of one total area. Thesis B.1, table 10",
-                  work};
+const Study study{
+    "table10", "Sizes of the rectangular arrays",
+    "Equivalent aspect ratios, active and total areas of seven arrays, six of them with equal total area. Thesis B.1, table 10", work};
 
 }  // namespace corpuscle::studies::table10

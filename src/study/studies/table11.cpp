@@ -1,4 +1,4 @@
-// Table 11: currents and small signals of the rectangular arrays; and the sums that tell its misprints.
+// Table 11: currents and small signals of the rectangular arrays, and the sums that reveal its misprints.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -21,34 +21,36 @@ Result<Outcome> work(const StudyOptions&) {
     out.claim("B2's current over C2's", I("B2") / I("C2")).printed_as(0.25, source);
     out.claim("D2's current over C2's", I("D2") / I("C2")).printed_as(4, source);
     out.claim("A's current over C2's", I("A") / I("C2")).held_to(printed(rectangles, "A").I_D / printed(rectangles, "C2").I_D, "table 11");
-    out.finds("A carries more than C2, of the same S_eq", I("A") > I("C2"), source);
+    out.finds("A carries more current than C2, which has the same S_eq", I("A") > I("C2"), source);
     const double V_T = ours("A").V_T;
-    out.finds("A, B2, C2 and D2 have one threshold", ours("B2").V_T == V_T && ours("C2").V_T == V_T && ours("D2").V_T == V_T, source);
+    out.finds("A, B2, C2 and D2 have the same threshold", ours("B2").V_T == V_T && ours("C2").V_T == V_T && ours("D2").V_T == V_T, source);
     const auto shift = [&](const char* name) { return ours(name).V_T - V_T; };
     const auto printed_shift = [&](const char* name) { return 1e-3 * (printed(rectangles, name).V_T - printed(rectangles, "A").V_T); };
     for (const char* name : {"B1", "C1", "D1"})
-        out.claim(fmt::format("{}: threshold above A's", name), shift(name), "V")
+        out.claim(fmt::format("{}: threshold minus A's", name), shift(name), "V")
             .held_to(printed_shift(name), "table 11")
             .because(
-                "set so that it carries the printed current at the specific current of the short unit, which is another in each geometry");
+                "set so that it carries the published current with the specific current of the short unit transistor; the true specific "
+                "current differs with geometry");
     out.finds(
-        "As printed, V_T rises as L falls and as W grows: no lowering by the drain, which was at 0 V",
+        "as published, V_T rises as L falls and as W grows: no drain-induced lowering, the drain being at 0 V",
         printed(rectangles, "A").V_T > printed(rectangles, "B1").V_T && printed(rectangles, "D1").V_T > printed(rectangles, "C1").V_T &&
             printed(rectangles, "C1").V_T > printed(rectangles, "B1").V_T && printed(rectangles, "D1").V_T > printed(rectangles, "A").V_T,
         "errata U13, against \"due to DIBL\" (B.1, C.1)");
 
     put_sum_rule(out, rectangles, 1e-9, "errata U7: g_md in uS, not nS");
     const auto& d2 = printed(rectangles, "D2");
-    out.claim("D2: g_ms by its sum", 1e-6 * (d2.g_mg + d2.g_md + d2.g_mb), "S")
+    out.claim("D2: g_ms from its sum", 1e-6 * (d2.g_mg + d2.g_md + d2.g_mb), "S")
         .printed_as(1e-6 * d2.g_ms, "table 11; errata U10: 165.1 is meant");
-    out.claim("D2: g_ms by four times A's", 4e-6 * printed(rectangles, "A").g_ms, "S").printed_as(1e-6 * d2.g_ms, "the same");
+    out.claim("D2: g_ms from four times A's", 4e-6 * printed(rectangles, "A").g_ms, "S").printed_as(1e-6 * d2.g_ms, "as above");
     double worst = 0;
     for (const auto& a : ours) worst = std::max(worst, std::abs((a.g_mg + a.g_md + a.g_mb) / a.g_ms - 1));
-    out.claim("Ours: the sum misses g_ms at most by", 100 * worst, "%").at_most(1e-4, "eq. 27, to what is solved");
+    out.claim("simulated: largest error of the sum against g_ms", 100 * worst, "%")
+        .at_most(1e-4, "eq. 27, to the accuracy of the solution");
     return out;
 }
 
 const Study study{"table11", "Currents and small signals of the rectangular arrays",
-                  "Seven arrays at V_G = V_D = 0.5 V; their slopes, which must add up, tell two misprints. Thesis B.1, table 11", work};
+                  "Seven arrays at V_G = V_D = 0.5 V; the sums of their slopes reveal two misprints. Thesis B.1, table 11", work};
 
 }  // namespace corpuscle::studies::table11

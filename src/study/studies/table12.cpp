@@ -1,4 +1,4 @@
-// Table 12: ratios and mismatch of the rectangular arrays, and what the text makes of them.
+// Table 12: ratios and mismatch of the rectangular arrays, and the statements of the text on them.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,56 +9,62 @@
 
 namespace corpuscle::studies::table12 {
 
-/// What columns are, by the numbers of table 11.
-void put_errata(Outcome& out) {
+/// The definitions of the columns, from the numbers of table 11.
+void add_errata(Outcome& out) {
     put_ratio_rule(out, rectangles, 1e-9, "errata U6 and U7: V_A is I_D/g_md, and g_md in uS");
     for (const auto& a : printed_rectangles)
         out.claim(fmt::format("{}: g_mb/g_mg by table 11 as printed", a.name), a.g_mb / a.g_mg)
             .printed_as(a.slope, "table 12, errata U5: not g_mg/g_mb");
     const auto& d1 = printed(rectangles, "D1");
-    out.claim("D1: g_mg/I_D by table 11 as printed", d1.g_mg / d1.I_D, "1/V").held_to(18.07, "errata U12, for 18.02");
+    out.claim("D1: g_mg/I_D by table 11 as printed", d1.g_mg / d1.I_D, "1/V").held_to(18.07, "errata U12, instead of 18.02");
 }
 
-void put_text(Outcome& out, const OurArrays& ours) {
+void add_text(Outcome& out, const OurArrays& ours) {
     const std::string source = "thesis B.1";
     const auto V_A = [&](const char* name) { return ours(name).V_A(); };
     const auto printed_V_A = [&](const char* name) { return printed(rectangles, name).V_A; };
-    for (const auto& [name, times] : {std::pair{"B2", 4.0}, {"C2", 2.0}}) {
-        auto& c = out.claim(fmt::format("{}: V_A over A's, as L_eq", name), V_A(name) / V_A("A"))
-                      .printed_as(times, source + fmt::format("; by its table {:.2f}", printed_V_A(name) / printed_V_A("A")));
+    for (const auto& [name, factor] : {std::pair{"B2", 4.0}, {"C2", 2.0}}) {
+        auto& c = out.claim(fmt::format("{}: V_A over A's, like L_eq", name), V_A(name) / V_A("A"))
+                      .printed_as(factor, source + fmt::format("; {:.2f} by its table", printed_V_A(name) / printed_V_A("A")));
         if (c.needs_reason())
-            c.because("the unit at the drain alone is modulated, and being modulated it has less than its share of the stack");
+            c.because(
+                "only the unit transistor at the drain has length modulation, which reduces it to less than its fraction of the stack's "
+                "length");
     }
     const auto gain = [](const OurArray& a, const OurArray& b) { return a.gain() < b.gain(); };
-    const auto best = std::max_element(ours.begin(), ours.end(), gain);
-    out.finds("B1 has the highest V_A and the largest g_mg/g_md, B2's less at the same total area",
-              best->printed->name == std::string_view("B1") && V_A("B1") > V_A("B2"), source);
+    const auto highest_gain = std::max_element(ours.begin(), ours.end(), gain);
+    out.finds("B1 has the highest V_A and the largest g_mg/g_md; B2's is lower at the same total area",
+              highest_gain->printed->name == std::string_view("B1") && V_A("B1") > V_A("B2"), source);
     const double a = ours("A").g_by_I();
-    double apart = 0;
-    for (const char* name : {"B2", "C2", "D2"}) apart = std::max(apart, std::abs(ours(name).g_by_I() / a - 1));
-    out.claim("g_mg/I_D of B2, C2 and D2 is from A's at most", 100 * apart, "%").at_most(5, source + ": the same (5 % here)");
+    double worst_difference = 0;
+    for (const char* name : {"B2", "C2", "D2"}) worst_difference = std::max(worst_difference, std::abs(ours(name).g_by_I() / a - 1));
+    out.claim("largest difference of g_mg/I_D of B2, C2 and D2 from A's", 100 * worst_difference, "%")
+        .at_most(5, source + ": the same (5 % here)");
     if (auto& c = out.claims.back(); c.needs_reason())
-        c.because("velocity saturation and length modulation of the card tell one unit from a stack more than the foundry's model does");
-    const auto slope = std::minmax_element(ours.begin(), ours.end(), [](const auto& x, const auto& y) { return x.slope() < y.slope(); });
-    out.claim("Slope factor n = 1 + g_mb/g_mg: the largest of the seven over the least",
-              (1 + slope.second->slope()) / (1 + slope.first->slope()))
+        c.because(
+            "with velocity saturation and length modulation of the process card a unit transistor differs more from a stack than in the "
+            "foundry's model");
+    const auto slope_range =
+        std::minmax_element(ours.begin(), ours.end(), [](const auto& x, const auto& y) { return x.slope() < y.slope(); });
+    out.claim("slope factor n = 1 + g_mb/g_mg: largest of the seven over the smallest",
+              (1 + slope_range.second->slope()) / (1 + slope_range.first->slope()))
         .held_to(1.276 / 1.265, source + ": similar; table 12");
     out.claim("g_mg/A: D2's over B2's, of equal active area", ours("D2").g_by_A() / ours("B2").g_by_A())
         .held_to(printed(rectangles, "D2").g_by_A / printed(rectangles, "B2").g_by_A, source + ": widely different; table 12");
 }
 
-void put_mismatch_text(Outcome& out, const OurArrays& ours, const std::vector<double>& sigma) {
+void add_mismatch_text(Outcome& out, const OurArrays& ours, const std::vector<double>& sigma) {
     const std::string source = "thesis B.1";
     const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&printed(rectangles, name) - printed_rectangles)]; };
     for (const char* name : {"B2", "C2", "D2"})
-        out.claim(fmt::format("{}: deviation over A's, of a quarter of its area", name), of(name) / of("A"))
-            .held_to(0.5, source + ": half; errata U14: inversely to the root of the area, not proportional");
-    const double least = *std::min_element(sigma.begin(), sigma.end());
-    auto& c = out.finds("C1 has the least deviation", of("C1") == least, source);
+        out.claim(fmt::format("{}: deviation over A's, which has a quarter of its area", name), of(name) / of("A"))
+            .held_to(0.5, source + ": half; errata U14: inversely proportional to the square root of the area, not proportional");
+    const double smallest = *std::min_element(sigma.begin(), sigma.end());
+    auto& c = out.finds("C1 has the smallest deviation", of("C1") == smallest, source);
     if (c.needs_reason())
         c.because(
-            fmt::format("these draws know B1's {:.2f} % and C1's {:.2f} % to {:.1f} % of themselves and do not tell; by the card's law "
-                        "they are {:.2f} and {:.2f} %",
+            fmt::format("B1's deviation is {:.2f} % and C1's {:.2f} %; their uncertainty of {:.1f} % does not separate them. By the card's "
+                        "law they are {:.2f} and {:.2f} %",
                         of("B1"), of("C1"), known_to(), ours("B1").law(ours("B1").g_by_I()), ours("C1").law(ours("C1").g_by_I())));
 }
 
@@ -70,15 +76,14 @@ Result<Outcome> work(const StudyOptions&) {
     const auto sigma = mismatch_of(rectangles);
     if (!sigma) return sigma.error();
     put_mismatch(out, rectangles, *ours, *sigma);
-    put_errata(out);
-    put_text(out, *ours);
-    put_mismatch_text(out, *ours, *sigma);
+    add_errata(out);
+    add_text(out, *ours);
+    add_mismatch_text(out, *ours, *sigma);
     return out;
 }
 
 const Study study{
     "table12", "Ratios and mismatch of the rectangular arrays",
-    "g_mg/I_D, Early voltage, gain, n - 1, g_mg of an area and the mismatch (of 1000 draws there, of 2000 here). Thesis B.1, table 12",
-    work};
+    "g_mg/I_D, Early voltage, gain, n - 1, g_mg per area and mismatch (1000 samples in the thesis, 2000 here). Thesis B.1, table 12", work};
 
 }  // namespace corpuscle::studies::table12

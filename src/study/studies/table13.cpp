@@ -11,8 +11,8 @@ namespace corpuscle::studies::table13 {
 
 Result<Outcome> work(const StudyOptions&) {
     const auto found = arrays_of(trapezoids);
-    const auto short_ones = arrays_of(rectangles);
-    if (!found || !short_ones) return found ? short_ones.error() : found.error();
+    const auto rectangular = arrays_of(rectangles);
+    if (!found || !rectangular) return found ? rectangular.error() : found.error();
     const auto& ours = *found;
     Outcome out;
     put_sizes(out, trapezoids, ours);
@@ -22,23 +22,22 @@ Result<Outcome> work(const StudyOptions&) {
     out.finds("G1, G2 and G3 have the same active area", std::abs(A("G1") / A("G2") - 1) < 1e-9 && std::abs(A("G1") / A("G3") - 1) < 1e-9,
               source);
     const auto& A_T = [&](const char* name) { return ours(name).A_T; };
-    out.finds("E, G1, G2 and G3 have one total area by the rule of table 10",
+    out.finds("E, G1, G2 and G3 have the same total area by the rule of table 10",
               std::abs(A_T("G1") / A_T("E") - 1) < 1e-9 && A_T("G1") == A_T("G2") && A_T("G1") == A_T("G3"), source);
-    out.claim("G1's S_eq over that of one unit of eight in series", ours("G1").S / (*short_ones)("A").S)
+    out.claim("G1's S_eq over that of one unit transistor, eight in series", ours("G1").S / (*rectangular)("A").S)
         .held_to(0.125, source + ": a rectangular series array");
-    out.claim("G3's S_eq over A's", ours("G3").S / (*short_ones)("A").S).between(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");
+    out.claim("G3's S_eq over A's", ours("G3").S / (*rectangular)("A").S).between(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");
     out.note(
-        "F's two transistors have two lengths; its rectangle is that of two of their mean length with the gap of the others between them, "
-        "which is "
-        "too wide by what F's printed A_T has less: its two channels stand closer.");
+        "F's two transistors have different lengths. Its rectangle is computed as two transistors of their mean length with the usual "
+        "spacing. It is too wide by the amount that F's published A_T is smaller, because F's two channels are closer together.");
     out.note(
-        "Table 13 names F's transistor of 4.79 um M_D and G1's single unit M_S above its seven (errata U17, U17a): S_eq and areas are the "
-        "same "
-        "either way.");
+        "Table 13 calls F's transistor of 4.79 um M_D, and G1's single unit transistor above its seven M_S (errata U17, U17a). S_eq and "
+        "areas are the same for both namings.");
     return out;
 }
 
 const Study study{"table13", "Sizes of the trapezoidal arrays",
-                  "Equivalent aspect ratios, active and total areas of five arrays of one total area. Thesis B.2, eq. 32, table 13", work};
+                  "Equivalent aspect ratios, active and total areas of five arrays with equal total area. Thesis B.2, eq. 32, table 13",
+                  work};
 
 }  // namespace corpuscle::studies::table13

@@ -1,4 +1,4 @@
-// Table 14: currents and small signals of the trapezoidal arrays; the unit of its g_md; which of F's transistors is at the drain.
+// Table 14: currents and small signals of the trapezoidal arrays, the unit of its g_md, and which of F's transistors is at the drain.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 namespace corpuscle::studies::table14 {
 
-/// F either way (errata U17).
-Result<void> put_f(Outcome& out) {
+/// F in both orientations (errata U17).
+Result<void> add_f(Outcome& out) {
     const auto& f = printed(trapezoids, "F");
-    const Meant ways[] = {{&f, "xf"}, {&f, "xf_printed"}};
-    const auto ours = arrays_of(trapezoids.circuit, ways);
+    const Meant orientations[] = {{&f, "xf"}, {&f, "xf_printed"}};
+    const auto ours = arrays_of(trapezoids.circuit, orientations);
     if (!ours) return ours.error();
     const char* names[] = {"F, the short transistor at the drain as in the text", "F, the short transistor at the source as in table 13"};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -20,28 +20,30 @@ Result<void> put_f(Outcome& out) {
         out.claim(fmt::format("{}: I_D", names[k]), a.I_D, "A").printed_as(1e-6 * f.I_D, "table 14");
         auto& c =
             out.claim(fmt::format("{}: g_md", names[k]), a.g_md, "S").printed_as(1e-10 * f.g_md, "table 14, divided by ten: errata U8");
-        if (c.needs_reason()) c.because("one V_E for all lengths is too simple; this far off, neither way is ruled out");
+        if (c.needs_reason()) c.because("one V_E for all lengths is too simple; with this error neither orientation is ruled out");
     }
     return {};
 }
 
 Result<Outcome> work(const StudyOptions&) {
     const auto found = arrays_of(trapezoids);
-    const auto short_ones = arrays_of(rectangles);
-    if (!found || !short_ones) return found ? short_ones.error() : found.error();
+    const auto rectangular = arrays_of(rectangles);
+    if (!found || !rectangular) return found ? rectangular.error() : found.error();
     Outcome out;
     put_small_signals(out, trapezoids, *found);
-    if (auto ok = put_f(out); !ok) return ok.error();
-    out.claim("G3's drain current over A's", (*found)("G3").I_D / (*short_ones)("A").I_D)
+    if (auto ok = add_f(out); !ok) return ok.error();
+    out.claim("G3's drain current over A's", (*found)("G3").I_D / (*rectangular)("A").I_D)
         .held_to(printed(trapezoids, "G3").I_D / printed(rectangles, "A").I_D, "thesis B.2: similar; tables 14 and 11");
-    put_sum_rule(out, trapezoids, 1e-9, "errata U8: a tenth of what is printed, in nS");
+    put_sum_rule(out, trapezoids, 1e-9, "errata U8: a tenth of the printed value, in nS");
     double worst = 0;
     for (const auto& a : *found) worst = std::max(worst, std::abs((a.g_mg + a.g_md + a.g_mb) / a.g_ms - 1));
-    out.claim("Ours: the sum misses g_ms at most by", 100 * worst, "%").at_most(1e-4, "eq. 27, to what is solved");
+    out.claim("simulated: largest error of the sum against g_ms", 100 * worst, "%")
+        .at_most(1e-4, "eq. 27, to the accuracy of the solution");
     return out;
 }
 
-const Study study{"table14", "Currents and small signals of the trapezoidal arrays",
-                  "Five arrays at V_G = V_D = 0.5 V; their slopes tell that a column is ten times too large. Thesis B.2, table 14", work};
+const Study study{
+    "table14", "Currents and small signals of the trapezoidal arrays",
+    "Five arrays at V_G = V_D = 0.5 V; the sums of their slopes show that a column is ten times too large. Thesis B.2, table 14", work};
 
 }  // namespace corpuscle::studies::table14

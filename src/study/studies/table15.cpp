@@ -1,4 +1,4 @@
-// Table 15: ratios and mismatch of the trapezoidal arrays, and what the text makes of them.
+// Table 15: ratios and mismatch of the trapezoidal arrays, and the statements of the text on them.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,104 +10,102 @@
 
 namespace corpuscle::studies::table15 {
 
-void put_errata(Outcome& out) {
-    put_ratio_rule(out, trapezoids, 1e-9, "errata U8: g_md a tenth of what table 14 prints");
+void add_errata(Outcome& out) {
+    put_ratio_rule(out, trapezoids, 1e-9, "errata U8: g_md is a tenth of the value in table 14");
     for (const auto& a : printed_trapezoids) {
         out.claim(fmt::format("{}: g_mg over A (table 13), as printed", a.name), 1e-6 * a.g_mg / a.A, "S/um^2")
-            .printed_as(1e-6 * a.g_by_A, "table 15, its nS read as uS: errata U9");
+            .printed_as(1e-6 * a.g_by_A, "table 15, nS corrected to uS: errata U9");
         out.claim(fmt::format("{}: g_mb/g_mg by table 14 as printed", a.name), a.g_mb / a.g_mg).printed_as(a.slope, "table 15, errata U5");
     }
 }
 
-void put_text(Outcome& out, const OurArrays& ours, const OurArrays& short_ones) {
+void add_text(Outcome& out, const OurArrays& ours, const OurArrays& rectangular) {
     const std::string source = "thesis B.2";
     const auto gain = [&](const char* name) { return ours(name).gain(); };
     const auto V_A = [&](const char* name) { return ours(name).V_A(); };
-    out.claim("G3's V_A over A's", V_A("G3") / short_ones("A").V_A()).printed_as(10, source);
+    out.claim("G3's V_A over A's", V_A("G3") / rectangular("A").V_A()).printed_as(10, source);
     out.claim("F's V_A over E's", V_A("F") / V_A("E"))
         .held_to(33.38 / 37.82, source + ": similar; table 15")
-        .because("with the short transistor at the source it would be nearer, see below");
+        .because("the ratio is closer with the short transistor at the source, see below");
     out.finds("F's gain is slightly lower than E's", gain("F") < gain("E"), source);
-    out.finds("G1's gain is considerably smaller than E's", gain("G1") < gain("E") - 3, source + "; 3 dB here, 7 printed");
-    const auto best = std::max_element(ours.begin(), ours.end(), [](const auto& a, const auto& b) { return a.gain() < b.gain(); });
-    out.finds("G2 has the largest gain", best->printed->name == std::string_view("G2"), source);
+    out.finds("G1's gain is considerably smaller than E's", gain("G1") < gain("E") - 3, source + "; 3 dB here, 7 dB published");
+    const auto highest_gain = std::max_element(ours.begin(), ours.end(), [](const auto& a, const auto& b) { return a.gain() < b.gain(); });
+    out.finds("G2 has the largest gain", highest_gain->printed->name == std::string_view("G2"), source);
 }
 
-void put_mismatch_text(Outcome& out, const std::vector<double>& sigma, double of_a) {
+void add_mismatch_text(Outcome& out, const std::vector<double>& sigma, double of_a) {
     const std::string source = "thesis B.2";
     const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&printed(trapezoids, name) - printed_trapezoids)]; };
     out.claim("E's deviation over G1's", of("E") / of("G1")).held_to(2.36 / 5.77, source + ": half; table 15").because("");
     out.claim("E's deviation over G1's, by the areas of table 13", std::sqrt(0.6048 / 2.1924))
         .held_to(2.36 / 5.77, "errata U18: 3.63 times the area")
-        .because("and E is the further inverted: its g_mg/I_D is the smaller");
-    out.finds("G3's is much greater than G1's and G2's", of("G3") > 1.5 * std::max(of("G1"), of("G2")),
-              source + "; half as much again here, twice printed");
-    auto& g3 = out.claim("G3's over A's", of("G3") / of_a).held_to(14.9 / 15.6, source + ": similar; tables 15 and 12");
-    if (g3.needs_reason()) g3.because("as G3's own: its unit at the source is not quite saturated");
-    out.claim("G2's over G1's", of("G2") / of("G1")).held_to(7.46 / 5.77, source + ": slightly more; table 15");
+        .because("in addition E is in stronger inversion with a lower g_mg/I_D");
+    out.finds("G3's deviation is much larger than G1's and G2's", of("G3") > 1.5 * std::max(of("G1"), of("G2")),
+              source + "; a factor of 1.5 here, 2 as published");
+    auto& g3 = out.claim("G3's deviation over A's", of("G3") / of_a).held_to(14.9 / 15.6, source + ": similar; tables 15 and 12");
+    if (g3.needs_reason()) g3.because("as for G3 itself: its unit transistor at the source is not fully saturated");
+    out.claim("G2's deviation over G1's", of("G2") / of("G1")).held_to(7.46 / 5.77, source + ": slightly more; table 15");
 }
 
-/// F with the short transistor at the source, as table 13 labels it, in the last place (errata U17).
-void put_f(Outcome& out, const OurArrays& ways, const std::vector<double>& sigma) {
-    const auto &e = ways[0], &text = ways[1], &table = ways.back();
+/// F with the short transistor at the source, as labelled in table 13; the last array (errata U17).
+void add_f(Outcome& out, const OurArrays& orientations, const std::vector<double>& sigma) {
+    const auto &e = orientations[0], &text = orientations[1], &table = orientations.back();
     const auto& f = *text.printed;
     const double of_text = sigma[1], of_table = sigma.back();
-    const auto below = [&](const char* what, const OurArray& way) -> Claim& {
-        return out.claim(fmt::format("F, its short transistor at the {}: gain below E's", what), e.gain() - way.gain(), "dB")
+    const auto add_gain_claim = [&](const char* what, const OurArray& array) -> Claim& {
+        return out.claim(fmt::format("F, short transistor at the {}: gain of E minus gain of F", what), e.gain() - array.gain(), "dB")
             .held_to(printed(trapezoids, "E").gain - f.gain, "thesis B.2: slightly lower; table 15");
     };
-    out.claim("F, its short transistor at the source as in table 13: deviation of I_D", of_table, "%").printed_as(f.sigma, "table 15");
-    if (auto& c = below("source as in table 13", table); c.needs_reason())
-        c.because("a small difference of gains whose V_A are each off as above");
-    if (auto& c = below("drain as in the text", text); c.needs_reason())
-        c.because(
-            "the short transistor bears the drain's voltage, and its own length is modulated; why the thesis's does not is not known");
+    out.claim("F, short transistor at the source as in table 13: deviation of I_D", of_table, "%").printed_as(f.sigma, "table 15");
+    if (auto& c = add_gain_claim("source as in table 13", table); c.needs_reason())
+        c.because("a small difference of gains, whose V_A differ as above");
+    if (auto& c = add_gain_claim("drain as in the text", text); c.needs_reason())
+        c.because("the short transistor has the drain voltage and full length modulation; why the thesis's does not is not known");
     out.finds(
-        "Table 15's deviation and gain of F are nearer with the short transistor at the source",
+        "table 15's deviation and gain of F are closer with the short transistor at the source",
         std::abs(of_table - f.sigma) < std::abs(of_text - f.sigma) && std::abs(table.gain() - f.gain) < std::abs(text.gain() - f.gain),
         "table 13's labels, against the text of B.2 and errata U17");
 }
 
 /// "The solution is to increase M_D width": F's short transistor at the drain, eight times as wide.
-Result<void> put_wider(Outcome& out, double gain_of_f, double gain_of_e) {
+Result<void> add_wider(Outcome& out, double gain_of_f, double gain_of_e) {
     const auto found = found_in({trapezoids.circuit, {"xf.mg1.m=8", "xf.md1.m=8"}, ".op\n.tf i(xf.vg) vi\n.tf i(xf.vd) vi"});
     if (!found) return found.error();
     const double gain = 20 * std::log10(found->by("i(xf.vg)", "vi") / found->by("i(xf.vd)", "vi"));
-    out.claim("F, its transistor at the drain eight times as wide: gain above what it was", gain - gain_of_f, "dB")
+    out.claim("F, its transistor at the drain eight times as wide: increase of the gain", gain - gain_of_f, "dB")
         .at_least(0, "thesis B.2: a wider M_D is the solution");
-    out.claim("The same: gain above E's", gain - gain_of_e, "dB").at_least(0, "thesis B.2");
+    out.claim("the same: gain minus E's", gain - gain_of_e, "dB").at_least(0, "thesis B.2");
     if (auto& c = out.claims.back(); c.needs_reason())
-        c.because("at the drain the short transistor's own modulation is what is left, one V_E for all lengths");
+        c.because("the length modulation of the short transistor at the drain remains, with one V_E for all lengths");
     return {};
 }
 
 Result<Outcome> work(const StudyOptions&) {
-    auto meant = all_meant(trapezoids);
-    meant.push_back({&printed(trapezoids, "F"), "xf_printed"});
-    auto ours = arrays_of(trapezoids.circuit, meant);
-    const auto short_ones = arrays_of(rectangles);
-    if (!ours || !short_ones) return ours ? short_ones.error() : ours.error();
-    auto sigma = mismatch_of(trapezoids.circuit, meant);
+    auto matches = all_meant(trapezoids);
+    matches.push_back({&printed(trapezoids, "F"), "xf_printed"});
+    auto ours = arrays_of(trapezoids.circuit, matches);
+    const auto rectangular = arrays_of(rectangles);
+    if (!ours || !rectangular) return ours ? rectangular.error() : ours.error();
+    auto sigma = mismatch_of(trapezoids.circuit, matches);
     const Meant a{&printed(rectangles, "A"), "xa"};
     const auto of_a = mismatch_of(rectangles.circuit, {&a, 1});
     if (!sigma || !of_a) return sigma ? of_a.error() : sigma.error();
-    Outcome ways;
-    put_f(ways, *ours, *sigma);
-    if (auto ok = put_wider(ways, (*ours)[1].gain(), (*ours)[0].gain()); !ok) return ok.error();
+    Outcome orientations;
+    add_f(orientations, *ours, *sigma);
+    if (auto ok = add_wider(orientations, (*ours)[1].gain(), (*ours)[0].gain()); !ok) return ok.error();
     ours->pop_back(), sigma->pop_back();
     Outcome out;
     put_ratios(out, trapezoids, *ours);
     put_mismatch(out, trapezoids, *ours, *sigma);
-    put_errata(out);
-    put_text(out, *ours, *short_ones);
-    put_mismatch_text(out, *sigma, of_a->front());
-    out.claims.insert(out.claims.end(), ways.claims.begin(), ways.claims.end());
+    add_errata(out);
+    add_text(out, *ours, *rectangular);
+    add_mismatch_text(out, *sigma, of_a->front());
+    out.claims.insert(out.claims.end(), orientations.claims.begin(), orientations.claims.end());
     return out;
 }
 
 const Study study{
     "table15", "Ratios and mismatch of the trapezoidal arrays",
-    "g_mg/I_D, Early voltage, gain, n - 1, g_mg of an area and the mismatch (of 1000 draws there, of 2000 here). Thesis B.2, table 15",
-    work};
+    "g_mg/I_D, Early voltage, gain, n - 1, g_mg per area and mismatch (1000 samples in the thesis, 2000 here). Thesis B.2, table 15", work};
 
 }  // namespace corpuscle::studies::table15

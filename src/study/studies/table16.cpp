@@ -1,4 +1,4 @@
-// Tables 16, 19 and 20: the arrays of the bias generator and of the three inverters, as built.
+// Tables 16, 19 and 20: the arrays of the bias generator and of the three inverters, compared with the netlists.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -9,14 +9,14 @@
 
 namespace corpuscle::studies::table16 {
 
-/// A row as it is printed: m columns of n units of W by L, um; and whom it sizes in one of our netlists.
-struct Row {
+/// A row as printed: m columns of n unit transistors of W by L, um; and the devices in one of our netlists that it sizes.
+struct SizeRow {
     const char *table, *name;
     double m, n, W, L;
     const char *circuit, *devices;
-    const char* otherwise = "";  ///< by which erratum they are built otherwise
+    const char* erratum = "";  ///< erratum for which they are built differently
 };
-constexpr Row rows[] = {
+constexpr SizeRow rows[] = {
     {"16", "M1A-B", 2, 8, 6.0, 0.5, "bias", "m1a m1b"},
     {"16", "M2A-B", 2, 8, 1.5, 0.5, "bias", "m2a m2b"},
     {"16", "M3A,B", 2, 8, 6.0, 0.5, "bias", "m3a m3b"},
@@ -41,28 +41,30 @@ constexpr Row rows[] = {
 const circuit::Element& element_of(const circuit::Circuit& c, const std::string& name) {
     return c.elements[static_cast<std::size_t>(c.element(name))];
 }
-double number(const circuit::Element& e, const char* name) {
+double value_or_1(const circuit::Element& e, const char* name) {
     const auto found = e.values.find(name);
     return found == e.values.end() ? 1 : found->second;  // m, stack
 }
-double gates(const circuit::Element& e) { return 1e12 * number(e, "m") * number(e, "stack") * number(e, "w") * number(e, "l"); }  // um^2
+double gate_area(const circuit::Element& e) {
+    return 1e12 * value_or_1(e, "m") * value_or_1(e, "stack") * value_or_1(e, "w") * value_or_1(e, "l");
+}  // um^2
 
-/// Whether all of a row's devices are as it says; their gates' area is added.
-bool as_printed(const Row& row, const circuit::Circuit& c, double& area) {
+/// True if all devices of a row have the printed sizes; adds their gate area to `area`.
+bool as_printed(const SizeRow& row, const circuit::Circuit& c, double& area) {
     bool all = true;
     std::istringstream names(row.devices);
     for (std::string name; names >> name;) {
         const auto& e = element_of(c, name);
-        const double made[] = {number(e, "m"), number(e, "stack"), 1e6 * number(e, "w"), 1e6 * number(e, "l")};
+        const double built[] = {value_or_1(e, "m"), value_or_1(e, "stack"), 1e6 * value_or_1(e, "w"), 1e6 * value_or_1(e, "l")};
         const double printed[] = {row.m, row.n, row.W, row.L};
-        for (int k = 0; k < 4; ++k) all = all && std::abs(made[k] - printed[k]) < 1e-9;
-        area += gates(e);
+        for (int k = 0; k < 4; ++k) all = all && std::abs(built[k] - printed[k]) < 1e-9;
+        area += gate_area(e);
     }
     return all;
 }
 
-/// What M6 does to INVC: by how much it is a different current at both rails.
-Result<void> lopsided(Outcome& out) {
+/// Effect of M6 on INVC: the ratio of its currents at both rails.
+Result<void> add_symmetry(Outcome& out) {
     double ratios[2];
     for (const bool printed : {false, true}) {
         std::vector<std::string> settings;
@@ -72,11 +74,11 @@ Result<void> lopsided(Outcome& out) {
         const auto I = found->line("dc", "i(vhalf)");
         ratios[printed] = std::abs(I.y.back() / I.y.front());
     }
-    out.claim("INVC with M6 as built: current out at V_IN = V_DD over that at 0", ratios[0], "times")
+    out.claim("INVC with M6 as built: output current at V_IN = V_DD over that at 0", ratios[0], "times")
         .held_to(1, "fig. 60a: the exact same shape as INVB's");
     out.claim("INVC with M6 as printed: the same", ratios[1], "times")
         .between(0.9, 1.1, "fig. 60a: as INVB's, which is symmetric")
-        .because("M6 as printed divides by 8 where M5 divides by 64: errata S7");
+        .because("M6 as printed divides by 8, but M5 by 64: errata S7");
     return {};
 }
 
@@ -87,24 +89,24 @@ Result<Outcome> work(const StudyOptions& options) {
     for (const auto& row : rows) {
         auto& c = circuits[row.circuit];
         if (!c) {
-            auto made = circuit_of({row.circuit});
-            if (!made) return made.error();
-            c = std::move(*made);
+            auto built = circuit_of({row.circuit});
+            if (!built) return built.error();
+            c = std::move(*built);
         }
         const auto source = fmt::format("table {}", row.table);
         auto& area = areas[std::string_view(row.name).starts_with("INV") ? std::string(row.name, 4) : source];
         auto& claim = out.finds(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
                                 as_printed(row, *c, area), source);
-        if (claim.needs_reason()) claim.because(fmt::format("errata {}", row.otherwise));
+        if (claim.needs_reason()) claim.because(fmt::format("errata {}", row.erratum));
     }
-    out.claim("gates of the bias generator", areas["table 16"], "um^2");
-    out.claim("gates of INVA", areas["INVA"], "um^2");
-    out.claim("gates of INVB over INVA's", areas["INVB"] / areas["INVA"], "times").printed_as(3, "E.3: three times more area");
-    out.claim("gates of INVC over INVA's", areas["table 20"] / areas["INVA"], "times");
-    if (auto ok = lopsided(out); !ok) return ok.error();
+    out.claim("gate area of the bias generator", areas["table 16"], "um^2");
+    out.claim("gate area of INVA", areas["INVA"], "um^2");
+    out.claim("gate area of INVB over INVA's", areas["INVB"] / areas["INVA"], "times").printed_as(3, "E.3: three times more area");
+    out.claim("gate area of INVC over INVA's", areas["table 20"] / areas["INVA"], "times");
+    if (auto ok = add_symmetry(out); !ok) return ok.error();
     out.note(
-        "The text's replica of M4A and M5C is M4C and M5B (errata I6): table 16 has no M5C, and M4A and M5A set BN and BP. Table 19's "
-        "caption is table 16's (errata I12).");
+        "The replica that the text calls M4A and M5C is M4C and M5B (errata I6): table 16 has no M5C, and M4A and M5A set BN and BP. Table "
+        "19 has the caption of table 16 (errata I12).");
     return options.at(1) ? Result<Outcome>(out) : options.at(1).error();
 }
 

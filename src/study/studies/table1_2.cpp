@@ -1,4 +1,4 @@
-// Tables 1 and 2: the sizes of the transducer and of its amplifier, as the netlists have them.
+// Tables 1 and 2: the sizes of the transducer and of its amplifier, compared with the netlists.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace corpuscle::studies::table1_2 {
 
-struct Row {
-    const char *table, *name, *devices;  // as printed; as parts/transducer.inc names them, by their ends
-    double m, n, W;                      // columns, units in series, um
-    const char* why = "";
+struct SizeRow {
+    const char *table, *name, *devices;  // name as printed; device names in parts/transducer.inc, by their endings
+    double m, n, W;                      // columns, unit transistors in series, um
+    const char* reason = "";
 };
-constexpr Row rows[] = {
+constexpr SizeRow rows[] = {
     {"1", "M_1", "x.mn1", 4, 4, 1.5},
     {"1", "M_2", "x.mn2", 16, 1, 1.5},
     {"1", "M_1 (M_3, errata F9)", "x.mn3", 8, 1, 1.5},
@@ -21,26 +21,26 @@ constexpr Row rows[] = {
     {"2", "M_2A-E", "xamp.mp2a xamp.mp2b xamp.mp2c xamp.mp2d xamp.mp2e", 16, 1, 6},
     {"2", "M_1F", "xamp.mp1f", 8, 1, 6},
     {"2", "M_2F", "xamp.mp2f", 8, 1, 6},
-    {"2", "M_3A-B", "xamp.mp3a xamp.mp3b", 16, 1, 1.5, "an N width, but V_CM of 0.1 V asks for a pair of P (errata F10a)"},
-    {"2", "M_3C-D", "xamp.mp3c xamp.mp3d", 16, 1, 1.5, "as the pair whose bulks they bias"},
+    {"2", "M_3A-B", "xamp.mp3a xamp.mp3b", 16, 1, 1.5, "an NMOS width, but V_CM of 0.1 V requires a PMOS pair (errata F10a)"},
+    {"2", "M_3C-D", "xamp.mp3c xamp.mp3d", 16, 1, 1.5, "same as the pair whose bulks they bias"},
     {"2", "M_4A, B (printed A-E, errata F10)", "xamp.mn4a xamp.mn4b", 4, 4, 1.5},
     {"2", "M_5A, B (printed A-E, errata F10)", "xamp.mn5a xamp.mn5b", 16, 1, 1.5},
     {"2", "M_4C", "xamp.mn4c", 8, 1, 1.5},
     {"2", "M_5C", "xamp.mn5c", 8, 1, 1.5},
 };
 
-double said(const circuit::Element& e, const char* name) {
+double value_or_1(const circuit::Element& e, const char* name) {
     const auto at = e.values.find(name);
     return at == e.values.end() ? 1 : at->second;
 }
 
-const circuit::Element* named(const circuit::Circuit& circuit, const std::string& end) {
+const circuit::Element* find_device(const circuit::Circuit& circuit, const std::string& end) {
     for (const auto& e : circuit.elements)
         if (e.letter == 'm' && ("." + e.name).ends_with("." + end)) return &e;
     return nullptr;
 }
 
-std::vector<std::string> words_of(std::string_view text) {
+std::vector<std::string> split_words(std::string_view text) {
     std::vector<std::string> out(1);
     for (const char c : text) c == ' ' ? void(out.emplace_back()) : out.back().push_back(c);
     return out;
@@ -52,23 +52,24 @@ Result<Outcome> work(const StudyOptions&) {
     if (!circuit) return circuit.error();
     for (const auto& row : rows) {
         double m = Claim::none, n = Claim::none, W = Claim::none;
-        bool alike = true;
-        for (const auto& name : words_of(row.devices)) {
-            const auto* e = named(**circuit, name);
+        bool matches = true;
+        for (const auto& name : split_words(row.devices)) {
+            const auto* e = find_device(**circuit, name);
             if (e == nullptr) return Error{Code::bad_input, fmt::format("transducer: no transistor {}", name)};
             const bool first = m != m;
-            if (first) m = said(*e, "m"), n = said(*e, "stack"), W = said(*e, "w");
-            alike = alike && said(*e, "m") == m && said(*e, "stack") == n && said(*e, "w") == W && said(*e, "l") == 0.5e-6;
+            if (first) m = value_or_1(*e, "m"), n = value_or_1(*e, "stack"), W = value_or_1(*e, "w");
+            matches = matches && value_or_1(*e, "m") == m && value_or_1(*e, "stack") == n && value_or_1(*e, "w") == W &&
+                      value_or_1(*e, "l") == 0.5e-6;
         }
-        alike = alike && m == row.m && n == row.n && W == row.W * 1e-6;
-        auto& c = out.finds(fmt::format("{}: {:g} by {:g} of {:g}/0.5 um", row.name, row.m, row.n, row.W), alike,
+        matches = matches && m == row.m && n == row.n && W == row.W * 1e-6;
+        auto& c = out.finds(fmt::format("{}: {:g} by {:g} of {:g}/0.5 um", row.name, row.m, row.n, row.W), matches,
                             fmt::format("table {}", row.table));
-        c.if_off(row.why);
+        c.if_off(row.reason);
     }
     const auto& all = (*circuit)->elements;
     const auto of_width = [&](const char* type, double W) {
         return std::all_of(all.begin(), all.end(), [&](const auto& e) {
-            return e.letter != 'm' || (*circuit)->models[static_cast<std::size_t>(e.model)].type != type || said(e, "w") == W;
+            return e.letter != 'm' || (*circuit)->models[static_cast<std::size_t>(e.model)].type != type || value_or_1(e, "w") == W;
         });
     };
     out.finds("every PMOS has W = 6 um", of_width("pmos", 6e-6), "thesis 4.2");
@@ -77,6 +78,7 @@ Result<Outcome> work(const StudyOptions&) {
 }
 
 const Study study{"table1-2", "Sizes of the transducer and its amplifier",
-                  "Arrays of m columns of n units, every PMOS 6 um and every NMOS 1.5 um wide. Thesis 4.2, tables 1 and 2", work};
+                  "Arrays of m columns of n unit transistors; every PMOS is 6 um and every NMOS 1.5 um wide. Thesis 4.2, tables 1 and 2",
+                  work};
 
 }  // namespace corpuscle::studies::table1_2

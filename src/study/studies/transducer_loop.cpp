@@ -1,4 +1,4 @@
-// Is the transducer's loop stable, from no force to ten times the press? Opened at the amplifier's inverting input
+// Stability of the transducer's loop from no force to ten times the stimulus. The loop is opened at the amplifier's inverting input
 // (circuits/transducer_loop.cir), with and without a capacitance at the sensor.
 
 #include <fmt/format.h>
@@ -10,19 +10,20 @@
 
 namespace corpuscle::studies::transducer_loop {
 
-/// The loop's gain at 10 Hz and phase margin over the force, with what capacitance the sensor and its wire may have (the netlist has none).
+/// The loop's gain at 10 Hz and its phase margin over the force, for possible capacitances of the sensor and its wire (the netlist has
+/// none).
 struct Loops {
     static constexpr const char* capacitances[] = {"1f", "10p", "100p"};
     Line gain, margins[3];
 
-    static std::string words(std::size_t k) {
+    static std::string description(std::size_t k) {
         return k == 0 ? "without capacitance" : fmt::format("with {}F at the sensor", capacitances[k]);
     }
     Result<void> add(double newtons) {
-        std::string orders;
+        std::string directives;
         for (std::size_t k = 0; k < 3; ++k)
-            orders += fmt::format("xf{0} f{0} vdd vy opened force={1}\nc{0} f{0} 0 {2}\n", k, newtons, capacitances[k]);
-        const auto found = found_in({"transducer_loop", {}, orders + ".ac dec 20 10 10meg"});
+            directives += fmt::format("xf{0} f{0} vdd vy opened force={1}\nc{0} f{0} 0 {2}\n", k, newtons, capacitances[k]);
+        const auto found = found_in({"transducer_loop", {}, directives + ".ac dec 20 10 10meg"});
         if (!found) return found.error();
         gain.x.push_back(newtons), gain.y.push_back(20 * std::log10(found->line("ac", "vm(f0)").at(10)));
         for (std::size_t k = 0; k < 3; ++k) {
@@ -43,27 +44,26 @@ Result<Outcome> work(const StudyOptions& options) {
     Plot& margins = out.plot("Phase margin of the transducer's loop", "force (N)", "degrees");
     margins.log_x = true;
     for (std::size_t k = 0; k < 3; ++k) {
-        margins.add(Loops::words(k), loops.margins[k]);
-        out.claim(fmt::format("least phase margin from 0.02 to 40 N, {}", Loops::words(k)), loops.margins[k].least(), "degrees")
-            .at_least(45, "thesis 4.2: a \"negative feedback loop\"; 45 degrees are stated here")
+        margins.add(Loops::description(k), loops.margins[k]);
+        out.claim(fmt::format("smallest phase margin from 0.02 to 40 N, {}", Loops::description(k)), loops.margins[k].least(), "degrees")
+            .at_least(45, "thesis 4.2: a \"negative feedback loop\"; 45 degrees is our choice")
             .if_off(
-                "stable, but it rings: the sensor's node is a second pole, as nothing printed compensates it. Nothing is printed of the "
-                "sensor's and "
-                "its wire's capacitance, and the netlists have none");
+                "stable, but it rings: the sensor's node is a second pole, and no published part compensates it. The capacitance of the "
+                "sensor and its wire is not published, and the netlists have none");
     }
-    const double within = 20 * std::log10(20);
-    out.claim("gain of the loop at 0.2 N", loops.gain.at(0.2), "dB").at_least(within, "V_X within 5 % of V_Y, as in fig22");
-    out.claim("gain of the loop at 4 N", loops.gain.at(4), "dB").at_least(within, "V_X within 5 % of V_Y, as in fig22");
-    out.claim("gain of the loop at 40 N", loops.gain.at(40), "dB");
-    Plot& gain = out.plot("Gain of the loop at 10 Hz", "force (N)", "dB");
+    const double min_gain = 20 * std::log10(20);
+    out.claim("loop gain at 0.2 N", loops.gain.at(0.2), "dB").at_least(min_gain, "V_X within 5 % of V_Y, as in fig22");
+    out.claim("loop gain at 4 N", loops.gain.at(4), "dB").at_least(min_gain, "V_X within 5 % of V_Y, as in fig22");
+    out.claim("loop gain at 40 N", loops.gain.at(40), "dB");
+    Plot& gain = out.plot("Loop gain at 10 Hz", "force (N)", "dB");
     gain.log_x = true;
     gain.add("loop", loops.gain);
     return out;
 }
 
-const Study study{"transducer-loop", "The transducer's loop along the force",
-                  "The amplifier \"provides a feedback loop control to force V_X to follow V_Y\" (thesis 4.2); nothing is printed of its "
-                  "gain or stability",
-                  work};
+const Study study{
+    "transducer-loop", "The transducer's loop over the force",
+    "The amplifier \"provides a feedback loop control to force V_X to follow V_Y\" (thesis 4.2); its gain and stability are not published",
+    work};
 
 }  // namespace corpuscle::studies::transducer_loop

@@ -1,6 +1,6 @@
 #pragma once
-// The thesis's algorithms over samples, as its errata mend them: what a misprinted one is shown beside. The models themselves are those of
-// the catalogue (press::as_algorithm), which are held against these in test/model/thesis_test.cpp.
+// The thesis's algorithms over samples, corrected as its errata say; reference for the misprinted versions. The catalogue holds the models
+// (press::thesis_algorithm). test/model/thesis_test.cpp compares them with these algorithms.
 
 #include <vector>
 
@@ -19,7 +19,7 @@ struct Fired {
 /// Algorithm 4: u[n] = u[n-1] + (T / C) (I[n] - I_leak0).
 Fired lif_b(const Line& current, const Membrane&);
 
-/// k_x1 = K k_x2 and k_x2 of Algorithms 5 and 6 for a corner f (Hz).
+/// Factor k_x2 of Algorithms 5 and 6 for a corner frequency f (Hz) and a time step T (s); k_x1 = K k_x2.
 double k2(double f, double T);
 
 }  // namespace corpuscle::algorithms

@@ -14,10 +14,10 @@ namespace corpuscle {
 namespace {
 
 constexpr double um2 = 1e-12, half_volt = 0.5;
-constexpr int chips = 2000;  // of the thesis 1000
+constexpr int chips = 2000;  // the thesis has 1000
 
-/// Each array is there thrice: its gate, its drain or its bulk moves with vi; with vh gate and drain do.
-std::string slopes_of(const std::string& array) {
+/// The netlist holds three copies of each array: vi moves the gate, the drain or the bulk; vh moves gate and drain.
+std::string slope_directives(const std::string& array) {
     return fmt::format(".tf i({0}.vg) vi\n.tf i({0}.vd) vi\n.tf i({0}.vb) vi\n.tf i({0}.vb) vh\n", array);
 }
 
@@ -26,9 +26,9 @@ double value(const circuit::Element& e, const char* name, double otherwise) {
     return found == e.values.end() ? otherwise : found->second;
 }
 
-/// Of the copy whose gate moves: its transistors stand one above the other.
-void size(OurArray& out, const circuit::Circuit& circuit, const std::string& array) {
-    double per_S = 0;
+/// Sizes are those of the copy whose gate moves; its transistors are in series.
+void measure_size(OurArray& out, const circuit::Circuit& circuit, const std::string& array) {
+    double inverse_S = 0;
     for (const auto& e : circuit.elements) {
         if (!e.name.starts_with(array + ".mg")) continue;
         const double m = value(e, "m", 1), n = value(e, "stack", 1), L = value(e, "l", 0);
@@ -36,30 +36,29 @@ void size(OurArray& out, const circuit::Circuit& circuit, const std::string& arr
         const auto& card = circuit.models[static_cast<std::size_t>(e.model)].values;
         out.A_VT = card.at("avt"), out.A_IS = card.at("ais");
         const double W = out.W = value(e, "w", 0);
-        per_S += n * L / (m * W), out.A += m * n * W * L;
+        inverse_S += n * L / (m * W), out.A += m * n * W * L;
     }
-    out.S = 1 / per_S;
+    out.S = 1 / inverse_S;
     const double rows = out.printed->rows, columns = out.printed->columns;
     out.A_T = circuit::rectangle_area(out.W, out.A / (out.W * rows * columns), rows, columns);
 }
 
-/// What V_T as printed, taken for V_T0 of the plain equations, makes of g_mg/I_D in saturation.
-double g_by_I_with_printed_threshold(const PrintedArray& p) {
+/// g_mg/I_D in saturation by the equations of appendix A if the printed V_T is taken as V_T0.
+double g_by_I_with_published_threshold(const PrintedArray& p) {
     const double v_t = circuit::thermal_voltage(300.15), n = 1 + p.slope;
     const double q = circuit::inversion((half_volt - 1e-3 * p.V_T) / (n * v_t) + 1);
     return 2 / (n * v_t * (q + 2));
 }
 
-std::string of_early_voltage(const OurArray&) {
-    return "V_A = V_E L with one V_E, fitted to the seven arrays of the shortest unit, is too simple for what the foundry's model does";
+std::string early_voltage_reason(const OurArray&) {
+    return "V_A = V_E L with a single V_E, fitted to the seven arrays of the shortest unit transistor, is simpler than the foundry's model";
 }
 
-std::string of_threshold(const OurArray& a) {
+std::string threshold_reason(const OurArray& a) {
     return fmt::format(
-        "another definition: the simulator's V_T at its operating point; taken for V_T0 it would make g_mg/I_D {:.1f} 1/V in the equations "
-        "of "
-        "appendix A, where {:.2f} 1/V is printed",
-        g_by_I_with_printed_threshold(*a.printed), a.printed->g_by_I);
+        "another definition: the simulator's V_T at its operating point. Used as V_T0 in the equations of appendix A it would give "
+        "g_mg/I_D = {:.1f} 1/V, but {:.2f} 1/V is printed",
+        g_by_I_with_published_threshold(*a.printed), a.printed->g_by_I);
 }
 
 }  // namespace
@@ -86,30 +85,30 @@ double known_to() { return 100 / std::sqrt(2.0 * chips); }
 
 Result<OurArrays> arrays_of(const PrintedArrays& all) { return arrays_of(all.circuit, all_meant(all)); }
 
-Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant> meant) {
-    std::string orders = ".op\n";
-    for (const auto& one : meant) orders += slopes_of(one.ours);
-    const auto found = found_in({circuit, {}, orders});
+Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant> matches) {
+    std::string directives = ".op\n";
+    for (const auto& match : matches) directives += slope_directives(match.ours);
+    const auto found = found_in({circuit, {}, directives});
     if (!found) return found.error();
     OurArrays out;
-    for (const auto& [of, array] : meant) {
+    for (const auto& [published, array] : matches) {
         const auto g = [&](char moved, const char* by) { return found->by(fmt::format("i({}.v{})", array, moved), by); };
-        OurArray a{.printed = of, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
+        OurArray a{.printed = published, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
         a.g_ms = g('b', "vh") + a.g_mb;  // all but the source moved
         a.I_D = found->at_rest(fmt::format("i({}.vg)", array));
         a.V_T = found->reading(array + ".mg2", "v_t");
         if (std::isnan(a.V_T)) a.V_T = found->reading(array + ".mg1", "v_t");
-        size(a, *found->circuit, array);
+        measure_size(a, *found->circuit, array);
         out.push_back(a);
     }
     return out;
 }
 
-Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Meant> meant) {
+Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Meant> matches) {
     const auto found = all_found_in({circuit, {}, fmt::format(".op\n.mc {} process=0", chips)});
     if (!found) return found.error();
     std::vector<double> out;
-    for (const auto& one : meant) out.push_back(spread_of(*found, fmt::format("i({}.vg)", one.ours)).percent());
+    for (const auto& match : matches) out.push_back(spread_of(*found, fmt::format("i({}.vg)", match.ours)).percent());
     return out;
 }
 
@@ -137,12 +136,12 @@ void put_sizes(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
 void put_small_signals(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
     using P = PrintedArray;
     const TableColumn columns[] = {
-        {"g_md", "S", [](const OurArray& a) { return a.g_md; }, &P::g_md, all.g_md, of_early_voltage, all.g_md_is},
+        {"g_md", "S", [](const OurArray& a) { return a.g_md; }, &P::g_md, all.g_md, early_voltage_reason, all.g_md_is},
         {"g_mg", "S", [](const OurArray& a) { return a.g_mg; }, &P::g_mg, 1e-6},
         {"g_ms", "S", [](const OurArray& a) { return a.g_ms; }, &P::g_ms, 1e-6},
         {"g_mb", "S", [](const OurArray& a) { return a.g_mb; }, &P::g_mb, 1e-6},
         {"I_D", "A", [](const OurArray& a) { return a.I_D; }, &P::I_D, 1e-6},
-        {"V_T", "V", [](const OurArray& a) { return a.V_T; }, &P::V_T, 1e-3, of_threshold},
+        {"V_T", "V", [](const OurArray& a) { return a.V_T; }, &P::V_T, 1e-3, threshold_reason},
     };
     for (const auto& column : columns) put_column(out, column, ours, all.small_signals);
 }
@@ -151,9 +150,9 @@ void put_ratios(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
     using P = PrintedArray;
     const TableColumn columns[] = {
         {"g_mg/I_D", "1/V", [](const OurArray& a) { return a.g_by_I(); }, &P::g_by_I},
-        {"I_D/g_md", "V", [](const OurArray& a) { return a.V_A(); }, &P::V_A, 1, of_early_voltage},
+        {"I_D/g_md", "V", [](const OurArray& a) { return a.V_A(); }, &P::V_A, 1, early_voltage_reason},
         {"g_mg/g_md", "dB", [](const OurArray& a) { return a.gain(); }, &P::gain},
-        {"g_mb/g_mg", "", [](const OurArray& a) { return a.slope(); }, &P::slope, 1, {}, "its g_mg/g_mb upside down: errata U5"},
+        {"g_mb/g_mg", "", [](const OurArray& a) { return a.slope(); }, &P::slope, 1, {}, "the column g_mg/g_mb is inverted: errata U5"},
         {"g_mg/A", "S/um^2", [](const OurArray& a) { return a.g_by_A(); }, &P::g_by_A, all.g_by_A, {}, all.g_by_A_is},
     };
     for (const auto& column : columns) put_column(out, column, ours, all.ratios);
@@ -161,17 +160,17 @@ void put_ratios(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
 
 namespace {
 
-std::string of_mismatch(const OurArray& a) {
+std::string mismatch_reason(const OurArray& a) {
     const std::string name = a.printed->name;
     if (name == "G3")
-        return "in the equations the unit at the source is not quite saturated, i_r being an eighth of i_f: the seven above it share in "
-               "the "
-               "deviation";
-    if (name == "F") return "the short transistor at the drain, whose deviation is large, has a share; at the source it has less (below)";
+        return "in the equations the unit transistor at the source is not fully saturated (i_r is one eighth of i_f), so the seven above "
+               "it contribute to the deviation";
+    if (name == "F")
+        return "the short transistor at the drain has a large deviation and contributes to the total; at the source it contributes less "
+               "(below)";
     return fmt::format(
-        "one A_VT serves all: as a lone transistor of its area the card's law gives it {:.2f} % with the g_mg/I_D that is printed and "
-        "{:.2f} % "
-        "with ours; the draws here know a deviation to {:.1f} %, 1000 to 2.2 %",
+        "one A_VT is used for all arrays. For a single transistor of this area the card's law gives {:.2f} % with the published g_mg/I_D "
+        "and {:.2f} % with the simulated one. The uncertainty of a deviation is {:.1f} % here, 2.2 % with 1000 chips",
         a.law(a.printed->g_by_I), a.law(a.g_by_I()), known_to());
 }
 
@@ -179,42 +178,42 @@ std::string of_mismatch(const OurArray& a) {
 
 void put_mismatch(Outcome& out, const PrintedArrays& all, const OurArrays& ours, const std::vector<double>& sigmas) {
     for (std::size_t k = 0; k < sigmas.size(); ++k) {
-        auto& c = out.claim(fmt::format("{}: deviation of I_D over its mean", ours[k].printed->name), sigmas[k], "%");
+        auto& c = out.claim(fmt::format("{}: standard deviation of I_D over its mean", ours[k].printed->name), sigmas[k], "%");
         c.printed_as(ours[k].printed->sigma, all.ratios);
-        if (c.needs_reason()) c.because(of_mismatch(ours[k]));
+        if (c.needs_reason()) c.because(mismatch_reason(ours[k]));
     }
 }
 
 namespace {
 
-double sum_misses(const PrintedArray& a, double g_md) {
+double sum_residual(const PrintedArray& a, double g_md) {
     return std::abs(1e-6 * (a.g_mg + a.g_mb - a.g_ms) + g_md * a.g_md) / (1e-6 * a.g_ms);
 }
 
-double ratio_misses(const PrintedArray& a, double g_md) { return std::abs(1e-6 * a.I_D / (g_md * a.g_md * a.V_A) - 1); }
+double ratio_residual(const PrintedArray& a, double g_md) { return std::abs(1e-6 * a.I_D / (g_md * a.g_md * a.V_A) - 1); }
 
-void put_rule(Outcome& out, const PrintedArrays& all, double head, const std::string& erratum, const std::string& what,
-              double (*misses)(const PrintedArray&, double)) {
-    double read = 0, printed = 0;
-    bool every = true;
+void add_rule(Outcome& out, const PrintedArrays& all, double head, const std::string& erratum, const std::string& what,
+              double (*residual)(const PrintedArray&, double)) {
+    double with_ours = 0, with_head = 0;
+    bool all_closer = true;
     for (const auto& a : all.arrays) {
-        read = std::max(read, misses(a, all.g_md)), printed = std::max(printed, misses(a, head));
-        every = every && misses(a, all.g_md) < misses(a, head);
+        with_ours = std::max(with_ours, residual(a, all.g_md)), with_head = std::max(with_head, residual(a, head));
+        all_closer = all_closer && residual(a, all.g_md) < residual(a, head);
     }
-    out.finds(
-        fmt::format("Printed alone: {} at most {:.2g} % off with the g_md read here, {:.2g} % with that of the head; nearer in every row",
-                    what, 100 * read, 100 * printed),
-        every, erratum);
+    out.finds(fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, by up to {:.2g} % with the head's "
+                          "unit; smaller in every row",
+                          what, 100 * with_ours, 100 * with_head),
+              all_closer, erratum);
 }
 
 }  // namespace
 
 void put_sum_rule(Outcome& out, const PrintedArrays& all, double head, const std::string& erratum) {
-    put_rule(out, all, head, erratum, "g_mg + g_md + g_mb is from g_ms", sum_misses);
+    add_rule(out, all, head, erratum, "g_mg + g_md + g_mb differs from g_ms", sum_residual);
 }
 
 void put_ratio_rule(Outcome& out, const PrintedArrays& all, double head, const std::string& erratum) {
-    put_rule(out, all, head, erratum, "I_D over g_md is from its column", ratio_misses);
+    add_rule(out, all, head, erratum, "I_D over g_md differs from its column", ratio_residual);
 }
 
 }  // namespace corpuscle

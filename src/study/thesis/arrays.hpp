@@ -1,5 +1,5 @@
 #pragma once
-// The transistor arrays of the thesis's appendix B: what it prints of them, and ours at the same half volt.
+// The transistor arrays of the thesis's appendix B: the published tables, and our simulation at the same bias of 0.5 V.
 
 #include <span>
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace corpuscle {
 
-/// A row of tables 10 to 12 or 13 to 15, to the letter, slips included: lengths in um, areas in um^2, S_eq as a ratio; the rest in the
-/// units of the table's head.
+/// A row of tables 10 to 12 or 13 to 15 exactly as printed, misprints included. Lengths in um, areas in um^2, S_eq as a ratio; the rest in
+/// the units of the table's head.
 struct PrintedArray {
-    const char *name, *ours;  ///< ours: its subcircuit in the netlist
-    double rows, columns;     ///< as it is drawn; inferred from A_T
+    const char *name, *ours;  ///< subcircuit: its name in the netlist
+    double rows, columns;     ///< as drawn; inferred from A_T
     double S, A, A_T, share;
     double g_md, g_mg, g_ms, g_mb, I_D, V_T;
     double g_by_I, V_A, gain, slope, g_by_A, sigma;
 };
 
-/// What the heads of two tables should say of g_md and of g_mg/A, in S and S/um^2, and where ours stand.
+/// Tables of one kind of array. g_md and g_by_A are the correct units of the columns g_md and g_mg/A, in S and S/um^2.
 struct PrintedArrays {
     const char* circuit;
     std::span<const PrintedArray> arrays;
     const char *sizes, *small_signals, *ratios;  ///< "table 10"
     double g_md, g_by_A;
-    const char *g_md_is, *g_by_A_is;  ///< what is said where these are not what is printed; ""
+    const char *g_md_is, *g_by_A_is;  ///< remark if the correct unit differs from the printed one; else ""
 };
 
 inline constexpr PrintedArray printed_rectangles[] = {
@@ -40,7 +40,7 @@ inline constexpr PrintedArray printed_rectangles[] = {
     // clang-format on
 };
 
-/// F with the short transistor at the drain, as the text has it.
+/// F with the short transistor at the drain, as in the thesis's text.
 inline constexpr PrintedArray printed_trapezoids[] = {
     // clang-format off
     {"E", "xe", 1, 1, 0.0805, 2.1924, 5.6856, 0.386, 31.73, 1.550, 1.963, 0.410, 0.120, 441.4, 12.96, 37.82, 53.8, 0.264, 0.709, 2.36},
@@ -59,50 +59,50 @@ inline constexpr PrintedArrays trapezoids = {
 
 const PrintedArray& printed(const PrintedArrays&, std::string_view name);
 
-/// Ours, SI.
+/// Our simulation of an array; SI units.
 struct OurArray {
     const PrintedArray* printed = nullptr;
-    double W = 0;                                      ///< of its units
-    std::vector<double> lengths{};                     ///< of each unit, from the drain down
-    double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< the last two of its card
+    double W = 0;                                      ///< channel width of a unit transistor
+    std::vector<double> lengths{};                     ///< channel length of each unit transistor, from the drain down
+    double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< A_VT and A_IS are from its model card
     double g_md = 0, g_mg = 0, g_ms = 0, g_mb = 0, I_D = 0, V_T = 0;
     double g_by_I() const { return g_mg / I_D; }
     double V_A() const { return I_D / g_md; }
     double gain() const;  ///< dB
     double slope() const { return g_mb / g_mg; }
     double g_by_A() const { return 1e-12 * g_mg / A; }  ///< S/um^2
-    /// The mismatch that the card's law gives a lone transistor of its area, %.
+    /// Mismatch (%) of one transistor of the same area, by the card's law at this g_mg/I_D.
     double law(double g_by_I) const;
 };
 struct OurArrays : std::vector<OurArray> {
     const OurArray& operator()(std::string_view name) const;
 };
 
-/// At V_G = V_D = 0.5 V; every unit is solved.
+/// Simulates the arrays at V_G = V_D = 0.5 V; every unit transistor is solved.
 Result<OurArrays> arrays_of(const PrintedArrays&);
-/// The same of other subcircuits of its netlist, each beside the row that is meant.
+/// Other subcircuits of the same netlist, each with the table row to compare it with.
 struct Meant {
     const PrintedArray* printed;
     std::string ours;
 };
 std::vector<Meant> all_meant(const PrintedArrays&);
 Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant>);
-/// sigma/mu of drain currents, %, in the order of what is meant.
+/// sigma/mu of the drain currents (%), in the order of the matches.
 Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Meant>);
 Result<std::vector<double>> mismatch_of(const PrintedArrays&);
-/// Of its deviation these draws know this, %.
+/// Statistical uncertainty of a simulated deviation, % of it.
 double known_to();
 
-/// A column of a table: what is printed, in its unit, and ours.
+/// A column of a table: the published number in its unit, and the simulated one.
 struct TableColumn {
     const char *what, *unit;
     double (*made)(const OurArray&);
     double PrintedArray::* printed;
-    double factor = 1;                         ///< of what is printed, to SI
-    std::string (*why)(const OurArray&) = {};  ///< where they differ
-    const char* reading = "";                  ///< of what is printed, where that is not its head's
+    double factor = 1;                         ///< published number to SI
+    std::string (*why)(const OurArray&) = {};  ///< reason for a difference
+    const char* reading = "";                  ///< remark on the unit if the head of the table is wrong
 };
-/// A claim a cell.
+/// Adds one claim per cell.
 void put_column(Outcome&, const TableColumn&, const OurArrays&, const std::string& source);
 
 void put_sizes(Outcome&, const PrintedArrays&, const OurArrays&);
@@ -110,10 +110,10 @@ void put_small_signals(Outcome&, const PrintedArrays&, const OurArrays&);
 void put_ratios(Outcome&, const PrintedArrays&, const OurArrays&);
 void put_mismatch(Outcome&, const PrintedArrays&, const OurArrays&, const std::vector<double>& sigmas);
 
-/// g_mg + g_md + g_mb = g_ms (eq. 27) tells the unit of the printed g_md: by how much the sum misses with the one read here and, in S,
-/// with the head's.
+/// The identity g_mg + g_md + g_mb = g_ms (eq. 27) gives the unit of the printed g_md. Adds the residual of the sum with the unit used here
+/// and with `head`, the head's unit in S.
 void put_sum_rule(Outcome&, const PrintedArrays&, double head, const std::string& erratum);
-/// The ratios that other columns make: I_D/g_md and g_mg/g_md, too.
+/// The same check with the ratio I_D/g_md.
 void put_ratio_rule(Outcome&, const PrintedArrays&, double head, const std::string& erratum);
 
 }  // namespace corpuscle

@@ -1,22 +1,22 @@
 #pragma once
-// A chip under the press beside the model that it is made after.
+// A chip under the press stimulus, beside the model that it implements.
 
 #include "study/thesis/press.hpp"
 
 namespace corpuscle {
 
 struct Beside {
-    Told chip;                  ///< with the traces asked for
-    std::vector<double> model;  ///< its spikes, s
+    Told chip;                  ///< with the requested probes
+    std::vector<double> model;  ///< spike times of the model, s
 };
-/// The chip is asked as it stands; the model's own numbers are the thesis's.
+/// Runs the chip as requested, and the model with the thesis's parameters.
 Result<Beside> beside(const Asked& chip, const std::string& model);
 
-/// The largest value of a trace that begins at or after each of these spikes and lasts this long, over the largest in the same time
-/// before it: the least of them all.
-double least_jump(const Line& trace, const std::vector<double>& spikes, double lasts);
+/// For each spike: the largest value of a trace in `duration` (s) after the spike, over the largest in the same time before it. Returns the
+/// smallest of these ratios.
+double least_jump(const Line& trace, const std::vector<double>& spikes, double duration);
 
-/// How long a trace stays above a level from each crossing on: the longest, s.
+/// The longest time (s) for which a trace stays above a level.
 double longest_above(const Line& trace, double level);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// A thousand chips of the inverter, unbiased and with its bias generator: what tables 17 and 18 print of them.
+// A thousand chips of the inverter, without and with its bias generator, and the means and spreads of tables 17 and 18.
 
 #include "study/spread.hpp"
 
@@ -8,9 +8,9 @@ namespace corpuscle::bias_chips {
 struct Row {
     const char *circuit, *name, *voltage, *current;
     struct Printed {
-        double mean, spread;  // V or A; % of it
+        double mean, spread;  // V or A; % of the mean
     } V[3], I[3];
-    bool fitted;  ///< the process's spread
+    bool fitted;  ///< true: the spread of the process card was fitted to this row
 };
 inline constexpr Row rows[] = {
     {"quiescent",
@@ -34,12 +34,12 @@ struct Way {
 inline constexpr Way ways[] = {{"process", "mc", "mismatch=0"}, {"mismatch", "tt", "process=0"}, {"all", "mc", ""}};
 
 using Chips = std::vector<Found>;
-/// 1000 of a circuit.
+/// Simulates 1000 chips of a circuit.
 Result<Chips> chips_of(const std::string& circuit, const Way&);
 
-/// A number of a transistor's card: "avt", V m.
+/// A parameter of a transistor's model card: "avt", V m.
 double card(const circuit::Circuit&, std::size_t element, const char* name);
-/// Of all its units' channels, m^2.
+/// Channel area of all its unit transistors, m^2.
 double area(const circuit::Element&);
 
 }  // namespace corpuscle::bias_chips

@@ -6,7 +6,7 @@
 namespace corpuscle {
 namespace {
 
-/// One end of a range, with what stops the generator of that corner there.
+/// Adds a claim on one end of a range, with the reason that limits the generator there.
 Result<void> claim_end(Outcome& out, const std::string& what, const BiasSweep& sweep, double end, bool open, double printed,
                        const BiasFigure& figure) {
     auto& claim = out.claim(what, end, figure.unit).printed_as(printed, figure.source());
@@ -32,7 +32,7 @@ Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> 
         if (c.works.to < highest->works.to) highest = &c;
     }
     const auto name = [](const char* what, const BiasCorner& c) {
-        return fmt::format("all corners: works {} ({} is the first to end)", what, c.name);
+        return fmt::format("all corners: works {} (limited by {})", what, c.name);
     };
     if (auto ok =
             claim_end(out, name("from", *lowest), lowest->sweep, lowest->works.from, lowest->works.open_below, figure.corners[0], figure);
@@ -41,7 +41,7 @@ Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> 
     return claim_end(out, name("to", *highest), highest->sweep, highest->works.to, highest->works.open_above, figure.corners[1], figure);
 }
 
-void draw(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
+void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
     const bool log = figure.axis == BiasAxis::current;
     auto& voltages = out.plot(fmt::format("Fig. {}a: body voltages, typical", figure.number), figure.x_label, "V");
     voltages.log_x = log;
@@ -51,10 +51,11 @@ void draw(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome
     currents.log_x = currents.log_y = log;
     for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().times(figure.scale, 1e9));
     if (log) currents.add("I_Q = I_BIAS", {{10, 3000}, {10, 3000}});
-    auto& misses = out.plot("How far off: 1 is V_Q off by 5 mV or I_Q by a tenth, the worse of both", figure.x_label, "margins");
-    misses.log_x = log, misses.log_y = true;
-    for (const auto& c : corners) misses.add(c.name, c.sweep.miss().times(figure.scale, 1));
-    misses.add("just works", {{corners[0].sweep.miss().x.front() * figure.scale, corners[0].sweep.miss().x.back() * figure.scale}, {1, 1}});
+    auto& errors =
+        out.plot("Error over its margin: 1 is 5 mV of V_Q or a tenth of I_Q, the worse of the two", figure.x_label, "error over margin");
+    errors.log_x = log, errors.log_y = true;
+    for (const auto& c : corners) errors.add(c.name, c.sweep.miss().times(figure.scale, 1));
+    errors.add("limit", {{corners[0].sweep.miss().x.front() * figure.scale, corners[0].sweep.miss().x.back() * figure.scale}, {1, 1}});
 }
 
 }  // namespace
@@ -64,9 +65,9 @@ Result<std::string> why_it_ends(const BiasSweep& sweep, double end, bool open) {
     settings.push_back(bias_setting(sweep.axis, end));
     const auto state = bias_state(settings);
     if (!state) return state.error();
-    if (open) return "works to the end of what was tried; " + state->words();
-    const bool by_current = sweep.miss_of_current().at(end) > sweep.miss_of_voltage().at(end);
-    return fmt::format("{} leaves its margin; {}", by_current ? "I_Q" : "V_Q", state->words());
+    if (open) return "works to the end of the sweep; " + state->words();
+    const bool current_is_worse = sweep.miss_of_current().at(end) > sweep.miss_of_voltage().at(end);
+    return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state->words());
 }
 
 Result<std::vector<BiasCorner>> make(const BiasFigure& figure, Outcome& out, const StudyOptions& options) {
@@ -79,7 +80,7 @@ Result<std::vector<BiasCorner>> make(const BiasFigure& figure, Outcome& out, con
         if (auto ok = options.at(static_cast<double>(corners.size()) / 4); !ok) return ok.error();
     }
     if (auto ok = claim_ranges(figure, corners, out); !ok) return ok.error();
-    draw(figure, corners, out);
+    add_plots(figure, corners, out);
     return corners;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Figs. 53 to 55 are one figure along three axes: the body voltages, typical, and the replica's current in the corners.
+// Figs. 53 to 55 have the same form along three axes: the body voltages in the typical corner, and the replica's current in the corners.
 
 #include "study/study.hpp"
 #include "study/thesis/bias_sweep.hpp"
@@ -9,9 +9,9 @@ namespace corpuscle {
 struct BiasFigure {
     BiasAxis axis;
     const char *number, *x_label, *unit;  ///< "53", "I_BIAS (nA)", "A"
-    double scale;                         ///< of what is drawn: 1e9, A to nA
-    double typical[2];                    ///< printed: where it works
-    double corners[2];                    ///< the same over all corners; NaN: not printed
+    double scale;                         ///< factor of the x axis: 1e9, A to nA
+    double typical[2];                    ///< published working range
+    double corners[2];                    ///< the same over all corners; NaN: not published
 
     std::string source() const { return std::string("thesis E.2, fig. ") + number; }
 };
@@ -22,10 +22,10 @@ struct BiasCorner {
     BiasSweep::Range works;
 };
 
-/// Swept in tt, ss and ff; the claims on where it works, and both plots.
+/// Sweeps the corners tt, ss and ff; adds the claims on the working range and both plots.
 Result<std::vector<BiasCorner>> make(const BiasFigure&, Outcome&, const StudyOptions&);
 
-/// What stops it where its range ends.
+/// Reason for which the generator stops working at this end of its range.
 Result<std::string> why_it_ends(const BiasSweep&, double end, bool open);
 
 }  // namespace corpuscle

@@ -14,19 +14,19 @@ constexpr double k_over_q = 1.380649e-23 / 1.602176634e-19;  // V/K
 
 double parameter(const Found& found, std::string_view name) { return found.circuit->parameters.find(name)->second; }
 
-std::string command(BiasAxis axis, const std::string& range) {
+std::string dc_directive(BiasAxis axis, const std::string& range) {
     constexpr const char* swept[] = {"ibias", "vdd", "temp"};
     return fmt::format(".dc {} {}", swept[static_cast<int>(axis)], range);
 }
 
-/// The drain's voltage from which a transistor that carries this current is saturated.
+/// Drain-source saturation voltage of a transistor at this current.
 double saturation_voltage(const circuit::Circuit& c, std::string_view name, double current) {
     const auto& element = c.elements[static_cast<std::size_t>(c.element(name))];
     const auto& card = c.models[static_cast<std::size_t>(element.model)].values;
     const auto of = [](const circuit::Values& values, std::string_view what) { return values.find(what)->second; };
-    const double kelvin = c.temperature + 273.15, warmth = kelvin / (of(card, "tnom") + 273.15);
+    const double kelvin = c.temperature + 273.15, temperature_ratio = kelvin / (of(card, "tnom") + 273.15);
     const double aspect = of(element.values, "w") / of(element.values, "l") * of(element.values, "m") / of(element.values, "stack");
-    const double i_f = current / (of(card, "isq") * std::pow(warmth, of(card, "tis")) * aspect);
+    const double i_f = current / (of(card, "isq") * std::pow(temperature_ratio, of(card, "tis")) * aspect);
     return k_over_q * kelvin * (std::sqrt(1 + i_f) + 3);
 }
 
@@ -38,7 +38,7 @@ Result<BiasSweep> BiasSweep::along(BiasAxis axis, std::vector<std::string> setti
 }
 
 Result<BiasSweep> BiasSweep::along(BiasAxis axis, const std::string& range, std::vector<std::string> settings) {
-    auto found = found_in({"bias", settings, command(axis, range)});
+    auto found = found_in({"bias", settings, dc_directive(axis, range)});
     if (!found) return found.error();
     return BiasSweep{axis, std::move(settings), std::move(*found)};
 }
@@ -55,8 +55,8 @@ Line BiasSweep::miss_of_voltage() const {
 Line BiasSweep::miss_of_current() const {
     auto out = I_Q();
     for (std::size_t k = 0; k < out.x.size(); ++k) {
-        const double asked = axis == BiasAxis::current ? out.x[k] : parameter(found, "i_bias");
-        out.y[k] = std::abs(out.y[k] / asked - 1) / bias_current_margin;
+        const double I_BIAS = axis == BiasAxis::current ? out.x[k] : parameter(found, "i_bias");
+        out.y[k] = std::abs(out.y[k] / I_BIAS - 1) / bias_current_margin;
     }
     return out;
 }
@@ -82,8 +82,8 @@ BiasSweep::Range BiasSweep::works() const {
     return {all_below ? m.x[low] : edge(low, low - 1), all_above ? m.x[high] : edge(high, high + 1), all_below, all_above};
 }
 
-double BiasSweep::Range::share_of(double least, double most) const {
-    return std::max(0.0, std::min(to, most) - std::max(from, least)) / (most - least);
+double BiasSweep::Range::share_of(double min, double max) const {
+    return std::max(0.0, std::min(to, max) - std::max(from, min)) / (max - min);
 }
 
 BiasSweep::Range common(const BiasSweep::Range& a, const BiasSweep::Range& b) {
@@ -114,7 +114,7 @@ Result<BiasState> bias_state(const std::vector<std::string>& settings) {
 std::string BiasState::words() const {
     const auto mV = [](double v) { return format_quantity(v, "V"); };
     return fmt::format(
-        "there V_Q is {} and I_Q {}; M4A has {} of the {} from which it is saturated, M3B {} of {}, and the bulks' junctions "
+        "at this point V_Q is {} and I_Q is {}; M4A has V_DS {} and saturates at {}, M3B has {} and saturates at {}; the bulk junctions "
         "take {:.2g} % of I_BIAS from BN",
         mV(V_Q), format_quantity(I_Q, "A"), mV(V_M4A), mV(needs_M4A), mV(V_M3B), mV(needs_M3B), 100 * bulks / asked);
 }

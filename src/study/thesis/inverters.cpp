@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-Line from_half(Line line, double half) {
+Line relative_to_half_supply(Line line, double half) {
     for (double& x : line.x) x -= half;
     return line;
 }
@@ -20,17 +20,17 @@ Result<Inverters> Inverters::swept(double step, double supply) {
     return Inverters{std::move(*found), supply};
 }
 
-Result<Inverters> Inverters::ordered(const std::string& orders, std::vector<std::string> settings) {
-    auto found = found_in({"inverters", std::move(settings), orders});
+Result<Inverters> Inverters::ordered(const std::string& directives, std::vector<std::string> settings) {
+    auto found = found_in({"inverters", std::move(settings), directives});
     if (!found) return found.error();
     return Inverters{std::move(*found), 0.7};
 }
 
-Line Inverters::current(char which) const { return from_half(found.line("dc", fmt::format("i(vh{})", which)), supply / 2); }
+Line Inverters::current(char which) const { return relative_to_half_supply(found.line("dc", fmt::format("i(vh{})", which)), supply / 2); }
 Line Inverters::transconductance(char which) const { return current(which).slope().times(1, -1); }
 
 Line Inverters::characteristic(char which) const {
-    auto out = from_half(found.line("dc", fmt::format("v(o{})", which)), supply / 2);
+    auto out = relative_to_half_supply(found.line("dc", fmt::format("v(o{})", which)), supply / 2);
     for (double& y : out.y) y -= supply / 2;
     return out;
 }
@@ -42,6 +42,6 @@ Line Inverters::gain(char which) const {
     return out;
 }
 
-Line Inverters::taken(char which) const { return from_half(found.line("dc", fmt::format("i(vs{})", which)), supply / 2); }
+Line Inverters::taken(char which) const { return relative_to_half_supply(found.line("dc", fmt::format("i(vs{})", which)), supply / 2); }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// INVA, INVB and INVC under one bias generator, circuits/inverters.cir, as appendix E looks at them: voltages count from half the supply.
+// INVA, INVB and INVC with one bias generator (circuits/inverters.cir), as in appendix E: voltages are relative to half the supply.
 
 #include "study/deck.hpp"
 
@@ -12,20 +12,20 @@ struct Inverters {
     Found found;
     double supply;  // V
 
-    /// Under these orders; V_IN in steps of so many volts is the usual one.
+    /// `run` sweeps V_IN over the supply in steps of `step` (V); `run_with_directives` takes other directives.
     static Result<Inverters> swept(double step, double supply = 0.7);
-    static Result<Inverters> ordered(const std::string& orders, std::vector<std::string> settings = {});
+    static Result<Inverters> ordered(const std::string& directives, std::vector<std::string> settings = {});
 
-    /// What it drives out of an output held at half the supply, A over V.
+    /// Output current (A) over V_IN (V) with the output held at half the supply.
     Line current(char which) const;
-    /// By how much that falls with V_IN, S over V.
+    /// Transconductance: the negative slope of that current, S over V.
     Line transconductance(char which) const;
     double at_rest(char which) const { return transconductance(which).at(0); }  ///< S, at V_IN = 0
-    /// The open output, V over V.
+    /// Voltage of the open output, V over V.
     Line characteristic(char which) const;
-    /// The rise of the open output at each output voltage: |dV_OUT/dV_IN| over V_OUT.
+    /// Gain of the open output at each output voltage: |dV_OUT/dV_IN| over V_OUT.
     Line gain(char which) const;
-    /// What it takes from the supply, its output held, A over V.
+    /// Supply current with the output held, A over V.
     Line taken(char which) const;
 };
 

@@ -9,38 +9,38 @@ namespace corpuscle {
 namespace {
 
 using Rule = circuit::RectangleRule;
-constexpr double um = 1e6, apart = 0.8;  // apart: um, of two arrays
+constexpr double um = 1e6, gap_between_arrays = 0.8;  // um per m; um
 
-/// In um.
-void put_rectangle(Line& path, double left, double low, double width, double height) {
+/// Appends a rectangle (um) to a path.
+void append_rectangle(Line& path, double left, double low, double width, double height) {
     const double x[] = {left, left + width, left + width, left, left, Claim::none};
     const double y[] = {low, low, low + height, low + height, low, Claim::none};
     path.x.insert(path.x.end(), std::begin(x), std::end(x)), path.y.insert(path.y.end(), std::begin(y), std::end(y));
 }
 
-/// Channels of W in rows, of L in columns; the array's width.
-double put_array(const OurArray& a, double left, Line& channels, Line& total) {
+/// Appends the channels (W in rows, L in columns) and the total area; returns the array's width (um).
+double append_array(const OurArray& a, double left, Line& channels, Line& total) {
     const auto rows = static_cast<std::size_t>(a.printed->rows), columns = static_cast<std::size_t>(a.printed->columns);
     const double W = um * a.W, pitch = W + um * Rule::between_W;
     double x = left + 0.5 * um * Rule::around_L;
     for (std::size_t column = 0; column < columns; ++column) {
         const double L = um * a.lengths[column * rows];
         for (std::size_t row = 0; row < rows; ++row)
-            put_rectangle(channels, x, 0.5 * um * Rule::around_W + static_cast<double>(row) * pitch, L, W);
+            append_rectangle(channels, x, 0.5 * um * Rule::around_W + static_cast<double>(row) * pitch, L, W);
         x += L + um * Rule::between_L;
     }
     const double width = x - left - um * Rule::between_L + 0.5 * um * Rule::around_L;
-    put_rectangle(total, left, 0, width, static_cast<double>(rows) * pitch - um * Rule::between_W + um * Rule::around_W);
+    append_rectangle(total, left, 0, width, static_cast<double>(rows) * pitch - um * Rule::between_W + um * Rule::around_W);
     return width;
 }
 
 }  // namespace
 
 Plot layout_of(const OurArrays& arrays, std::string title) {
-    Plot out{std::move(title), "along the channels, one array beside the other (um)", "across (um)", {}};
+    Plot out{std::move(title), "along the channels, arrays side by side (um)", "across (um)", {}};
     Line channels, total;
     double left = 0;
-    for (const auto& a : arrays) left += put_array(a, left, channels, total) + apart;
+    for (const auto& a : arrays) left += append_array(a, left, channels, total) + gap_between_arrays;
     return out.add("channels", channels, Plot::Style::path).add("total area", total, Plot::Style::path);
 }
 
@@ -48,23 +48,23 @@ Result<Outcome> tell_layout(const PrintedArrays& tables, const std::string& figu
     const auto ours = arrays_of(tables);
     if (!ours) return ours.error();
     Outcome out;
-    double printed_sum = 0, sum = 0;
+    double published_sum = 0, sum = 0;
     std::string names;
     for (const auto& a : *ours) {
         out.claim(fmt::format("{}: total area", a.printed->name), 1e12 * a.A_T, "um^2")
-            .printed_as(a.printed->A_T, fmt::format("{}, of what {} shows", tables.sizes, figure));
-        out.claim(fmt::format("{}: active area by its channels", a.printed->name),
+            .printed_as(a.printed->A_T, fmt::format("{}, of the arrays in {}", tables.sizes, figure));
+        out.claim(fmt::format("{}: active area from its channels", a.printed->name),
                   1e12 * a.W * std::accumulate(a.lengths.begin(), a.lengths.end(), 0.0), "um^2")
             .printed_as(a.printed->A, tables.sizes);
-        printed_sum += a.printed->A_T, sum += 1e12 * a.A_T;
+        published_sum += a.printed->A_T, sum += 1e12 * a.A_T;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", a.printed->name);
     }
-    out.claim("All together", sum, "um^2").held_to(printed_sum, tables.sizes);
+    out.claim("sum of all total areas", sum, "um^2").held_to(published_sum, tables.sizes);
     out.plots.push_back(layout_of(*ours, fmt::format("Channels and total areas of {}, from the left", names))
-                            .shape("polysilicon and diffusion of each array in its rectangle; the figure itself is lost"));
+                            .shape("polysilicon and diffusion of each array in its rectangle; the original figure is lost"));
     out.note(
-        "Rows and columns are those by which the printed total areas come out; what lies about the channels and between them is one rule "
-        "for all. " +
+        "The numbers of rows and columns are those that reproduce the published total areas; one rule gives the margins and spacings of "
+        "all channels. " +
         remark);
     return out;
 }

@@ -1,14 +1,14 @@
 #pragma once
-// Arrays as they lie on the chip: their channels in the rectangle that is counted as their total area.
+// Layout sketches of arrays: the channels in the rectangle that counts as total area.
 
 #include "study/thesis/arrays.hpp"
 
 namespace corpuscle {
 
-/// One beside the other, in um.
+/// The arrays side by side, in um.
 Plot layout_of(const OurArrays&, std::string title);
 
-/// All of a figure: each array's areas beside the printed ones, and the drawing; `remark` is what is off and why.
+/// All of a layout figure: each array's areas beside the published ones, and the drawing. `remark` explains differences.
 Result<Outcome> tell_layout(const PrintedArrays&, const std::string& figure, const std::string& remark);
 
 }  // namespace corpuscle

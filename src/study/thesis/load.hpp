@@ -1,18 +1,18 @@
 #pragma once
-// A transconductor whose output is tied to its input, read as the resistor that it is then.
+// A transconductor with its output tied to its input, which then acts as a resistor.
 
 #include "study/line.hpp"
 
 namespace corpuscle {
 
 struct Load {
-    Line current, resistance;  ///< what flows into it, A, and dV/dI, ohm, over its voltage
-    double rest = 0;           ///< V: nothing flows
-    double most = 0, at = 0;   ///< the largest resistance, ohm, and where it is, V
-    double from = 0, to = 0;   ///< V: between these it is within a share of the largest
+    Line current, resistance;  ///< input current, A, and dV/dI, ohm, over the voltage
+    double rest = 0;           ///< V: the current is zero
+    double most = 0, at = 0;   ///< largest resistance, ohm, and its voltage, V
+    double from = 0, to = 0;   ///< V: linear range, in which the resistance is close to its largest
 };
 
-/// Of the current into it over its voltage; straight where the resistance has lost less than this share of its largest.
-Load load_of(Line current, double lost = 0.1);
+/// From the input current over the voltage. The linear range ends where the resistance is below its largest by the fraction `tolerance`.
+Load load_of(Line current, double tolerance = 0.1);
 
 }  // namespace corpuscle

@@ -32,9 +32,9 @@ Result<Found> driven(const OscillatorAlone& o) {
 
 Hysteresis hysteresis_in(const Found& found, const std::string& output) {
     const auto [x, y] = found.line("dc", output);
-    const auto turn = std::max_element(x.begin(), x.end()) - x.begin();
-    Hysteresis out{{{x.begin(), x.begin() + turn + 1}, {y.begin(), y.begin() + turn + 1}},
-                   {{x.rbegin(), x.rend() - turn}, {y.rbegin(), y.rend() - turn}},
+    const auto turning_point = std::max_element(x.begin(), x.end()) - x.begin();
+    Hysteresis out{{{x.begin(), x.begin() + turning_point + 1}, {y.begin(), y.begin() + turning_point + 1}},
+                   {{x.rbegin(), x.rend() - turning_point}, {y.rbegin(), y.rend() - turning_point}},
                    0,
                    0};
     out.V_H = out.up.where(0.35), out.V_L = out.down.where(0.35);

@@ -1,27 +1,27 @@
 #pragma once
-// The oscillator of fig. 38 by itself under a constant current, and the thresholds of its trigger.
+// The oscillator of fig. 38 under a constant current, and the thresholds of its trigger.
 
 #include "study/deck.hpp"
 
 namespace corpuscle {
 
-/// I_LEAK 2 pA, I_CHARGE 1 nA, 1.8 pF, as fig. 39 is printed.
+/// I_LEAK 2 pA, I_CHARGE 1 nA and 1.8 pF, as published with fig. 39.
 struct OscillatorAlone {
     static constexpr double I_LEAK = 2e-12, I_CHARGE = 1e-9, C = 1.8e-12;  // A, F
     double current = 20e-12;                                               ///< A, from 10 ms on
     double until = 0.2;                                                    ///< s
-    bool better_switches = false;                                          ///< of the higher threshold, which leak next to nothing
+    bool better_switches = false;                                          ///< switches with a higher threshold, which leak almost nothing
     double leak = I_LEAK;                                                  ///< A
 };
-/// v(u), v(s) in time; its spikes; v(u) at rest.
+/// Records v(u) and v(s) over time, the spikes, and v(u) at rest.
 Result<Found> driven(const OscillatorAlone&);
 
-/// An output over an input that goes up and down again.
+/// An output over an input that is swept up and down again.
 struct Hysteresis {
     Line up, down;
-    double V_H, V_L;  ///< where the output passes half the supply of 0.7 V, going up and going down
+    double V_H, V_L;  ///< input at which the output crosses half the supply of 0.7 V, going up and down
 };
-/// Of the first .dc of this word that has `updown`.
+/// From the first .dc analysis that has `updown`.
 Hysteresis hysteresis_in(const Found&, const std::string& output);
 Result<Hysteresis> trigger_alone();
 

@@ -5,9 +5,9 @@
 namespace corpuscle::press {
 
 Result<Line> samples(double T) {
-    auto touch = touch_of({.afferent = {}, .rate = 1 / T});
-    if (!touch) return touch.error();
-    return touch->line();
+    auto stimulus = touch_of({.afferent = {}, .rate = 1 / T});
+    if (!stimulus) return stimulus.error();
+    return stimulus->line();
 }
 
 std::string pattern(const std::vector<double>& train) {

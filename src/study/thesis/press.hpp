@@ -1,5 +1,5 @@
 #pragma once
-// The thesis's press (1.2, fig. 4), for studies: its phases, its samples, and what is told of the spikes under it.
+// The thesis's press stimulus (1.2, fig. 4): its phases, its force, and the spike counts and rates of a response.
 
 #include <string>
 #include <vector>
@@ -10,25 +10,25 @@
 
 namespace corpuscle::press {
 
-// s; late: the plateau's last 100 ms
+// s; plateau_end: the plateau's last 100 ms
 inline constexpr Stretch rest{0, 0.25}, up{0.25, 0.375}, plateau{0.375, 0.625}, late{0.525, 0.625}, down{0.625, 0.75}, after{0.75, 1.0};
 inline constexpr double least = 0.2, most = 4;  // N
 
-/// Its force at samples T apart, over time.
+/// Force (N) over time (s), sampled every T (s).
 Result<Line> samples(double T);
 
 inline double count(const std::vector<double>& train, const Stretch& s) { return measure<SpikeCount>(train, s); }
-/// "0 5 9 1 0": spikes at rest, in protraction, plateau, retraction and after.
+/// "0 5 9 1 0": spike counts at rest, in protraction, plateau, retraction and after.
 std::string pattern(const std::vector<double>& train);
-/// The instantaneous frequency as the thesis draws it: of each spike to the next one, at the time of the first of them (3.3).
+/// The instantaneous frequency as the thesis plots it: 1/interval at the time of the interval's first spike (3.3).
 Line frequency(const std::vector<double>& train);
-/// As many tools draw it: at the time of the second.
+/// The same at the time of the second spike, as many tools plot it.
 Line frequency_behind(const std::vector<double>& train);
 
-/// Says beside a claim what is known elsewhere, and how well; nothing is judged by it.
+/// Adds a reference value from elsewhere and its reliability to a claim; no verdict depends on it.
 Claim& known_as(Claim&, double value, const std::string& mark);
 
-/// The thesis's models as it runs them: Algorithms 4 to 6 at its own 1 ms, spikes on the samples.
+/// Runs a model as the thesis does: Algorithms 4 to 6 at 1 ms, spikes on the samples.
 Asked as_algorithm(std::string afferent, std::vector<std::string> settings = {});
 
 }  // namespace corpuscle::press

@@ -8,7 +8,7 @@ namespace corpuscle {
 
 namespace {
 
-/// Half of the stretch about the middle in which a slope is near what it is there.
+/// Half the width of the range about the middle in which the slope is within 5 % of g_m.
 double half_width(const Line& slope, double middle, double g_m) {
     double from = slope.x.front(), to = slope.x.back();
     for (std::size_t k = 0; k < slope.x.size(); ++k) {
@@ -37,7 +37,7 @@ Result<Transconductor> transconductor_of(Deck deck, const std::string& out) {
 
 Result<Transconductor> pair_alone(double i_b, int columns, int stack) {
     return transconductor_of(
-        {fmt::format("A pair alone\n.lib '../process/tsmc180.lib' tt\nvdd vdd 0 0.7\nvi vdd supply 0\nib supply t {}\n"
+        {fmt::format("A differential pair\n.lib '../process/tsmc180.lib' tt\nvdd vdd 0 0.7\nvi vdd supply 0\nib supply t {}\n"
                      "vplus plus 0 0.35\nvminus minus 0 0.35\n"
                      "m1a l plus t vdd pch w=6u l=0.5u m={} stack={}\nm1b r minus t vdd pch w=6u l=0.5u m={} stack={}\n"
                      "vl l 0 0.1\nvr r 0 0.1\n",
