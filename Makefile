@@ -1,10 +1,10 @@
-# The commands of the README. Each does its own set-up; see setup/packages for what is installed.
+# The commands of the README. Each installs the packages it needs (setup/packages).
 .PHONY: demo build test bench fuzz format lint install pictures reproduction setup-run setup-test setup-bench release asan clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
 corpuscle = build/release/corpuscle
-# The thesis's two receptors, each as equations and as a chip.
+# The two afferents of the thesis, each as equations and as a chip.
 touched = press --afferent sa1 --afferent sa1-circuit --afferent fa1 --afferent fa1-circuit
 
 demo: build
@@ -40,10 +40,10 @@ format: setup-test
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-19 -i
 
 lint: setup-test
-	cmake -B build/lint -G Ninja -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PCH=OFF -D CORPUSCLE_GROUPS=OFF
+	cmake -B build/lint -G Ninja -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PCH=OFF -D CORPUSCLE_UNITY=OFF
 	git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P 2 -n 4 clang-tidy-19 -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option
 
-# Every figure and table of the thesis beside what was printed: the page to look at, and the numbers as text.
+# Every figure and table of the thesis, computed and published values side by side: a page, and the numbers as text.
 reproduction: build
 	@mkdir -p out
 	$(corpuscle) study all --quiet --report out/reproduction.html --markdown doc/reproduction.md

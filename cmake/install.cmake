@@ -1,4 +1,4 @@
-# `cmake --install` gives the program, the library with its headers, a package (find_package(corpuscle)), examples, documents and licences.
+# `cmake --install` installs the program, the library with its headers, a CMake package (find_package(corpuscle)), examples, documents and licences.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -12,7 +12,7 @@ configure_package_config_file(cmake/corpuscle-config.cmake.in corpuscle-config.c
 write_basic_package_version_file(corpuscle-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/corpuscle-config.cmake ${PROJECT_BINARY_DIR}/corpuscle-config-version.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/corpuscle)
 
-# Process cards and circuits, side by side as netlists expect them; populations; examples, whose sweeps are of those circuits.
+# Process cards and circuits in sibling folders, as netlists expect them; populations; examples, whose sweeps use those circuits.
 install(DIRECTORY process circuits skins examples DESTINATION ${CMAKE_INSTALL_DATADIR}/corpuscle)
 
 install(FILES README.md HACKING.md LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

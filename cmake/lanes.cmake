@@ -1,7 +1,7 @@
-# A file compiled once for each instruction set that lanes are chosen from at run time (CORPUSCLE_ISA names the set inside). What it
-# makes must not leave it: no exceptions, no contraction, and a test looks at its symbols.
+# Compiles a file once for each instruction set; the program chooses one at run time. CORPUSCLE_ISA names the set in the code.
+# Functions compiled here must not be linked elsewhere: no exceptions, no contraction, and a test checks the exported symbols.
 #
-# The sanitizers look at one set, the first: the text is the same in all, and with them it takes minutes to compile.
+# Only the first set is sanitized: the source is the same in all, and a sanitized set takes minutes to compile.
 if(NOT TARGET corpuscle_not_sanitized)
   add_library(corpuscle_not_sanitized INTERFACE)
   if(CORPUSCLE_SANITIZE)
@@ -15,18 +15,18 @@ function(add_lanes target)
   endif()
   set(flags_avx2 -march=x86-64-v3)
   set(flags_avx512 -march=x86-64-v4)
-  # After all other options: a model's constants are doubles, also where its numbers are floats.
+  # Comes after all other options. The constants of a model are doubles even if its numbers are floats.
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<IF:$<CXX_COMPILER_ID:Clang>,-Wno-implicit-float-conversion,-Wno-float-conversion>)
   foreach(set IN LISTS sets)
     set(object ${target}-lanes-${set})
     add_library(${object} OBJECT ${ARGN})
     target_include_directories(${object} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
     target_compile_definitions(${object} PRIVATE CORPUSCLE_ISA=${set})
-    # -O2 at the least, so that small functions are not left as symbols (sanitized, the first set leaves them, and nobody is misled);
-    # g++ 12 warns falsely in its own headers of AVX-512.
+    # At least -O2, so that small functions are inlined and leave no symbols. The sanitized first set may leave some; it is not checked.
+    # g++ 12 gives false warnings in its own AVX-512 headers.
     target_compile_options(${object} PRIVATE ${flags_${set}} -fno-exceptions
       $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-Wno-uninitialized;-Wno-maybe-uninitialized>)
-    target_link_libraries(${object} PRIVATE corpuscle_ways)
+    target_link_libraries(${object} PRIVATE corpuscle_options)
     if(NOT set STREQUAL baseline OR NOT CORPUSCLE_SANITIZE)
       target_compile_options(${object} PRIVATE $<$<NOT:$<CONFIG:Release>>:-O2>)
     endif()

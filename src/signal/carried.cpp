@@ -2,19 +2,19 @@
 
 #include <fmt/format.h>
 
-#include "carried_files.hpp"
+#include "embedded_file_table.hpp"
 
 namespace corpuscle {
 
 Result<std::string> carried_text(const std::string& path) {
-    for (const auto& f : carried)
+    for (const auto& f : embedded_file_table)
         if (f.path == path) return std::string(f.begin, f.end);
     return bad_input(fmt::format("the program does not carry '{}'", path), {path});
 }
 
 std::vector<std::string_view> carried_files() {
     std::vector<std::string_view> out;
-    for (const auto& f : carried) out.push_back(f.path);
+    for (const auto& f : embedded_file_table) out.push_back(f.path);
     return out;
 }
 

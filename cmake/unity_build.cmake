@@ -1,9 +1,10 @@
-# Files of one folder are compiled several at once, which halves the time to build all of them: what they include is read once. So names
-# in anonymous namespaces differ within a folder, and no file there has a using-directive outside of a function. A file with options of its own stands alone.
-#   compile_in_groups(TARGET file...)
-option(CORPUSCLE_GROUPS "compile several files as one: quicker, but a file may lack an include (make lint sees it)" ON)
-function(compile_in_groups target)
-  if(NOT CORPUSCLE_GROUPS)
+# Compiles up to eight files of a folder as one, which halves the time of a full build: common headers are read once.
+# Therefore names in anonymous namespaces must differ within a folder, and a using-directive belongs inside a function.
+# A file with its own compile options is compiled alone.
+#   use_unity_build(TARGET file...)
+option(CORPUSCLE_UNITY "compile several files as one: faster, but hides a missing include (make lint finds it)" ON)
+function(use_unity_build target)
+  if(NOT CORPUSCLE_UNITY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

@@ -1,0 +1,28 @@
+# Embeds text files in a library as bytes, found by their paths.
+#   embed_files(TARGET pattern...): the files that match, relative to the project's root. signal/carried.cpp returns their text.
+function(embed_files target)
+  set(assembly ".section .rodata\n")
+  set(declarations "")
+  set(rows "")
+  set(number 0)
+  set(own "")
+  foreach(pattern ${ARGN})
+    file(GLOB found CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${pattern})
+    foreach(path ${found})
+      string(APPEND assembly ".global corpuscle_embedded_${number}\n.global corpuscle_embedded_${number}_end\n"
+        "corpuscle_embedded_${number}:\n.incbin \"${PROJECT_SOURCE_DIR}/${path}\"\ncorpuscle_embedded_${number}_end:\n.byte 0\n")
+      string(APPEND declarations "extern \"C\" const char corpuscle_embedded_${number}[], corpuscle_embedded_${number}_end[];\n")
+      string(APPEND rows "    {\"${path}\", corpuscle_embedded_${number}, corpuscle_embedded_${number}_end},\n")
+      list(APPEND own ${PROJECT_SOURCE_DIR}/${path})
+      math(EXPR number "${number} + 1")
+    endforeach()
+  endforeach()
+  string(APPEND assembly ".section .note.GNU-stack,\"\",%progbits\n")
+  set(made ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+  file(CONFIGURE OUTPUT ${made}/embedded_files.S CONTENT "${assembly}" @ONLY)
+  file(CONFIGURE OUTPUT ${made}/embedded_file_table.hpp CONTENT "// Made by cmake/embed_files.cmake.\n#pragma once\n#include <string_view>\n\n${declarations}
+namespace corpuscle {\nstruct EmbeddedFile { std::string_view path; const char *begin, *end; };\ninline const EmbeddedFile embedded_file_table[] = {\n${rows}};\n}\n" @ONLY)
+  set_source_files_properties(${made}/embedded_files.S PROPERTIES OBJECT_DEPENDS "${own}" SKIP_PRECOMPILE_HEADERS ON)
+  target_sources(${target} PRIVATE ${made}/embedded_files.S)
+  set_source_files_properties(signal/carried.cpp PROPERTIES INCLUDE_DIRECTORIES ${made})
+endfunction()

@@ -1,0 +1,280 @@
+#!/usr/bin/env python3
+"""Checks the language of the source tree: identifiers, comments, texts in the program and documents.
+
+    plain_words.py ROOT            checks the files that git tracks below ROOT; exit status 1 if anything is found
+    plain_words.py ROOT --counts   also prints how many sentences were read
+    plain_words.py --self-test     checks that every rule finds its own example
+
+The rules are in rules.toml, the exceptions in excuses.toml. An excuse that matches nothing is an error too.
+"""
+
+import collections
+import fnmatch
+import pathlib
+import re
+import subprocess
+import sys
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+RULES = tomllib.loads((HERE / "rules.toml").read_text())
+EXCUSES = tomllib.loads((HERE / "excuses.toml").read_text()).get("excuse", [])
+
+C_LIKE = {".cpp", ".hpp", ".h", ".c", ".def", ".js", ".css"}
+HASH = {".py", ".sh", ".cmake", ".toml", ".yml", ".in"}
+C_TOKEN = re.compile(
+    r'(?P<line>//[^\n]*)|(?P<block>/\*.*?\*/)|R"(?P<delimiter>[^(\s]{0,16})\((?P<raw>.*?)\)(?P=delimiter)"'
+    r'|(?P<string>"(?:\\.|[^"\\\n])*"|`(?:\\.|[^`\\])*`)|(?P<char>\'(?:\\.|[^\'\\\n])+\')|(?P<name>[A-Za-z_$][\w$]*)|(?P<number>\d[\w.\']*)',
+    re.S)
+INCLUDE = re.compile(r'^\s*#\s*include[^\n]*', re.M)
+SENTENCE_END = re.compile(r'(?<=[.!?])["\')\]]*\s+(?=[A-Z"\'(`0-9])')
+WORD = re.compile(r"[A-Za-z][A-Za-z'-]*|\d[\d.,]*")
+
+Prose = collections.namedtuple("Prose", "kind line text")  # kind: comment, string or document
+Finding = collections.namedtuple("Finding", "file line rule text")
+
+
+def sentences(text):
+    return [s for s in SENTENCE_END.split(" ".join(text.split())) if s]
+
+
+def c_like(text):
+    """Comments and strings as prose, identifiers as (line, name)."""
+    text = INCLUDE.sub(lambda m: "\n" * m.group().count("\n"), text)
+    prose, names = [], []
+    comment, last_line = None, -2
+    line, at = 1, 0
+    joined = None  # adjacent strings are one text
+    joined_end = 0
+    for m in C_TOKEN.finditer(text):
+        line += text.count("\n", at, m.start())
+        at = m.start()
+        if m["line"]:
+            body = re.sub(r"^//[/!<]*", "", m["line"]).strip()
+            alone = not text[text.rfind("\n", 0, at) + 1:at].strip()
+            if comment and alone and last_line == line - 1 and comment[2]:
+                comment[1].append(body)
+            else:
+                comment = (line, [body], alone)
+                prose.append(("comment", comment))
+            last_line = line
+        elif m["block"]:
+            body = re.sub(r"^\s*\*", "", m["block"][2:-2], flags=re.M)
+            prose.append(("comment", (line, [body], True)))
+        elif m["string"] is not None or m["raw"] is not None:
+            body = m["raw"] if m["raw"] is not None else m["string"][1:-1].replace("\\n", "\n").replace('\\"', '"')
+            if joined and not text[joined_end:at].strip():
+                joined[1].append(body)
+            else:
+                joined = (line, [body], False)
+                prose.append(("string", joined))
+            joined_end = m.end()
+        elif m["name"]:
+            names.append((line, m["name"]))
+    out = []
+    for kind, (start, parts, _) in prose:
+        body = ("" if kind == "string" else "\n").join(parts)
+        if kind == "string":
+            if body.count(" ") < 2:
+                continue
+            out.extend(Prose(kind, start, p) for p in re.split(r"\n", body) if p.strip())
+        else:
+            out.extend(Prose(kind, start, p) for p in re.split(r"\n\s*\n", body) if p.strip())
+    return out, names
+
+
+def hash_comments(text, mark="#"):
+    prose, start, parts = [], 0, []
+    for number, row in enumerate(text.split("\n") + [""], 1):
+        stripped = row.strip()
+        if stripped.startswith(mark) and not stripped.startswith("#!"):
+            if not parts:
+                start = number
+            parts.append(stripped.lstrip(mark).strip())
+            continue
+        if parts:
+            prose.append(Prose("comment", start, " ".join(parts)))
+            parts = []
+        tail = re.search(r"\s" + re.escape(mark) + r"\s(.*)$", row) if mark == "#" else None
+        if tail and '"' not in tail[1]:
+            prose.append(Prose("comment", number, tail[1]))
+    return prose
+
+
+def document(text):
+    """Paragraphs, list items and table cells of Markdown, without code."""
+    prose, fence, start, parts = [], False, 0, []
+
+    def flush():
+        nonlocal parts
+        if parts:
+            prose.append(Prose("document", start, " ".join(parts)))
+        parts = []
+
+    for number, row in enumerate(text.split("\n") + [""], 1):
+        stripped = row.strip()
+        if stripped.startswith("```"):
+            fence = not fence
+            flush()
+            continue
+        if fence:
+            continue
+        plain = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "x", stripped))
+        plain = re.sub(r"<[^>]*>", " ", plain)
+        if plain.startswith("|"):
+            flush()
+            prose.extend(Prose("document", number, cell.strip()) for cell in plain.strip("|").split("|") if cell.strip(" -:"))
+        elif not plain or plain.startswith("#"):
+            flush()
+            if plain.lstrip("# "):
+                prose.append(Prose("document", number, plain.lstrip("# ")))
+        else:
+            if re.match(r"([-*+]|\d+\.)\s", plain):
+                flush()
+                plain = re.sub(r"^([-*+]|\d+\.)\s+", "", plain)
+            if not parts:
+                start = number
+            parts.append(plain)
+    return prose
+
+
+def read(path, name):
+    text = path.read_text(errors="replace")
+    if path.suffix in C_LIKE:
+        return c_like(text)
+    if path.suffix == ".md":
+        return document(text), []
+    if path.suffix in HASH or path.name in ("Makefile", "CMakeLists.txt", "packages", "install", "run"):
+        names = [(n, word) for n, row in enumerate(text.split("\n"), 1) for word in re.findall(r"[A-Za-z_]\w*", row.split("#")[0])]
+        return hash_comments(text), names if path.suffix in {".py", ".cmake"} or path.name == "CMakeLists.txt" else []
+    if path.suffix in (".cir", ".lib"):
+        return hash_comments(text, "*"), []
+    return [], []
+
+
+def parts_of(name):
+    return [p.lower() for p in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+", name)]
+
+
+def check_names(file, names):
+    rules = RULES["identifiers"]
+    exact, parts = rules["retired"], rules["retired_parts"]
+    for line, name in names:
+        if name in exact:
+            yield Finding(file, line, f"retired name: {exact[name]}", name)
+        else:
+            for p in parts_of(name):
+                if p in parts:
+                    yield Finding(file, line, f"retired word in a name: {parts[p]}", name)
+
+
+def check_prose(file, prose):
+    for p in prose:
+        for rule in RULES["expression"]:
+            if p.kind not in rule.get("where", ("comment", "string", "document")):
+                continue
+            for m in re.finditer(rule["pattern"], p.text):
+                yield Finding(file, p.line, f"{rule['instead']}", p.text[max(0, m.start() - 40):m.end() + 40])
+        for s in sentences(p.text):
+            count = len(WORD.findall(s))
+            if count > RULES["sentence"]["most_words"]:
+                yield Finding(file, p.line, f"a sentence of {count} words; at most {RULES['sentence']['most_words']}", s)
+            marks = len(re.findall(r"[;:](?=\s)", s))
+            if marks > RULES["sentence"]["most_colons"]:
+                yield Finding(file, p.line, f"{marks} colons and semicolons in a sentence; at most {RULES['sentence']['most_colons']}", s)
+
+
+def check_types(file, text):
+    """No bare participle as a type; failure is said in one way."""
+    for m in re.finditer(r"^\s*(?:struct|class|enum class|enum|using)\s+(?:\[\[\w+\]\]\s+)?([A-Z]\w*)\b(?=\s*[:{=]|\s+final)", text, re.M):
+        name, line = m[1], text.count("\n", 0, m.start(1)) + 1
+        if re.fullmatch(RULES["types"]["participle"], name):
+            yield Finding(file, line, "a type is a noun, not a bare participle", name)
+    for m in re.finditer(r"^[^\n/]*std::optional<Error>\s+\w+\(", text, re.M):
+        yield Finding(file, text.count("\n", 0, m.start()) + 1, "a function that can fail returns Result<void>", m[0].strip())
+
+
+def check_file_names(files):
+    seen = collections.defaultdict(list)
+    for f in files:
+        path = pathlib.PurePosixPath(f)
+        if path.suffix in (".hpp", ".cpp") and path.parts[0] in ("src", "apps"):
+            seen[path.name].append(f)
+    for name, paths in seen.items():
+        if len(paths) > 1:
+            yield Finding(paths[1], 0, "a file name that occurs twice", " ".join(paths))
+
+
+def check(root):
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-z"], capture_output=True, check=True).stdout.decode().split("\0")
+    files = [f for f in listed if f and not any(fnmatch.fnmatch(f, skip["files"]) for skip in RULES["skip"])]
+    findings, read_sentences = list(check_file_names(files)), 0
+    for f in files:
+        path = pathlib.Path(root) / f
+        if not path.is_file():
+            continue
+        prose, names = read(path, f)
+        read_sentences += sum(len(sentences(p.text)) for p in prose)
+        findings += check_names(f, names)
+        findings += check_prose(f, prose)
+        if path.suffix in (".hpp", ".cpp"):
+            findings += check_types(f, path.read_text(errors="replace"))
+    used = set()
+
+    def excused(finding):
+        for k, e in enumerate(EXCUSES):
+            if fnmatch.fnmatch(finding.file, e["files"]) and re.search(e["text"], finding.text):
+                used.add(k)
+                return True
+        return False
+
+    left = [x for x in findings if not excused(x)]
+    for k, e in enumerate(EXCUSES):
+        if k not in used:
+            left.append(Finding("test/words/excuses.toml", 0, "an excuse that nothing needs", e["text"]))
+        if not e.get("reason"):
+            left.append(Finding("test/words/excuses.toml", 0, "an excuse without a reason", e["text"]))
+    if len(EXCUSES) >= RULES["excuses"]["fewer_than"]:
+        left.append(Finding("test/words/excuses.toml", 0, f"fewer than {RULES['excuses']['fewer_than']} excuses", str(len(EXCUSES))))
+    return left, read_sentences
+
+
+def self_test():
+    """Each expression finds its example and leaves its plain form alone; the other rules find a planted case."""
+    wrong = []
+    for rule in RULES["expression"]:
+        kind = rule.get("where", ["comment"])[0]
+        if not any(f.rule == rule["instead"] for f in check_prose("x", [Prose(kind, 1, rule["bad"])])):
+            wrong.append(f"{rule['pattern']} does not find: {rule['bad']}")
+        if any(f.rule == rule["instead"] for f in check_prose("x", [Prose(kind, 1, rule["good"])])):
+            wrong.append(f"{rule['pattern']} finds: {rule['good']}")
+    prose, names = c_like('/// True if it\n/// fits.\nint Wish = f("one two "\n "three"); // and then\n')
+    if [p.text for p in prose] != ["True if it\nfits.", "one two three", "and then"] or (3, "Wish") not in names:
+        wrong.append(f"comments and strings are not read: {prose} {names}")
+    if not list(check_names("x", names)):
+        wrong.append("a retired name is not found")
+    if len(list(check_prose("x", [Prose("comment", 1, "word " * 60 + ".")]))) != 1:
+        wrong.append("a long sentence is not found")
+    if len(list(check_types("x", "struct Told {\n};\nstd::optional<Error> f(int);\n"))) != 2:
+        wrong.append("a participle as a type, or an optional error, is not found")
+    if not list(check_file_names(["src/a/x.cpp", "src/b/x.cpp"])):
+        wrong.append("a file name that occurs twice is not found")
+    if document("a `b`\n\n```sh\nwhoever\n```\n| c | d |\n") != [Prose("document", 1, "a x"), Prose("document", 6, "c"), Prose("document", 6, "d")]:
+        wrong.append("Markdown is not read")
+    return wrong
+
+
+def main():
+    if "--self-test" in sys.argv:
+        wrong = self_test()
+        print("\n".join(wrong) or "every rule finds its example")
+        return bool(wrong)
+    findings, count = check(sys.argv[1])
+    for f in findings:
+        print(f"{f.file}:{f.line}: {f.rule}\n    {' '.join(f.text.split())[:300]}")
+    print(f"{count} sentences read, {len(findings)} found, {len(EXCUSES)} excuses")
+    return bool(findings)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
