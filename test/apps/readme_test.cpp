@@ -1,4 +1,4 @@
-// What the README shows is what runs.
+// The commands and the program of the README, and the commands of the tutorial, run as they are shown.
 
 #include "support/program.hpp"
 
@@ -7,9 +7,9 @@ namespace {
 
 const std::string project_root = test::root();
 
-/// The lines of the README's shell blocks that call the program, without what stands behind a '#'.
-std::vector<std::string> commands() {
-    std::istringstream text(test::read_file(project_root + "/README.md"));
+/// The lines of a page's shell blocks that call the program, without a comment after '#'.
+std::vector<std::string> commands(const std::string& page) {
+    std::istringstream text(test::read_file(project_root + "/" + page));
     std::vector<std::string> out;
     bool shell = false;
     for (std::string line; std::getline(text, line);) {
@@ -19,11 +19,12 @@ std::vector<std::string> commands() {
     return out;
 }
 
-TEST(Readme, EveryCommandItShowsRuns) {
+/// Runs the commands of a page in the order in which they are shown.
+void run_commands_of(const std::string& page) {
     const test::Folder folder;  // the clone, with what a user finds in it and nothing else
     for (const auto* part : {"circuits", "process", "examples"})
         std::filesystem::copy(project_root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
-    const auto shown = commands();
+    const auto shown = commands(page);
     ASSERT_GE(shown.size(), 6U);
     for (const auto& command : shown) {
         const auto words = command.substr(std::string("corpuscle").size());
@@ -31,6 +32,10 @@ TEST(Readme, EveryCommandItShowsRuns) {
         EXPECT_EQ(ran.status, 0) << command << '\n' << ran.err;
     }
 }
+
+TEST(Readme, EveryCommandItShowsRuns) { run_commands_of("README.md"); }
+
+TEST(Tutorial, EveryCommandItShowsRuns) { run_commands_of("doc/tutorial.md"); }
 
 TEST(Readme, ItsProgramIsTheExampleThatRuns) {
     const auto example = test::read_file(project_root + "/examples/respond.cpp"), readme = test::read_file(project_root + "/README.md");
@@ -40,12 +45,13 @@ TEST(Readme, ItsProgramIsTheExampleThatRuns) {
 TEST(Readme, EveryPageItPointsToIsThere) {
     for (const auto* page : {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md",
                              "doc/measures.md", "doc/circuits.md", "doc/chips.md", "doc/lanes.md", "doc/populations.md",
-                             "doc/real-recordings.md", "doc/live.md", "doc/events.md"}) {
+                             "doc/real-recordings.md", "doc/live.md", "doc/events.md", "doc/skin.md", "doc/sweeps.md", "doc/README.md",
+                             "doc/tutorial.md", "doc/glossary.md", "doc/troubleshooting.md", "doc/benchmarks.md"}) {
         const auto text = test::read_file(project_root + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
-            const auto target = text.substr(at + 2, text.find(')', at) - at - 2);
-            if (target.starts_with("http")) continue;
+            const auto link = text.substr(at + 2, text.find(')', at) - at - 2), target = link.substr(0, link.find('#'));
+            if (link.starts_with("http") || target.empty()) continue;  // elsewhere, or within the page
             EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(project_root) / std::filesystem::path(page).parent_path() / target))
                 << page << " points to " << target;
         }
