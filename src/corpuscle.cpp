@@ -8,48 +8,48 @@ namespace corpuscle {
 namespace {
 
 template <class T>
-T sure(Result<T> result) {
+T value_or_throw(Result<T> result) {
     if (!result) throw Refused(result.error().text());
     return std::move(*result);
 }
 
-std::vector<Wish> wishes_of(const std::vector<std::string>& settings) {
-    std::vector<Wish> wishes;
-    for (const auto& s : settings) wishes.push_back(sure(parse_wish(s)));
-    return wishes;
+std::vector<Wish> parse_overrides(const std::vector<std::string>& settings) {
+    std::vector<Wish> overrides;
+    for (const auto& s : settings) overrides.push_back(value_or_throw(parse_wish(s)));
+    return overrides;
 }
 
-void check_used(std::span<const Wish> wishes) {
-    for (const auto& w : wishes)
-        if (!w.used) throw Refused(w.text() + ": nothing here is called '" + w.of + "'");
+void check_used(std::span<const Wish> overrides) {
+    for (const auto& o : overrides)
+        if (!o.used) throw Refused(o.text() + ": no model or stimulus in use is named '" + o.of + "'");
 }
 
 }  // namespace
 
 Touch stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
-    const auto wishes = wishes_of(settings);
-    const auto source = sure(make_stimulus(name, wishes, rate, seed));
-    check_used(wishes);
-    Touch touch{source->clock().rate(), {}};
+    const auto overrides = parse_overrides(settings);
+    const auto source = value_or_throw(make_stimulus(name, overrides, rate, seed));
+    check_used(overrides);
+    Touch signal{source->clock().rate(), {}};
     for (Frames block(1, 4096);;) {
         if (auto ok = source->read(block); !ok) throw Refused(ok.error().text());
-        if (block.count == 0) return touch;
-        touch.force.insert(touch.force.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
+        if (block.count == 0) return signal;
+        signal.force.insert(signal.force.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
     }
 }
 
-Response respond(const std::string& afferent, const Touch& touch, const std::vector<std::string>& settings) {
-    const auto wishes = wishes_of(settings);
-    const auto plan = sure(plan_any_afferent(afferent, wishes));
-    check_used(wishes);
-    const auto clock = sure(clock_of(touch.rate));
-    const auto made = make_afferent(plan, {clock.T()});
-    auto state = made->start();
+Response respond(const std::string& afferent, const Touch& signal, const std::vector<std::string>& settings) {
+    const auto overrides = parse_overrides(settings);
+    const auto plan = value_or_throw(plan_any_afferent(afferent, overrides));
+    check_used(overrides);
+    const auto clock = value_or_throw(clock_of(signal.rate));
+    const auto model = make_afferent(plan, {clock.T()});
+    auto state = model->start();
     std::vector<Spike> spikes;
-    Answer answer{spikes};
-    auto force = touch.force;
-    if (!force.empty()) force.insert(force.end(), static_cast<std::size_t>(made->delay()), force.back());
-    if (auto ok = made->respond(force, state, answer); !ok) throw Refused(ok.error().text());
+    Answer response{spikes};
+    auto force = signal.force;
+    if (!force.empty()) force.insert(force.end(), static_cast<std::size_t>(model->delay()), force.back());
+    if (auto ok = model->respond(force, state, response); !ok) throw Refused(ok.error().text());
     return {times(spikes, clock)};
 }
 

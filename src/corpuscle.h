@@ -1,5 +1,5 @@
-/* A skin that answers as force comes, frame by frame, for other languages (doc/live.md). Plain C; no exception leaves it. One skin is to
- * be used by one thread at a time; several skins are nothing to one another. */
+/* A simulated skin for other languages: force frames in, spikes out, one frame at a time (doc/live.md). Plain C; no exception leaves a
+ * function. A skin must not be used by two threads at the same time. Different skins are independent. */
 #ifndef CORPUSCLE_H
 #define CORPUSCLE_H
 
@@ -13,42 +13,43 @@ extern "C" {
 typedef struct corpuscle_skin corpuscle_skin;
 
 typedef struct corpuscle_spike {
-    double time;      /* s; the first frame is at 0 */
-    uint32_t unit;    /* which afferent: corpuscle_unit_name */
-    uint32_t address; /* of it (doc/events.md) */
+    double time;      /* s; the first frame is at time 0 */
+    uint32_t unit;    /* index of the afferent; corpuscle_afferent_name gives its name */
+    uint32_t address; /* the afferent's address in event files (doc/events.md) */
 } corpuscle_spike;
 
-/* Called for each spike, in order; must not throw or leave by longjmp. */
+/* Called for each spike, in time order. It must not throw or call longjmp. */
 typedef void (*corpuscle_sink)(void* user, const corpuscle_spike* spike);
 
-/* "hand", "fingertip", "grid 8x8", a population file; or afferents by name ("sa1,fa1"), each on all of `channels`. NULL: the text in
- * `error`, which may be NULL, says why. */
+/* `population` is "hand", "fingertip", "grid 8x8", a population file, or afferents by name ("sa1,fa1"). Named afferents are created on
+ * each of `channels` channels. Returns NULL on failure and writes the reason into `error`, which may be NULL. */
 corpuscle_skin* corpuscle_create(const char* population, double rate_hz, size_t channels, char* error, size_t error_size);
-/* The same with `count` settings of its classes, such as "sa1.f_B=25Hz". */
+/* The same, with `count` parameter settings such as "sa1.f_B=25Hz". */
 corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, size_t channels, const char* const* settings, size_t count,
                                       char* error, size_t error_size);
-void corpuscle_destroy(corpuscle_skin* skin); /* NULL is nothing */
+void corpuscle_destroy(corpuscle_skin* skin); /* NULL is allowed */
 
-size_t corpuscle_sites(const corpuscle_skin* skin);                         /* forces of a frame */
-const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site);   /* "r1c2"; site from 0; NULL: there is none */
-/* Where force `site` of a frame is felt, in metres: x to the right, y away from the wrist. 0, or -1: there is no such site. */
+size_t corpuscle_sites(const corpuscle_skin* skin);                         /* number of forces in a frame */
+const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site);   /* "r1c2"; sites count from 0; NULL: no such site */
+/* Position of a site in metres: x to the right, y away from the wrist. Returns 0, or -1 if there is no such site. */
 int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, double* y);
-size_t corpuscle_units(const corpuscle_skin* skin);                         /* afferents */
-const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t unit); /* "sa1#17"; NULL: there is none */
+size_t corpuscle_units(const corpuscle_skin* skin);                         /* number of afferents */
+const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t unit); /* "sa1#17"; NULL: no such afferent */
 
-/* These give 0, or -1: then corpuscle_error says why. */
+/* These return 0, or -1 on failure; corpuscle_error then gives the reason. */
 
-/* One force (N) a site; the spikes that arrive in this frame go to the sink, which may be NULL. */
+/* Simulates one frame: one force (N) for each site. Spikes that arrive during this frame are passed to `sink`, which may be NULL. */
 int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corpuscle_sink sink, void* user);
-/* At the end of it all: spikes still on their way. */
+/* Call after the last frame: passes the spikes that are still travelling along the nerve to `sink`. */
 int corpuscle_last(corpuscle_skin* skin, corpuscle_sink sink, void* user);
 
-/* Where it stands, into `bytes`, which has room for `size`; returns how many bytes it takes (0: an error). With NULL it only tells. */
+/* Writes the state into `bytes`, a buffer of `size` bytes. Returns the number of bytes needed, or 0 on failure. With NULL nothing is
+ * written. */
 size_t corpuscle_save(corpuscle_skin* skin, void* bytes, size_t size);
-/* One made alike goes on from there. */
+/* Restores a saved state. The skin must have been created with the same arguments. */
 int corpuscle_resume(corpuscle_skin* skin, const void* bytes, size_t size);
 
-const char* corpuscle_error(const corpuscle_skin* skin); /* of the last call that failed; "" if none did */
+const char* corpuscle_error(const corpuscle_skin* skin); /* message of the last call that failed; "": none failed */
 
 #ifdef __cplusplus
 }

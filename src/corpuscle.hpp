@@ -1,5 +1,5 @@
 #pragma once
-// The library's face: name an afferent, hand it force, get spikes. Errors are exceptions here, and only here.
+// The public interface: name an afferent, pass a force, get spikes. Errors are exceptions here, and only here.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,70 +11,72 @@
 
 namespace corpuscle {
 
-/// Thrown by the functions of this header; what() is the sentence, with file, line and column if there are some.
+/// Thrown by the functions of this header. what() is the error message, with file, line and column where they are known.
 struct Refused : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Force over time, evenly sampled.
+/// Force over time, uniformly sampled.
 struct Touch {
     double rate = 10e3;         ///< Hz
-    std::vector<double> force;  ///< N, one value a sample
+    std::vector<double> force;  ///< N, one value per sample
 };
 
-/// A stimulus by name, or a sum ("press+noise"), with settings such as "press.F_max=2N". Throws Refused.
+/// A stimulus by name, or a sum of stimuli ("press+noise"), with settings such as "press.F_max=2N". `rate` in Hz. Throws InputError.
 Touch stimulus(const std::string& name, const std::vector<std::string>& settings = {}, double rate = 10e3, std::uint64_t seed = 0);
 
-/// What an afferent answered.
+/// Response of one afferent.
 struct Response {
     std::vector<double> spikes;         ///< s, in order; sample 0 is at 0 s
-    std::vector<double> rates() const;  ///< Hz, 1 / (t[k+1] - t[k]) at spike k (thesis 3.3); one fewer than spikes
+    std::vector<double> rates() const;  ///< Hz, 1 / (t[k+1] - t[k]) at spike k (thesis 3.3); one value fewer than spikes
 };
 
-/// All of one touch through one afferent ("sa1", "sa1b+izhikevich"), with settings such as "sa1.f_B=25Hz". Throws Refused.
+/// Simulates one afferent ("sa1", "sa1b+izhikevich") over the whole signal, with settings such as "sa1.f_B=25Hz". Throws InputError.
 Response respond(const std::string& afferent, const Touch&, const std::vector<std::string>& settings = {});
 
-/// A skin that answers as force comes, frame by frame: for robots (doc/live.md). Once made it asks for no memory and takes no lock; the
-/// same frames give the same spikes as a recording answered as a whole. To be used by one thread at a time.
+/// A simulated skin, made for robots: force frames in, spikes out, one frame at a time (doc/live.md). After construction it allocates no
+/// memory and takes no lock. The spikes are the same as those of a recording of these frames. It must not be used by two threads at the
+/// same time.
 class LiveSkin {
 public:
     struct Event {
-        double time = 0;            ///< s; the first frame is at 0
-        std::uint32_t unit = 0;     ///< which afferent: name(unit)
-        std::uint32_t address = 0;  ///< of it (doc/events.md)
+        double time = 0;            ///< s; the first frame is at time 0
+        std::uint32_t unit = 0;     ///< index of the afferent; afferent_name() gives its name
+        std::uint32_t address = 0;  ///< the afferent's address in event files (doc/events.md)
     };
 
-    /// Where a force of a frame is felt; m, x to the right and y away from the wrist.
+    /// The point of the skin to which one force of a frame applies. Coordinates in m, x to the right and y away from the wrist.
     struct Site {
         std::string name;  ///< "r1c2", "index.tip.17"
         double x = 0, y = 0;
     };
 
-    /// "hand", "fingertip", "grid 8x8", a population file; or afferents by name ("sa1,fa1"), each on all of so many channels; with settings
-    /// of its classes such as "sa1.f_B=25Hz". Throws Refused, and so do the rest.
+    /// `population` is "hand", "fingertip", "grid 8x8", a population file, or afferents by name ("sa1,fa1"). Named afferents are created on
+    /// each of `channels` channels. `rate` is in frames per second. `settings` are parameters such as "sa1.f_B=25Hz". Throws InputError, as
+    /// do the other members.
     explicit LiveSkin(const std::string& population, double rate = 1e3, std::size_t channels = 1,
                       const std::vector<std::string>& settings = {});
     LiveSkin(LiveSkin&&) noexcept;
     LiveSkin& operator=(LiveSkin&&) noexcept;
     ~LiveSkin();
 
-    std::size_t sites() const;                   ///< forces of a frame
-    Site site(std::size_t number) const;         ///< which is force `number` of a frame, from 0
-    std::size_t units() const;                   ///< afferents
-    std::int64_t frames() const;                 ///< answered so far
+    std::size_t sites() const;                   ///< number of forces in a frame
+    Site site(std::size_t number) const;         ///< site of force `number` of a frame, from 0
+    std::size_t units() const;                   ///< number of afferents
+    std::int64_t frames() const;                 ///< frames simulated so far
     std::string name(std::uint32_t unit) const;  ///< "sa1#17"
 
-    /// One force (N) a site; sink(event) is called for each spike that arrives in this frame, in order.
+    /// Simulates one frame: one force (N) for each site. Calls sink(event), in order, for each spike that arrives during this frame.
     template <class Sink>
     void push(std::span<const double> frame, Sink&& sink) {
         for (const auto& e : answer(frame)) sink(e);
     }
-    /// The same as a list, valid until the next call.
+    /// The same, as a list that is valid until the next call.
     std::span<const Event> answer(std::span<const double> frame);
-    /// At the end of it all: spikes still on their way to where the nerve is listened to.
+    /// Call after the last frame: returns the spikes that are still travelling along the nerve.
     std::span<const Event> last();
 
-    /// Where it stands; one made alike goes on from there.
+    /// The state as bytes. A LiveSkin constructed with the same arguments can resume from it.
     std::vector<std::byte> save() const;
     void resume(std::span<const std::byte>);
 

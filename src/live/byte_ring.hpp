@@ -1,5 +1,6 @@
 #pragma once
-// Bytes from one thread to another without a lock: a ring of fixed size, one that puts, one that takes. The two may be the same thread.
+// Passes bytes from one thread to another without a lock: a ring buffer of fixed size with one writer and one reader. Both may be the same
+// thread.
 
 #include <algorithm>
 #include <atomic>
@@ -11,13 +12,13 @@
 namespace corpuscle {
 
 class ByteRing {
-    alignas(64) std::atomic<std::size_t> put_ = 0;  // bytes in all; the place is modulo the size
+    alignas(64) std::atomic<std::size_t> put_ = 0;  // total bytes written; the index is this modulo the size
     std::vector<char> bytes_;
     alignas(64) std::atomic<std::size_t> taken_ = 0;
 
 public:
-    /// At least so many bytes; a power of two.
-    explicit ByteRing(std::size_t least) : bytes_(std::bit_ceil(std::max<std::size_t>(least, 64))) {}
+    /// At least `min_size` bytes, rounded up to a power of two.
+    explicit ByteRing(std::size_t min_size) : bytes_(std::bit_ceil(std::max<std::size_t>(min_size, 64))) {}
     std::size_t size() const { return bytes_.size(); }
     std::size_t all_put() const { return put_.load(std::memory_order_acquire); }
     std::size_t all_taken() const { return taken_.load(std::memory_order_acquire); }
@@ -25,7 +26,7 @@ public:
 
     bool has_room(std::size_t bytes) const { return bytes <= bytes_.size() - filled(); }
 
-    /// All of it or, if there is no room, nothing.
+    /// Writes all of the text, or nothing if it does not fit.
     bool put(std::string_view text) {
         const auto at = put_.load(std::memory_order_relaxed);
         if (text.size() > bytes_.size() - (at - taken_.load(std::memory_order_acquire))) return false;
@@ -36,7 +37,7 @@ public:
         return true;
     }
 
-    /// What can be taken next in one piece; empty if there is nothing.
+    /// The next bytes to read in one piece; empty if there are none.
     std::string_view next() const {
         const auto at = taken_.load(std::memory_order_relaxed), filled = put_.load(std::memory_order_acquire) - at;
         const auto begin = at & (bytes_.size() - 1);

@@ -16,7 +16,7 @@
 namespace corpuscle {
 namespace {
 
-bool to_be_tried_again(int why) { return why == EAGAIN || why == EWOULDBLOCK || why == EINTR; }
+bool is_temporary(int why) { return why == EAGAIN || why == EWOULDBLOCK || why == EINTR; }
 
 class StandardInput final : public ByteSource {
 public:
@@ -30,62 +30,63 @@ public:
         const auto count = ::read(STDIN_FILENO, out.data(), out.size());
         if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
         if (count == 0) return Came{Came::end};
-        if (to_be_tried_again(errno)) return Came{Came::nothing};
+        if (is_temporary(errno)) return Came{Came::nothing};
         return bad_input(fmt::format("standard input cannot be read: {}", std::strerror(errno)));
     }
 };
 
 class Listener final : public ByteSource {
-    static constexpr std::int64_t between_looks = 200'000'000;  // ns: at who waits behind an idle client
+    static constexpr std::int64_t check_interval = 200'000'000;  // ns: between two checks for a waiting client while this one is idle
     Endpoint at_;
-    Descriptor door_, client_;
+    Descriptor listener_, client_;
     SenderLimits limits_;
     std::int64_t clients_ = 0, idle_clients_ = 0, due_ = steady_never;
-    int enough_ = 1;
+    int low_watermark_ = 1;
 
     Came accept() {
-        client_ = Descriptor(::accept4(door_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+        client_ = Descriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
         if (!client_) return {Came::nothing};
         ++clients_;
         watch_peer(client_.get());
-        wake_at_enough();
-        heard();
+        apply_low_watermark();
+        restart_idle_timer();
         return {Came::nothing};
     }
-    void wake_at_enough() const { ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &enough_, sizeof enough_); }
-    void heard() {
+    void apply_low_watermark() const { ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &low_watermark_, sizeof low_watermark_); }
+    void restart_idle_timer() {
         if (limits_.idle > 0) due_ = steady_now() + limits_.idle;
     }
 
-    Came leave() {
+    Came disconnect() {
         client_.close();
         due_ = steady_never;
         return {limits_.clients > 0 && clients_ >= limits_.clients ? Came::end : Came::gone};
     }
 
-    bool another_waits() const {
-        pollfd door = {door_.get(), POLLIN, 0};
-        return ::poll(&door, 1, 0) == 1;
+    bool is_another_waiting() const {
+        pollfd listener = {listener_.get(), POLLIN, 0};
+        return ::poll(&listener, 1, 0) == 1;
     }
 
-    /// The client is there and has sent nothing.
-    Came wait_on() {
+    /// Called when the client is connected but has sent nothing.
+    Came check_idle() {
         const auto now = steady_now();
         if (now < due_) return {Came::nothing};
-        due_ = now + between_looks;
-        if (!another_waits()) return {Came::nothing};
+        due_ = now + check_interval;
+        if (!is_another_waiting()) return {Came::nothing};
         ++idle_clients_;
-        return leave();
+        return disconnect();
     }
 
 public:
-    Listener(const Endpoint& at, Descriptor door, const SenderLimits& limits) : at_(at), door_(std::move(door)), limits_(limits) {}
-    int waits_on() const override { return client_ ? client_.get() : door_.get(); }
+    Listener(const Endpoint& at, Descriptor listener, const SenderLimits& limits)
+        : at_(at), listener_(std::move(listener)), limits_(limits) {}
+    int waits_on() const override { return client_ ? client_.get() : listener_.get(); }
     std::int64_t due() const override { return due_; }
     std::string sentence() const override { return "listening on " + at_.text(); }
     void enough(std::size_t bytes) override {
-        enough_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20));
-        if (client_) wake_at_enough();
+        low_watermark_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20));
+        if (client_) apply_low_watermark();
     }
     bool has_one_sender() const override { return false; }
     std::int64_t producers() const override { return clients_; }
@@ -93,9 +94,9 @@ public:
     Result<Came> read(std::span<char> out) override {
         if (!client_) return accept();
         const auto count = ::recv(client_.get(), out.data(), out.size(), 0);
-        if (count > 0) return heard(), Came{Came::bytes, static_cast<std::size_t>(count)};
-        if (count < 0 && to_be_tried_again(errno)) return wait_on();
-        return leave();  // in peace or not: the next may come
+        if (count > 0) return restart_idle_timer(), Came{Came::bytes, static_cast<std::size_t>(count)};
+        if (count < 0 && is_temporary(errno)) return check_idle();
+        return disconnect();  // closed or failed: accept the next client
     }
 };
 
@@ -110,8 +111,8 @@ public:
     Result<Came> read(std::span<char> out) override {
         const auto count = ::read(line_.get(), out.data(), out.size());
         if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
-        if (count < 0 && to_be_tried_again(errno)) return Came{Came::nothing};
-        return Came{Came::end};  // hung up, or pulled out
+        if (count < 0 && is_temporary(errno)) return Came{Came::nothing};
+        return Came{Came::end};  // disconnected or unplugged
     }
 };
 
@@ -130,9 +131,9 @@ std::size_t ByteSource::unread() const {
 
 Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int port, const SenderLimits& limits) {
     Endpoint at{address, port};
-    auto door = listening_socket(at);
-    if (!door) return door.error();
-    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*door), limits));
+    auto listener = listening_socket(at);
+    if (!listener) return listener.error();
+    return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*listener), limits));
 }
 
 Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long baud) {
@@ -142,17 +143,17 @@ Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long ba
         if (number == baud) speed = word;
         known += fmt::format("{}{}", known.empty() ? "" : ", ", number);
     }
-    if (speed == B0) return bad_usage(fmt::format("--baud {}: a serial line goes at {}", baud, known));
+    if (speed == B0) return bad_usage(fmt::format("--baud {}: expected one of {}", baud, known));
     Descriptor line(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!line) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
-    termios ways = {};
-    if (::tcgetattr(line.get(), &ways) != 0) return bad_input("this is no serial device", {path});
-    ::cfmakeraw(&ways);
-    ways.c_cflag |= CLOCAL | CREAD;
-    ways.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
-    ways.c_cc[VMIN] = 1, ways.c_cc[VTIME] = 0;
-    ::cfsetspeed(&ways, speed);
-    if (::tcsetattr(line.get(), TCSANOW, &ways) != 0)
+    termios settings = {};
+    if (::tcgetattr(line.get(), &settings) != 0) return bad_input("this is not a serial device", {path});
+    ::cfmakeraw(&settings);
+    settings.c_cflag |= CLOCAL | CREAD;
+    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+    settings.c_cc[VMIN] = 1, settings.c_cc[VTIME] = 0;
+    ::cfsetspeed(&settings, speed);
+    if (::tcsetattr(line.get(), TCSANOW, &settings) != 0)
         return bad_input(fmt::format("cannot be set to {} baud: {}", baud, std::strerror(errno)), {path});
     ::tcflush(line.get(), TCIFLUSH);
     return std::unique_ptr<ByteSource>(std::make_unique<Serial>(path, std::move(line)));

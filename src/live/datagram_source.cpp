@@ -1,4 +1,4 @@
-// Frames in datagrams: each datagram holds whole frames, all from one sender at a time.
+// Frames in datagrams: each datagram contains whole frames, from one sender at a time.
 
 #include <sys/socket.h>
 #include <cerrno>
@@ -11,32 +11,32 @@
 namespace corpuscle {
 namespace {
 
-constexpr int receive_room = 4 << 20;  // bytes the system is asked to keep for us; it may grant fewer
+constexpr int receive_buffer = 4 << 20;  // requested receive buffer, bytes; the system may grant less
 
-/// One datagram, as the system hands it out.
+/// One datagram as received.
 struct Datagram {
     ssize_t bytes = -1;
     SocketAddress from;
-    std::optional<std::uint32_t> lost;  ///< of all that came to this socket, how many found no room
+    std::optional<std::uint32_t> lost;  ///< total of datagrams on this socket that the system dropped
 };
 
 Datagram receive_one(int fd, std::span<char> out) {
-    Datagram got;
+    Datagram datagram;
     iovec to = {out.data(), out.size()};
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint32_t))];
     msghdr message = {};
-    message.msg_name = &got.from.bytes, message.msg_namelen = sizeof got.from.bytes;
+    message.msg_name = &datagram.from.bytes, message.msg_namelen = sizeof datagram.from.bytes;
     message.msg_iov = &to, message.msg_iovlen = 1;
     message.msg_control = control, message.msg_controllen = sizeof control;
-    got.bytes = ::recvmsg(fd, &message, 0);
-    if (got.bytes < 0) return got;
-    got.from.size = message.msg_namelen;
+    datagram.bytes = ::recvmsg(fd, &message, 0);
+    if (datagram.bytes < 0) return datagram;
+    datagram.from.size = message.msg_namelen;
     if (const auto* head = CMSG_FIRSTHDR(&message); head && head->cmsg_level == SOL_SOCKET && head->cmsg_type == SO_RXQ_OVFL) {
-        std::uint32_t lost = 0;
-        std::memcpy(&lost, CMSG_DATA(head), sizeof lost);
-        got.lost = lost;
+        std::uint32_t dropped = 0;
+        std::memcpy(&dropped, CMSG_DATA(head), sizeof dropped);
+        datagram.lost = dropped;
     }
-    return got;
+    return datagram;
 }
 
 class DatagramSource final : public ByteSource {
@@ -44,37 +44,37 @@ class DatagramSource final : public ByteSource {
     Descriptor fd_;
     SenderLimits limits_;
     std::optional<SocketAddress> sender_;
-    std::int64_t senders_ = 0, heard_ = 0;
+    std::int64_t senders_ = 0, last_received_ = 0;
     SenderCounts counts_;
 
-    bool is_idle(std::int64_t now) const { return limits_.idle > 0 && now - heard_ >= limits_.idle; }
+    bool is_idle(std::int64_t now) const { return limits_.idle > 0 && now - last_received_ >= limits_.idle; }
 
-    Came ended() {
+    Came end_sender() {
         sender_.reset();
         return {limits_.clients > 0 && senders_ >= limits_.clients ? Came::end : Came::gone};
     }
 
-    Came taken(const Datagram& got) {
+    Came accept(const Datagram& datagram) {
         const auto now = steady_now();
         bool from_another = false;
-        if (!sender_ || !(*sender_ == got.from)) {
+        if (!sender_ || !(*sender_ == datagram.from)) {
             if (sender_ && !is_idle(now)) return ++counts_.strangers, Came{Came::nothing};
             if (sender_) {
                 ++counts_.idle;
-                if (ended().what == Came::end) return {Came::end};
+                if (end_sender().what == Came::end) return {Came::end};
             }
-            sender_ = got.from, ++senders_, from_another = true;
+            sender_ = datagram.from, ++senders_, from_another = true;
         }
-        heard_ = now;
-        if (got.bytes == 0) return ended();
-        return {Came::bytes, static_cast<std::size_t>(got.bytes), from_another};
+        last_received_ = now;
+        if (datagram.bytes == 0) return end_sender();
+        return {Came::bytes, static_cast<std::size_t>(datagram.bytes), from_another};
     }
 
 public:
     DatagramSource(Endpoint at, Descriptor fd, const SenderLimits& limits) : at_(std::move(at)), fd_(std::move(fd)), limits_(limits) {
         const int yes = 1;
         ::setsockopt(fd_.get(), SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
-        ::setsockopt(fd_.get(), SOL_SOCKET, SO_RCVBUF, &receive_room, sizeof receive_room);
+        ::setsockopt(fd_.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     }
     int waits_on() const override { return fd_.get(); }
     std::string sentence() const override { return "listening on " + at_.text() + " for datagrams"; }
@@ -83,10 +83,10 @@ public:
     std::int64_t producers() const override { return senders_; }
     SenderCounts senders() const override { return counts_; }
     Result<Came> read(std::span<char> out) override {
-        const auto got = receive_one(fd_.get(), out);
-        if (got.lost) counts_.lost = *got.lost;
-        if (got.bytes >= 0) return taken(got);
-        // An error that a datagram of an earlier sender caused (its port was closed) is no fault of the next.
+        const auto datagram = receive_one(fd_.get(), out);
+        if (datagram.lost) counts_.lost = *datagram.lost;
+        if (datagram.bytes >= 0) return accept(datagram);
+        // An error caused by a datagram to an earlier sender, whose port was closed, does not concern the next sender.
         if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED) return Came{Came::nothing};
         return bad_input(at_.text() + " cannot be read: " + std::strerror(errno));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// How long things took, as a histogram of fixed size: 32 bins an octave (2 % wide), from nanoseconds to hours.
+// A latency histogram of fixed size: 32 bins per octave (2 % wide), from nanoseconds to hours.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ class Delays {
     static int bin_of(std::int64_t ns) {
         const auto n = static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
         if (n < sub) return static_cast<int>(n);
-        const int octave = static_cast<int>(std::bit_width(n)) - 6;  // of 32 ns it is 0
+        const int octave = static_cast<int>(std::bit_width(n)) - 6;  // 0 for 32 ns
         return std::min(bins - 1, (octave + 1) * sub + static_cast<int>((n >> octave) - sub));
     }
 
@@ -26,7 +26,7 @@ public:
     std::uint64_t count() const { return count_; }
     std::int64_t most() const { return most_; }  ///< ns
 
-    /// The upper end of a bin, ns: it holds what is below and not in those before.
+    /// The upper end of a bin, ns, exclusive.
     static std::int64_t end_of(int bin) {
         if (bin < sub) return bin + 1;
         const int octave = bin / sub - 1;
@@ -35,13 +35,13 @@ public:
     static constexpr int size() { return bins; }
     std::uint64_t in(int bin) const { return counts_[static_cast<std::size_t>(bin)]; }
 
-    /// So much of it all took no longer, ns: the end of the bin, or the longest of all.
-    std::int64_t quantile(double share) const {
-        const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(count_));
+    /// The given quantile, ns: the upper end of its bin, or the maximum.
+    std::int64_t quantile(double fraction) const {
+        const auto rank = static_cast<std::uint64_t>(fraction * static_cast<double>(count_));
         std::uint64_t seen = 0;
         for (int b = 0; b < bins; ++b) {
             seen += in(b);
-            if (seen > wanted) return std::min(end_of(b), most_);
+            if (seen > rank) return std::min(end_of(b), most_);
         }
         return most_;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// A file descriptor of one's own, closed with its owner.
+// Owns a file descriptor and closes it.
 
 #include <unistd.h>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
-// Where a stream's events go. They are put into a ring of fixed size, which takes no time; a slow reader's wait there. When it is full,
-// the caller waits for room, or leaves whole events out and counts them.
+// Destinations of a stream's events. Events are put into a ring of fixed size, which never blocks; they wait there for a slow reader. When
+// the ring is full, the caller waits for space, or drops whole events and counts them.
 
 #include <functional>
 #include <memory>
@@ -13,11 +13,11 @@
 
 namespace corpuscle {
 
-/// How long a reader is waited for at the end that takes nothing.
+/// How long to wait, at the end of a stream, for a reader that does not read.
 struct EventPatience {
     std::int64_t longest = 1'000'000'000;               ///< ns
-    bool is_endless = false;                            ///< that counts from when it is stopped
-    std::function<bool()> stop = [] { return false; };  ///< asked at least ten times a second
+    bool is_endless = false;                            ///< the time counts only from the moment the stream is stopped
+    std::function<bool()> stop = [] { return false; };  ///< called at least ten times a second
 };
 
 class EventOutlet {
@@ -28,41 +28,41 @@ protected:
     std::size_t header_end_ = 0;  // of all bytes that were put
 
     void put_header() { ring_.put(format_.header()), header_end_ = ring_.all_put(); }
-    void lose_all();  ///< what is in the ring, counted
+    void lose_all();  ///< discards and counts the events in the ring
 
 public:
     EventOutlet(const EventFormat& format, std::size_t ring)
         : ring_(std::max(ring, 4 * format.most_bytes()) + format.header().size()), format_(format) {}
     virtual ~EventOutlet() = default;
 
-    /// A whole event, or nothing: the ring is full.
+    /// Puts a whole event; false if the ring is full.
     bool take(std::string_view event) { return ring_.put(event); }
-    /// Waits for room for so many bytes, at most for so long; false: there is none yet.
+    /// Waits up to `ms` for space for `bytes`; false: not yet.
     virtual Result<bool> wait_for_room(std::size_t bytes, int ms) = 0;
-    /// Room comes as fast as a disk writes, and no reader can withhold it: nothing is ever left out.
+    /// True for a file, which always accepts data sooner or later. Nothing is ever dropped then.
     virtual bool is_file() const { return false; }
-    /// Writes what can be written without waiting.
+    /// Writes as much as possible without blocking.
     virtual Result<void> flush() = 0;
-    /// To be polled for writing, then flush() is to be called; -1: nothing waits to be written here.
+    /// A descriptor to poll for writing before flush() is called; -1: nothing is waiting to be written.
     virtual int waits_on() const { return -1; }
-    /// All that is left, as long as somebody takes it.
+    /// Writes everything that is left, as long as the reader accepts it.
     virtual Result<void> finish(const EventPatience&) = 0;
     virtual std::string sentence() const = 0;
-    std::int64_t lost() const { return lost_; }        ///< events that were in the ring when their reader went
+    std::int64_t lost() const { return lost_; }        ///< events that were in the ring when their reader disconnected
     std::int64_t readers() const { return readers_; }  ///< connections, one after another
 };
 
-/// A pipe, a terminal, a file: what standard output is. An error when nobody reads it any more.
+/// Standard output: a pipe, a terminal or a file. It is an error if its reader has closed it.
 Result<std::unique_ptr<EventOutlet>> standard_output(const EventFormat&, std::size_t ring);
 
-/// A pipe, a terminal, a socket that somebody has opened; `own` closes with it.
+/// An open pipe, terminal or socket; `own` is closed with it.
 std::unique_ptr<EventOutlet> pipe_outlet(Descriptor own, int fd, std::string name, const EventFormat&, std::size_t ring);
 
-/// A file, which grows as PATH.part and has its name when it is whole; a named pipe is written as it is.
+/// A file. It grows as PATH.part and is renamed when it is complete; a named pipe is written directly.
 Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const EventFormat&, std::size_t ring);
 
-/// A reader who listens; once gone it is tried again every second, and what comes meanwhile is left out and counted. The name service is
-/// asked once, before this returns: it might not answer later.
+/// A TCP client. It reconnects every second; events in between are dropped and counted. The name is resolved once, before this function
+/// returns, because the name service might not respond later.
 Result<std::unique_ptr<EventOutlet>> event_client(const std::string& endpoint, const EventFormat&, std::size_t ring);
 Result<std::unique_ptr<EventOutlet>> event_client(ResolvedEndpoint, const EventFormat&, std::size_t ring);
 

@@ -18,41 +18,41 @@
 namespace corpuscle {
 namespace {
 
-using Writing = std::function<Result<void>(std::string_view)>;
+using WriteFunction = std::function<Result<void>(std::string_view)>;
 
-class FileOutlet final : public EventOutlet {
+class FileSink final : public EventOutlet {
     std::string name_;
-    Writing write_;
+    WriteFunction write_;
     std::function<Result<void>()> commit_;
     std::atomic<bool> ending_ = false, failed_ = false;
-    std::optional<Error> error_;  // the thread's, to be read when failed_
-    // Only where the ring is full: the writer is not to sleep on, and the one that puts sleeps until there is room.
+    std::optional<Error> error_;  // set by the writing thread; read when failed_ is set
+    // Used only when the ring is full: wakes the writer, and lets the putting thread sleep until there is space.
     std::mutex full_;
-    std::condition_variable hurry_, room_;
-    std::atomic<bool> is_awaited_ = false;
+    std::condition_variable wake_writer_, space_;
+    std::atomic<bool> is_space_awaited_ = false;
     std::thread thread_;
 
-    void tell_of_room() {
+    void notify_space() {
         const std::lock_guard lock(full_);
-        is_awaited_ = false;
-        room_.notify_one();
+        is_space_awaited_ = false;
+        space_.notify_one();
     }
 
-    void write_on() {
+    void write_loop() {
         for (;;) {
-            const bool last = ending_.load(std::memory_order_acquire);  // before a look at the ring: what was put before is seen
-            for (auto piece = ring_.next(); !piece.empty(); piece = ring_.next()) {
-                if (auto ok = write_(piece); !ok) {
+            const bool last = ending_.load(std::memory_order_acquire);  // read before the ring, so that everything put before is seen
+            for (auto chunk = ring_.next(); !chunk.empty(); chunk = ring_.next()) {
+                if (auto ok = write_(chunk); !ok) {
                     error_ = ok.error();
                     failed_.store(true, std::memory_order_release);
-                    return tell_of_room();
+                    return notify_space();
                 }
-                ring_.took(piece.size());
-                if (is_awaited_) tell_of_room();
+                ring_.took(chunk.size());
+                if (is_space_awaited_) notify_space();
             }
             if (last) return;
             std::unique_lock lock(full_);
-            hurry_.wait_for(lock, std::chrono::milliseconds(2), [this] { return is_awaited_.load(); });
+            wake_writer_.wait_for(lock, std::chrono::milliseconds(2), [this] { return is_space_awaited_.load(); });
         }
     }
 
@@ -64,22 +64,22 @@ class FileOutlet final : public EventOutlet {
     }
 
 public:
-    FileOutlet(const EventFormat& format, std::size_t ring, std::string name, Writing write, std::function<Result<void>()> commit)
+    FileSink(const EventFormat& format, std::size_t ring, std::string name, WriteFunction write, std::function<Result<void>()> commit)
         : EventOutlet(format, ring), name_(std::move(name)), write_(std::move(write)), commit_(std::move(commit)) {
         put_header();
-        thread_ = std::thread([this] { write_on(); });
+        thread_ = std::thread([this] { write_loop(); });
     }
-    ~FileOutlet() override { join(); }
+    ~FileSink() override { join(); }
     std::string sentence() const override { return name_; }
     Result<void> flush() override { return state(); }
     bool is_file() const override { return true; }
     Result<bool> wait_for_room(std::size_t bytes, int ms) override {
         std::unique_lock lock(full_);
-        const auto is_settled = [&] { return ring_.has_room(bytes) || failed_; };
-        if (!is_settled()) {
-            is_awaited_ = true;
-            hurry_.notify_one();
-            room_.wait_for(lock, std::chrono::milliseconds(ms), is_settled);
+        const auto is_done = [&] { return ring_.has_room(bytes) || failed_; };
+        if (!is_done()) {
+            is_space_awaited_ = true;
+            wake_writer_.notify_one();
+            space_.wait_for(lock, std::chrono::milliseconds(ms), is_done);
         }
         if (auto ok = state(); !ok) return ok.error();
         return ring_.has_room(bytes);
@@ -104,13 +104,13 @@ Result<void> write_all(int fd, const std::string& name, std::string_view text) {
 }  // namespace
 
 Result<std::unique_ptr<EventOutlet>> plain_file_outlet(int fd, const std::string& name, const EventFormat& format, std::size_t ring) {
-    return std::unique_ptr<EventOutlet>(std::make_unique<FileOutlet>(
+    return std::unique_ptr<EventOutlet>(std::make_unique<FileSink>(
         format, ring, name, [fd, name](std::string_view text) { return write_all(fd, name, text); }, [] { return Result<void>(); }));
 }
 
 Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const EventFormat& format, std::size_t ring) {
-    struct ::stat facts = {};
-    if (::stat(path.c_str(), &facts) == 0 && !S_ISREG(facts.st_mode) && !S_ISDIR(facts.st_mode)) {
+    struct ::stat info = {};
+    if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)) {
         Descriptor own(::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
         if (!own) return bad_input(fmt::format("cannot be written: {}", std::strerror(errno)), {path});
         const int fd = own.get();
@@ -119,7 +119,7 @@ Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const E
     auto opened = OutputFile::growing(path);
     if (!opened) return opened.error();
     const auto file = std::make_shared<OutputFile>(std::move(*opened));
-    return std::unique_ptr<EventOutlet>(std::make_unique<FileOutlet>(
+    return std::unique_ptr<EventOutlet>(std::make_unique<FileSink>(
         format, ring, path, [file](std::string_view text) { return file->write(text); },
         [file] {
             const auto done = file->commit();

@@ -1,11 +1,11 @@
 #pragma once
-// Events to a file: a disk may make a writer wait, so a thread of its own takes them out of the ring.
+// Writes events to a file in a separate thread, because a disk may block the writer.
 
 #include "live/event_outlet.hpp"
 
 namespace corpuscle {
 
-/// A descriptor that may wait, written as it is.
+/// A descriptor that may block, written directly.
 Result<std::unique_ptr<EventOutlet>> plain_file_outlet(int fd, const std::string& name, const EventFormat&, std::size_t ring);
 
 }  // namespace corpuscle

@@ -13,14 +13,14 @@
 namespace corpuscle {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary frames are taken as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "binary frames are copied as they are in memory");
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t longest_field = 32;  // bytes of text, with its separator
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t max_field = 32;  // bytes of text, with its separator
 
 bool separates(char c) { return c == ',' || c == ';' || c == '\t' || c == ' '; }
 
-/// The next field, taken off the line: blanks about it are not part of it; several blanks are one separator.
+/// Removes the next field from the line. Blanks around a field are ignored; several blanks are one separator.
 std::string_view next_field(std::string_view& line) {
     const auto end = std::min(static_cast<std::size_t>(std::find_if(line.begin(), line.end(), separates) - line.begin()), line.size());
     const auto field = line.substr(0, end);
@@ -47,7 +47,7 @@ double number_of(std::string_view field) {
     double x = 0;
     if (field.starts_with('+')) field.remove_prefix(1);
     const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), x);
-    return status == std::errc{} && end == field.data() + field.size() ? x : no_number;
+    return status == std::errc{} && end == field.data() + field.size() ? x : not_a_number;
 }
 
 const lanes::FrameLanes& best_lanes() {
@@ -59,8 +59,8 @@ const lanes::FrameLanes& best_lanes() {
 
 FrameDecoder::FrameDecoder(const FrameLayout& layout, std::size_t frames, HeaderReader read_header)
     : layout_(layout), lanes_(best_lanes()),
-      bytes_(std::max<std::size_t>(
-          65536, 2 * (1 + frames) * (layout.kind == FrameKind::csv ? (layout.sites + 1) * longest_field : layout.bytes()))),
+      bytes_(std::max<std::size_t>(65536,
+                                   2 * (1 + frames) * (layout.kind == FrameKind::csv ? (layout.sites + 1) * max_field : layout.bytes()))),
       read_header_(std::move(read_header)) {
     if (layout.kind == FrameKind::csv) values_.resize(layout.sites);
 }
@@ -97,10 +97,10 @@ FrameDecoder::Found FrameDecoder::next() {
         looked_ = std::max(looked_, begin_);
         const auto* const end = static_cast<const char*>(std::memchr(bytes_.data() + looked_, '\n', end_ - looked_));
         if (!end) return looked_ = end_, Found::nothing;
-        const std::string_view whole(bytes_.data() + begin_, end);
+        const std::string_view full_line(bytes_.data() + begin_, end);
         begin_ = static_cast<std::size_t>(end - bytes_.data()) + 1;
         if (std::exchange(skipping_, false)) return ++seen_, unreadable(FrameMisfit::endless);
-        const auto line = trimmed(whole.ends_with('\r') ? whole.substr(0, whole.size() - 1) : whole);
+        const auto line = trimmed(full_line.ends_with('\r') ? full_line.substr(0, full_line.size() - 1) : full_line);
         if (line.empty() || line.front() == '#' || line.front() == '%') continue;
         if (std::exchange(first_, false) && is_header(line)) {
             take_header(line);
@@ -128,7 +128,7 @@ bool FrameDecoder::came_datagram(std::size_t bytes) {
     return came(bytes), true;
 }
 
-/// As many words as a frame has numbers, and not one of them is a number, or nan.
+/// True for a line with as many words as a frame has numbers, none of them a number or nan.
 bool FrameDecoder::is_header(std::string_view line) const {
     std::size_t fields = 0;
     for (; !line.empty(); ++fields)
@@ -168,7 +168,7 @@ bool FrameDecoder::read_stamp(std::string_view text) {
     return status == std::errc{} && end == text.data() + text.size();
 }
 
-/// Unreadable if its stamp is none, or there are too few or too many fields.
+/// Returns unreadable if the stamp is invalid, or the number of fields is wrong.
 FrameDecoder::Found FrameDecoder::read_line(const std::string_view line) {
     auto rest = line;
     const bool is_stamped = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
@@ -181,18 +181,18 @@ FrameDecoder::Found FrameDecoder::read_line(const std::string_view line) {
 }
 
 std::size_t FrameDecoder::take(std::span<double> force) const {
-    const lanes::FrameForce of{layout_.offset, layout_.scale, layout_.limit};
+    const lanes::FrameForce scaling{layout_.offset, layout_.scale, layout_.limit};
     switch (layout_.kind) {
         case FrameKind::f32:
-            return lanes_.f32(found_, of, force.data(), force.size());
+            return lanes_.f32(found_, scaling, force.data(), force.size());
         case FrameKind::i16:
-            return lanes_.i16(found_, of, force.data(), force.size());
+            return lanes_.i16(found_, scaling, force.data(), force.size());
         case FrameKind::f64:
         case FrameKind::csv:
             break;
     }
     const char* const from = layout_.kind == FrameKind::csv ? reinterpret_cast<const char*>(values_.data()) : found_;
-    return lanes_.f64(from, of, force.data(), force.size());
+    return lanes_.f64(from, scaling, force.data(), force.size());
 }
 
 }  // namespace corpuscle

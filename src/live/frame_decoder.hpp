@@ -1,5 +1,5 @@
 #pragma once
-// Frames out of bytes, which come in pieces of any size. Allocates nothing once it is made, but for a header.
+// Decodes frames from bytes, which arrive in chunks of any size. After construction it allocates only for a header.
 
 #include <optional>
 #include <span>
@@ -22,17 +22,17 @@ private:
     FrameLayout layout_;
     const lanes::FrameLanes& lanes_;
     std::vector<char> bytes_;
-    std::size_t begin_ = 0, end_ = 0;  // of what came and was not yet taken
-    std::size_t looked_ = 0;           // up to here there is no end of a line
-    bool skipping_ = false;            // a line that is longer than any frame: to its end
-    bool first_ = true;                // nothing was read yet: a header may come
-    const char* found_ = nullptr;      // a binary frame's forces
+    std::size_t begin_ = 0, end_ = 0;  // bytes that have arrived and are not decoded yet
+    std::size_t looked_ = 0;           // no line end before this position
+    bool skipping_ = false;            // skipping a line that is longer than any frame
+    bool first_ = true;                // nothing has been read yet: a header may come
+    const char* found_ = nullptr;      // forces of a binary frame
     std::vector<double> values_;       // of a line
     HeaderReader read_header_;
-    std::vector<std::uint32_t> places_;  // of a line's numbers among the values; none: their order
-    std::optional<Error> refused_;       // the header of this sender
+    std::vector<std::uint32_t> places_;  // index into the values for each number of a line; empty: in order
+    std::optional<Error> refused_;       // error in the header of this sender
     std::uint32_t number_ = 0;
-    std::int64_t headers_ = 0, seen_ = 0;  // seen: frames, read or not
+    std::int64_t headers_ = 0, seen_ = 0;  // seen: frames, readable or not
     std::optional<FrameMisfit> misfit_;
 
     Found unreadable(FrameMisfit::Why, std::size_t found = 0);
@@ -43,26 +43,28 @@ private:
     bool read_stamp(std::string_view text);
 
 public:
-    /// There is always room for so many more frames.
+    /// Always has space for `frames` further frames.
     explicit FrameDecoder(const FrameLayout&, std::size_t frames = 1, HeaderReader = {});
     const FrameLayout& layout() const { return layout_; }
 
-    std::span<char> room();                                    ///< where the next bytes go; never empty
-    void came(std::size_t bytes) { end_ += bytes; }            ///< so many have come there
-    bool begun() const { return end_ > begin_ || skipping_; }  ///< part of a frame is there
-    /// So many have come there as one datagram, which must hold whole frames: the last line needs no end. False: it is none, and is left.
+    std::span<char> room();                                    ///< destination of the next bytes; never empty
+    void came(std::size_t bytes) { end_ += bytes; }            ///< `bytes` have been written there
+    bool begun() const { return end_ > begin_ || skipping_; }  ///< part of a frame has arrived
+    /// `bytes` have been written there as one datagram. It must contain whole frames; its last line needs no line end. Returns false, and
+    /// ignores it, if it does not.
     bool came_datagram(std::size_t bytes);
-    std::size_t begun_bytes() const { return end_ - begin_; }  ///< of the part of a frame that is there
-    void forget();                                             ///< whoever sent it is gone
+    std::size_t begun_bytes() const { return end_ - begin_; }  ///< size of the partial frame
+    void forget();                                             ///< discards everything, because the sender has disconnected
 
-    /// Looks for the next whole frame; the bytes that it took are gone then.
+    /// Finds the next complete frame and consumes its bytes.
     Found next();
-    std::uint32_t number() const { return number_; }                            ///< of the one found, modulo 2^32, where frames are stamped
-    const std::optional<Error>& refused_header() const { return refused_; }     ///< the frames behind it cannot be read
+    /// number of the found frame, modulo 2^32, if frames are stamped
+    std::uint32_t number() const { return number_; }
+    const std::optional<Error>& refused_header() const { return refused_; }     ///< if set, the frames after it cannot be read
     std::int64_t headers() const { return headers_; }                           ///< first lines that were names, not numbers
     const std::optional<FrameMisfit>& first_misfit() const { return misfit_; }  ///< the first frame that could not be read
-    /// The forces of the one found, in place of those that were. What is no number or beyond the limit stays as it was; returns how
-    /// many of those there were.
+    /// Writes the forces of the found frame over the last ones. A value that is NaN or beyond the limit is not written; returns the number
+    /// of such values.
     std::size_t take(std::span<double> force) const;
 };
 

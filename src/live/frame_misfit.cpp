@@ -12,12 +12,14 @@ std::string counted_noun(std::size_t n, std::string_view noun) { return fmt::for
 /// "a count and 4793 numbers"
 std::string contents_of(const FrameLayout& layout, std::size_t numbers) {
     const auto values = counted_noun(numbers, "number");
-    return layout.stamp == FrameStamp::none ? values
-                                            : fmt::format("a {} and {}", layout.stamp == FrameStamp::count ? "count" : "time", values);
+    return layout.stamp == FrameStamp::none
+               ? values
+               : fmt::format("a {} and {}", layout.stamp == FrameStamp::count ? "sequence number" : "time", values);
 }
 
-std::string wanted_frame(const FrameLayout& layout, std::string_view population) {
-    return fmt::format("'{}' has {}, and a frame is {}", population, counted_noun(layout.sites, "site"), contents_of(layout, layout.sites));
+std::string expected_frame(const FrameLayout& layout, std::string_view population) {
+    return fmt::format("'{}' has {}, so a frame must have {}", population, counted_noun(layout.sites, "site"),
+                       contents_of(layout, layout.sites));
 }
 
 }  // namespace
@@ -28,15 +30,15 @@ std::string text_of(const FrameMisfit& misfit, const FrameLayout& layout, std::s
         case FrameMisfit::width:
             return fmt::format("frame {} has {}; {}", misfit.frame,
                                misfit.found < stamps ? "nothing" : contents_of(layout, misfit.found - stamps),
-                               wanted_frame(layout, population));
+                               expected_frame(layout, population));
         case FrameMisfit::stamp:
             return fmt::format("frame {} does not begin with {}; {}", misfit.frame,
-                               layout.stamp == FrameStamp::count ? "its count, a whole number" : "its time in seconds",
-                               wanted_frame(layout, population));
+                               layout.stamp == FrameStamp::count ? "its sequence number, an integer" : "its time in seconds",
+                               expected_frame(layout, population));
         case FrameMisfit::endless:
-            return fmt::format("frame {} is a line longer than any frame; {}", misfit.frame, wanted_frame(layout, population));
+            return fmt::format("frame {} is a line longer than any frame; {}", misfit.frame, expected_frame(layout, population));
         case FrameMisfit::datagram:
-            return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", misfit.found, wanted_frame(layout, population),
+            return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", misfit.found, expected_frame(layout, population),
                                layout.bytes());
         case FrameMisfit::header:
             return misfit.detail;

@@ -1,18 +1,18 @@
 #pragma once
-// Which frame comes when, of frames that are numbered: the policy for gaps, duplicates and late ones (doc/live.md).
+// The order of numbered frames: the policy for gaps, duplicates and late frames (doc/live.md).
 
 #include <cstdint>
 
 namespace corpuscle {
 
-/// What became of numbered frames.
+/// Statistics of numbered frames.
 struct OrderCounts {
-    std::int64_t gaps = 0;        ///< stretches in which frames are missing
-    std::int64_t held = 0;        ///< missing frames in whose place the last force was held
-    std::int64_t released = 0;    ///< missing frames beyond those, in whose place there was no force
-    std::int64_t duplicates = 0;  ///< frames that had come before, left out
-    std::int64_t late = 0;        ///< frames whose place was filled, or that are older than the last: left out
-    std::int64_t restarts = 0;    ///< numbers too far from the last: the count begins anew, and time goes on with the next frame
+    std::int64_t gaps = 0;        ///< gaps in the sequence
+    std::int64_t held = 0;        ///< missing frames that were replaced by the last force
+    std::int64_t released = 0;    ///< further missing frames, replaced by zero force
+    std::int64_t duplicates = 0;  ///< frames received before; ignored
+    std::int64_t late = 0;        ///< frames older than the last one, or already replaced; ignored
+    std::int64_t restarts = 0;    ///< jumps larger than the limit: treated as a restart of the sender, without inserting frames
 };
 
 class FrameOrder {
@@ -22,15 +22,16 @@ class FrameOrder {
     OrderCounts counts_;
 
 public:
-    /// A gap's first `hold` frames hold the last force; one of more than `longest` is none, but the count begun anew.
-    FrameOrder(std::int64_t hold, std::int64_t longest) : hold_(hold), longest_(longest) {}
+    /// The first `hold` missing frames of a gap repeat the last force. A gap of more than `max_gap` frames is treated as a restart of the
+    /// sender.
+    FrameOrder(std::int64_t hold, std::int64_t max_gap) : hold_(hold), longest_(max_gap) {}
 
     struct Turn {
-        bool take = true;                    ///< false: it is left out
-        std::int64_t hold = 0, release = 0;  ///< frames to be put before it
+        bool take = true;                    ///< false: the frame is ignored
+        std::int64_t hold = 0, release = 0;  ///< frames to insert before it: with the last force, then with none
     };
 
-    /// Numbers are modulo 2^32.
+    /// Frame numbers are modulo 2^32.
     Turn turn(std::uint32_t number) {
         const std::int64_t ahead = begun_ ? static_cast<std::int32_t>(number - last_) : 1;
         if (ahead == 0) return ++counts_.duplicates, Turn{false};
@@ -43,9 +44,9 @@ public:
         return {true, held, ahead - 1 - held};
     }
 
-    /// Another begins to send: its first number is the next frame's, whatever it is.
+    /// Call when another sender begins: its first frame is the next one, whatever its number.
     void begin_anew() { begun_ = false; }
-    /// As after a frame of this number.
+    /// Continues as after a frame with this number.
     void go_on_from(std::uint32_t number) { begun_ = true, last_ = number; }
     bool begun() const { return begun_; }
     std::uint32_t last() const { return last_; }

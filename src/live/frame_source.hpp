@@ -1,5 +1,5 @@
 #pragma once
-// Where a stream's frames come from: bytes by the layout of a frame, or a recording at its own pace.
+// Sources of a stream's frames: bytes in a given layout, or a recording in real time.
 
 #include <memory>
 #include <optional>
@@ -16,47 +16,47 @@
 namespace corpuscle {
 
 struct FrameCounts {
-    std::int64_t frames = 0;      ///< that came and were answered
-    std::int64_t unreadable = 0;  ///< frames of which nothing could be read: the last force was held (of numbered ones: a gap)
-    std::int64_t values = 0;      ///< forces that are no number or beyond the limit: that site's last was held
-    std::int64_t halves = 0;      ///< frames that were begun when their sender went
-    std::int64_t half_bytes = 0;  ///< of the last of those, how many bytes had come
+    std::int64_t frames = 0;      ///< received and simulated
+    std::int64_t unreadable = 0;  ///< unreadable frames: the last force was repeated (for numbered frames: a gap)
+    std::int64_t values = 0;      ///< values that are NaN or beyond the limit: the site kept its last force
+    std::int64_t halves = 0;      ///< frames that were incomplete when their sender disconnected
+    std::int64_t half_bytes = 0;  ///< bytes of the last of these
     std::int64_t headers = 0;     ///< first lines that were names
-    std::int64_t producers = 0;   ///< that sent
-    SenderCounts senders = {};    ///< of senders on a network
-    OrderCounts order = {};       ///< of frames that are numbered
+    std::int64_t producers = 0;   ///< senders so far
+    SenderCounts senders = {};    ///< senders on a network
+    OrderCounts order = {};       ///< numbered frames
 };
 
 class FrameSource {
 public:
     static constexpr std::int64_t never = steady_never;
     enum class Next {
-        nothing,  ///< for now
-        frame,    ///< one that came
-        filled,   ///< one in the place of a frame that is missing or could not be read
+        nothing,  ///< none yet
+        frame,    ///< a received frame
+        filled,   ///< a replacement for a missing or unreadable frame
     };
 
     virtual ~FrameSource() = default;
-    virtual int waits_on() const { return -1; }         ///< to be polled for reading; -1: it goes by the clock
-    virtual std::int64_t due() const { return never; }  ///< when there is more without a poll; steady_now()
-    virtual Result<bool> receive() = 0;                 ///< reads what is there; false: nothing more will come
-    virtual void hurry() {}                             ///< whatever is there is to be read, however little
-    virtual Next next(std::span<double> force) = 0;     ///< the next frame over the last one
+    virtual int waits_on() const { return -1; }         ///< descriptor to poll for reading; -1: driven by the clock
+    virtual std::int64_t due() const { return never; }  ///< time of the next frame that needs no poll; steady_now()
+    virtual Result<bool> receive() = 0;                 ///< reads what has arrived; false: no more data
+    virtual void hurry() {}                             ///< makes reads return immediately, however little has arrived
+    virtual Next next(std::span<double> force) = 0;     ///< writes the next frame over the last one
     virtual FrameCounts counts() const = 0;
     virtual std::string sentence() const = 0;
-    /// Frames come by a clock that waits for nobody. If not, they can wait for a slow reader of the spikes.
+    /// True if frames arrive at their own pace. Otherwise they can wait for a slow reader of the spikes.
     virtual bool is_live() const { return true; }
-    virtual std::size_t unread_bytes() const { return 0; }                  ///< that have come and were not read
+    virtual std::size_t unread_bytes() const { return 0; }                  ///< bytes that have arrived but have not been read
     virtual std::optional<FrameMisfit> first_misfit() const { return {}; }  ///< the first frame that could not be read
     virtual FrameOrder* order() { return nullptr; }                         ///< of numbered frames
 };
 
-/// `hold`, `longest`: of a gap, in frames (see FrameOrder). `together`: so many are answered at once. A header that is refused is an error
-/// of the only sender; of one of several, none of its frames is read.
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t longest,
-                                       std::size_t together = 1, HeaderReader = {});
+/// `hold` and `max_gap` in frames (see FrameSequence). `batch_frames`: frames that are simulated at once. If the header of the only sender is
+/// refused, this is an error. If there can be other senders, only the frames of this one are ignored.
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t max_gap,
+                                       std::size_t batch_frames = 1, HeaderReader = {});
 
-/// A recording, each frame at its time, or as fast as they can be answered.
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source>, bool at_its_pace);
+/// A recording, each frame at its time, or as fast as they can be simulated.
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source>, bool real_time);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The first line of CSV frames, where it has names.
+// Interprets the first line of CSV frames if it contains names.
 
 #include <cstdint>
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace corpuscle {
 
-/// Of the names of a header, without the stamp's: at which place of a frame each of its numbers goes, nothing for their own order; or why
-/// these names are refused.
+/// Maps the names of a header (without the stamp's) to the positions of its numbers in a frame; an empty result keeps their order. Returns
+/// an error if the names are refused.
 using HeaderReader = std::function<Result<std::vector<std::uint32_t>>(std::span<const std::string> names)>;
 
 }  // namespace corpuscle

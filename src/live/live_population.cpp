@@ -19,8 +19,8 @@ std::vector<std::string> names_in(std::string_view list) {
     return names;
 }
 
-Result<SkinClass> class_at_each_site(const std::string& name, std::span<const Wish> wishes) {
-    const auto plan = plan_afferent(name, wishes);
+Result<SkinClass> class_at_each_site(const std::string& name, std::span<const Wish> overrides) {
+    const auto plan = plan_afferent(name, overrides);
     if (!plan) return plan.error();
     SkinClass each{.name = plan->name, .afferent = *plan};
     each.per_site = 1;
@@ -35,7 +35,7 @@ bool is_afferents(std::string_view list) {
     return true;
 }
 
-Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const Wish> wishes) {
+Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const Wish> overrides) {
     auto sites = grid_sites(1, channels, 1e-3);
     if (!sites) return sites.error();
     SkinPlan plan;
@@ -44,44 +44,44 @@ Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels,
     plan.sites = std::move(*sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
     for (const auto& name : names_in(afferents)) {
-        auto each = class_at_each_site(name, wishes);
+        auto each = class_at_each_site(name, overrides);
         if (!each) return each.error();
         for (const auto& other : plan.classes)
-            if (other.name == each->name) return bad_usage(fmt::format("'{}' is named twice", name));
+            if (other.name == each->name) return bad_usage(fmt::format("'{}' is given twice", name));
         plan.classes.push_back(std::move(*each));
     }
     return plan;
 }
 
-Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const Wish> wishes) {
-    auto plan = plan_channels(afferents, channels.size(), wishes);
+Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const Wish> overrides) {
+    auto plan = plan_channels(afferents, channels.size(), overrides);
     if (plan)
         for (std::size_t c = 0; c < channels.size(); ++c) plan->sites.names[c] = channels[c].name;
     return plan;
 }
 
-Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const Wish> wishes) {
-    if (is_afferents(population)) return plan_channels(population, channels, wishes);
+Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const Wish> overrides) {
+    if (is_afferents(population)) return plan_channels(population, channels, overrides);
     auto plan = plan_skin(population);
     if (!plan) return plan;
-    if (auto ok = set_classes(*plan, wishes); !ok) return ok.error();
+    if (auto ok = set_classes(*plan, overrides); !ok) return ok.error();
     return plan;
 }
 
 EventUnits event_units(const Innervation& skin, const Clock& clock) {
-    EventUnits units{clock, {}, {}, {}, {}};
+    EventUnits out{clock, {}, {}, {}, {}};
     bool one_each = true;
     for (const auto& c : skin.plan.classes) one_each &= c.density.empty() && c.per_site == 1;
     const auto classes = static_cast<std::uint32_t>(skin.plan.classes.size());
     const auto& sites = skin.plan.sites;
     for (std::size_t u = 0; u < skin.units.size(); ++u) {
-        const auto& unit = skin.units[u];
-        units.names.push_back(skin.unit_name(u));
-        units.addresses.push_back(one_each ? (unit.copy - 1) * classes + unit.of : static_cast<std::uint32_t>(u));
-        units.afferents.push_back(skin.plan.is_by_channel ? skin.plan.classes[unit.of].name : units.names.back());
-        units.channels.push_back(skin.plan.is_by_channel ? sites.names[unit.copy - 1] : sites.regions[unit.region]);
+        const auto& afferent = skin.units[u];
+        out.names.push_back(skin.unit_name(u));
+        out.addresses.push_back(one_each ? (afferent.copy - 1) * classes + afferent.of : static_cast<std::uint32_t>(u));
+        out.afferents.push_back(skin.plan.is_by_channel ? skin.plan.classes[afferent.of].name : out.names.back());
+        out.channels.push_back(skin.plan.is_by_channel ? sites.names[afferent.copy - 1] : sites.regions[afferent.region]);
     }
-    return units;
+    return out;
 }
 
 }  // namespace corpuscle

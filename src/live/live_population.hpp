@@ -1,5 +1,5 @@
 #pragma once
-// What answers live: a skin by name or file, or afferents by name on so many channels; and how its spikes are addressed.
+// The population of a live stream: a skin by name or file, or named afferents on a number of channels. Also the addresses of its spikes.
 
 #include "io/events.hpp"
 #include "signal/settings.hpp"
@@ -7,18 +7,18 @@
 
 namespace corpuscle {
 
-/// Whether all that is listed are afferents that have a name, or are made of parts.
+/// True if every item of the list is a named afferent, or a combination of components.
 bool is_afferents(std::string_view list);
 
-/// Afferents by name ("sa1,fa1"), each on every one of `channels`. Wishes that name one of them are marked as used.
-Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const Wish> wishes = {});
-Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const Wish> wishes = {});
+/// Named afferents ("sa1,fa1"), each on every one of `channels`. Overrides that name one of them are marked as used.
+Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const Wish> overrides = {});
+Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const Wish> overrides = {});
 
-/// "hand", "grid 8x8", a population file; or afferents by name on channels. Wishes that name one of its classes are marked as used.
-Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const Wish> wishes = {});
+/// "hand", "grid 8x8", a population file, or named afferents on channels. Overrides that name one of its classes are marked as used.
+Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const Wish> overrides = {});
 
-/// The names of a unit, its channel or region, and its address: on a grid, and wherever each class has one unit at each site,
-/// taxel * classes + class, else the unit's number.
+/// The names of each afferent, its channel or region, and its address. If each class has one afferent at each site, as on a grid, the
+/// address is site * classes + class. Otherwise it is the index of the afferent.
 EventUnits event_units(const Innervation&, const Clock&);
 
 }  // namespace corpuscle

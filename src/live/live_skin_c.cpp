@@ -1,4 +1,4 @@
-// The same face in C: no exception leaves it.
+// The C interface of LiveSkin. No exception leaves it.
 
 #include <algorithm>
 #include <cstring>
@@ -23,7 +23,7 @@ void copy_text(const char* text, char* to, std::size_t size) {
     to[length] = '\0';
 }
 
-void hand_out(std::span<const LiveSkin::Event> events, corpuscle_sink sink, void* user) {
+void call_sink(std::span<const LiveSkin::Event> events, corpuscle_sink sink, void* user) {
     if (!sink) return;
     for (const auto& e : events) {
         const corpuscle_spike spike{e.time, e.unit, e.address};
@@ -31,9 +31,9 @@ void hand_out(std::span<const LiveSkin::Event> events, corpuscle_sink sink, void
     }
 }
 
-/// What `work` gives, or `failed` with the reason kept.
+/// Returns the result of `work`. On an exception it stores the message and returns `failed`.
 template <class T, class Work>
-T kept_inside(corpuscle_skin* skin, T failed, const Work& work) noexcept {
+T catch_errors(corpuscle_skin* skin, T failed, const Work& work) noexcept {
     if (!skin) return failed;
     try {
         return work();
@@ -41,7 +41,7 @@ T kept_inside(corpuscle_skin* skin, T failed, const Work& work) noexcept {
         try {
             skin->error = e.what();
         } catch (...) {
-            skin->error.clear();  // not even memory for a sentence
+            skin->error.clear();  // out of memory for the message
         }
     } catch (...) {
         skin->error.clear();
@@ -52,7 +52,7 @@ T kept_inside(corpuscle_skin* skin, T failed, const Work& work) noexcept {
 }  // namespace
 }  // namespace corpuscle
 
-using corpuscle::kept_inside;
+using corpuscle::catch_errors;
 
 corpuscle_skin* corpuscle_create(const char* population, double rate_hz, size_t channels, char* error, size_t error_size) {
     return corpuscle_create_with(population, rate_hz, channels, nullptr, 0, error, error_size);
@@ -62,8 +62,8 @@ corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, si
                                       char* error, size_t error_size) {
     corpuscle::copy_text("", error, error_size);
     try {
-        if (!population) throw corpuscle::Refused("no population is named");
-        if (!settings && count > 0) throw corpuscle::Refused("there are no settings");
+        if (!population) throw corpuscle::Refused("population is NULL");
+        if (!settings && count > 0) throw corpuscle::Refused("settings is NULL, but count is not 0");
         std::vector<std::string> texts;
         for (std::size_t k = 0; k < count; ++k) {
             if (!settings[k]) throw corpuscle::Refused("setting " + std::to_string(k) + " is NULL");
@@ -76,7 +76,7 @@ corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, si
     } catch (const std::exception& e) {
         corpuscle::copy_text(e.what(), error, error_size);
     } catch (...) {
-        corpuscle::copy_text("an error without a name", error, error_size);
+        corpuscle::copy_text("unknown error", error, error_size);
     }
     return nullptr;
 }
@@ -94,36 +94,37 @@ int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, 
     return 0;
 }
 size_t corpuscle_units(const corpuscle_skin* skin) { return skin ? skin->names.size() : 0; }
-const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t unit) {
-    return skin && unit < skin->names.size() ? skin->names[unit].c_str() : nullptr;
+const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t index) {
+    return skin && index < skin->names.size() ? skin->names[index].c_str() : nullptr;
 }
-const char* corpuscle_error(const corpuscle_skin* skin) { return skin ? skin->error.c_str() : "there is no skin"; }
+const char* corpuscle_error(const corpuscle_skin* skin) { return skin ? skin->error.c_str() : "skin is NULL"; }
 
 int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corpuscle_sink sink, void* user) {
-    return kept_inside(skin, -1, [&] {
-        if (!frame) throw corpuscle::Refused("there is no frame");
-        corpuscle::hand_out(skin->skin.answer({frame, sites}), sink, user);
+    return catch_errors(skin, -1, [&] {
+        if (!frame) throw corpuscle::Refused("frame is NULL");
+        corpuscle::call_sink(skin->skin.answer({frame, sites}), sink, user);
         return 0;
     });
 }
 
 int corpuscle_last(corpuscle_skin* skin, corpuscle_sink sink, void* user) {
-    return kept_inside(skin, -1, [&] { return corpuscle::hand_out(skin->skin.last(), sink, user), 0; });
+    return catch_errors(skin, -1, [&] { return corpuscle::call_sink(skin->skin.last(), sink, user), 0; });
 }
 
 size_t corpuscle_save(corpuscle_skin* skin, void* bytes, size_t size) {
-    return kept_inside(skin, std::size_t{0}, [&] {
+    return catch_errors(skin, std::size_t{0}, [&] {
         const auto state = skin->skin.save();
         if (bytes && size < state.size())
-            throw corpuscle::Refused("a state of " + std::to_string(state.size()) + " bytes does not go into " + std::to_string(size));
+            throw corpuscle::Refused("a state of " + std::to_string(state.size()) + " bytes does not fit into a buffer of " +
+                                     std::to_string(size));
         if (bytes) std::memcpy(bytes, state.data(), state.size());
         return state.size();
     });
 }
 
 int corpuscle_resume(corpuscle_skin* skin, const void* bytes, size_t size) {
-    return kept_inside(skin, -1, [&] {
-        if (!bytes) throw corpuscle::Refused("there is no state");
+    return catch_errors(skin, -1, [&] {
+        if (!bytes) throw corpuscle::Refused("the state is NULL");
         skin->skin.resume({static_cast<const std::byte*>(bytes), size});
         return 0;
     });

@@ -34,8 +34,8 @@ Result<std::vector<SocketAddress>> addresses_of(const Endpoint& at, int socket_t
 
 const sockaddr* as_sockaddr(const SocketAddress& address) { return reinterpret_cast<const sockaddr*>(&address.bytes); }
 
-Error at_endpoint(std::string_view what, const Endpoint& at, int why) {
-    return bad_input(fmt::format("{} {}: {}", what, at.text(), std::strerror(why)));
+Error at_endpoint(std::string_view what, const Endpoint& at, int error_number) {
+    return bad_input(fmt::format("{} {}: {}", what, at.text(), std::strerror(error_number)));
 }
 
 int port_of(int fd) {
@@ -61,7 +61,7 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
         at.address = at.address.substr(1, at.address.size() - 2);
     const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), at.port);
     if (status != std::errc{} || end != number.data() + number.size() || at.port < 0 || at.port > 65535)
-        return bad_usage(fmt::format("'{}' is no port, nor an address and a port, such as 7000 or 127.0.0.1:7000", text));
+        return bad_usage(fmt::format("'{}': expected PORT or ADDRESS:PORT, such as 7000 or 127.0.0.1:7000", text));
     return at;
 }
 
@@ -77,27 +77,27 @@ Result<ResolvedEndpoint> resolve(const Endpoint& at) {
 
 namespace {
 
-/// Bound to the first of its addresses that can be had; `make_ready` does what is left to do.
+/// Binds to the first usable address of the endpoint; `make_ready` does the rest.
 template <class MakeReady>
-Result<Descriptor> bound_socket(Endpoint& at, int socket_type, const MakeReady& make_ready) {
+Result<Descriptor> bind_socket(Endpoint& at, int socket_type, const MakeReady& make_ready) {
     const auto addresses = addresses_of(at, socket_type, AI_PASSIVE);
     if (!addresses) return addresses.error();
-    int why = EADDRNOTAVAIL;
+    int error_number = EADDRNOTAVAIL;
     for (const auto& a : *addresses) {
         Descriptor fd(::socket(a.bytes.ss_family, socket_type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
         if (fd && make_ready(fd.get(), a)) {
             at.port = port_of(fd.get());
             return fd;
         }
-        why = errno;
+        error_number = errno;
     }
-    return at_endpoint("cannot listen on", at, why);
+    return at_endpoint("cannot listen on", at, error_number);
 }
 
 }  // namespace
 
 Result<Descriptor> listening_socket(Endpoint& at) {
-    return bound_socket(at, SOCK_STREAM, [](int fd, const SocketAddress& a) {
+    return bind_socket(at, SOCK_STREAM, [](int fd, const SocketAddress& a) {
         const int yes = 1;
         ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
         return ::bind(fd, as_sockaddr(a), a.size) == 0 && ::listen(fd, 128) == 0;
@@ -105,7 +105,7 @@ Result<Descriptor> listening_socket(Endpoint& at) {
 }
 
 Result<Descriptor> datagram_socket(Endpoint& at) {
-    return bound_socket(at, SOCK_DGRAM, [](int fd, const SocketAddress& a) { return ::bind(fd, as_sockaddr(a), a.size) == 0; });
+    return bind_socket(at, SOCK_DGRAM, [](int fd, const SocketAddress& a) { return ::bind(fd, as_sockaddr(a), a.size) == 0; });
 }
 
 Descriptor begin_connection(const SocketAddress& to) {
@@ -114,34 +114,34 @@ Descriptor begin_connection(const SocketAddress& to) {
     return {};
 }
 
-Result<Descriptor> connected_socket(const ResolvedEndpoint& to, int patience_ms) {
-    int why = EADDRNOTAVAIL;
+Result<Descriptor> connected_socket(const ResolvedEndpoint& to, int timeout_ms) {
+    int error_number = EADDRNOTAVAIL;
     for (const auto& address : to.addresses) {
         auto fd = begin_connection(address);
         if (!fd) {
-            why = errno;
+            error_number = errno;
             continue;
         }
         pollfd wait = {fd.get(), POLLOUT, 0};
-        ::poll(&wait, 1, patience_ms);
+        ::poll(&wait, 1, timeout_ms);
         const int state = connection_state(fd);
         if (state > 0) return without_delay(fd.get()), watch_peer(fd.get()), std::move(fd);
-        why = state < 0 ? errno : ETIMEDOUT;
+        error_number = state < 0 ? errno : ETIMEDOUT;
     }
-    return at_endpoint("cannot connect to", to.at, why);
+    return at_endpoint("cannot connect to", to.at, error_number);
 }
 
-Result<Descriptor> connected_socket(const Endpoint& at, int patience_ms) {
+Result<Descriptor> connected_socket(const Endpoint& at, int timeout_ms) {
     const auto to = resolve(at);
-    return to ? connected_socket(*to, patience_ms) : Result<Descriptor>(to.error());
+    return to ? connected_socket(*to, timeout_ms) : Result<Descriptor>(to.error());
 }
 
 int connection_state(const Descriptor& fd) {
     pollfd wait = {fd.get(), POLLOUT, 0};
     if (::poll(&wait, 1, 0) == 0) return 0;
-    int why = 0;
-    socklen_t size = sizeof why;
-    if (::getsockopt(fd.get(), SOL_SOCKET, SO_ERROR, &why, &size) != 0 || why != 0) return errno = why, -1;
+    int error_number = 0;
+    socklen_t size = sizeof error_number;
+    if (::getsockopt(fd.get(), SOL_SOCKET, SO_ERROR, &error_number, &size) != 0 || error_number != 0) return errno = error_number, -1;
     return 1;
 }
 
@@ -153,9 +153,9 @@ void without_delay(int fd) {
 void watch_peer(int fd) {
     const auto set = [fd](int level, int option, int value) { ::setsockopt(fd, level, option, &value, sizeof value); };
     set(SOL_SOCKET, SO_KEEPALIVE, 1);
-    set(IPPROTO_TCP, TCP_KEEPIDLE, 5);   // s of silence, then a question ...
-    set(IPPROTO_TCP, TCP_KEEPINTVL, 3);  // ... every 3 s
-    set(IPPROTO_TCP, TCP_KEEPCNT, 3);    // ... until 3 of them have no answer
+    set(IPPROTO_TCP, TCP_KEEPIDLE, 5);   // seconds of silence before the first probe
+    set(IPPROTO_TCP, TCP_KEEPINTVL, 3);  // seconds between probes
+    set(IPPROTO_TCP, TCP_KEEPCNT, 3);    // probes without a reply before the connection fails
 }
 
 }  // namespace corpuscle

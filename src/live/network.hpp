@@ -1,5 +1,5 @@
 #pragma once
-// Sockets by address and port.
+// Sockets, by address and port.
 
 #include <sys/socket.h>
 #include <string>
@@ -16,7 +16,7 @@ struct Endpoint {
     std::string text() const;  ///< "127.0.0.1:7000"
 };
 
-/// "7000", "127.0.0.1:7000", "[::1]:7000", "robot:7000"; the address is this machine's own (loopback) if none is said.
+/// Parses "7000", "127.0.0.1:7000", "[::1]:7000", "robot:7000"; the default address is 127.0.0.1.
 Result<Endpoint> parse_endpoint(std::string_view text);
 
 struct SocketAddress {
@@ -25,28 +25,28 @@ struct SocketAddress {
     bool operator==(const SocketAddress&) const;
 };
 
-/// An endpoint and the addresses that the name service gave for it, at least one. Asking the name service may take minutes.
+/// An endpoint and its resolved addresses, at least one. Resolving a name may take minutes.
 struct ResolvedEndpoint {
     Endpoint at;
     std::vector<SocketAddress> addresses;
 };
 Result<ResolvedEndpoint> resolve(const Endpoint&);
 
-/// Without waiting for anybody; the port is filled in if it was 0.
+/// A listening, non-blocking socket; fills in the port if it was 0.
 Result<Descriptor> listening_socket(Endpoint&);
 /// The same for datagrams.
 Result<Descriptor> datagram_socket(Endpoint&);
-/// Tries one address after another, each for at most so long, ms; the socket does not block then.
-Result<Descriptor> connected_socket(const ResolvedEndpoint&, int patience_ms);
-Result<Descriptor> connected_socket(const Endpoint&, int patience_ms);
-/// Begins a connection and returns at once; no descriptor: it failed at once.
+/// Tries one address after another, each for at most `timeout_ms`. The socket is non-blocking.
+Result<Descriptor> connected_socket(const ResolvedEndpoint&, int timeout_ms);
+Result<Descriptor> connected_socket(const Endpoint&, int timeout_ms);
+/// Starts a connection and returns at once. Returns no descriptor if it failed immediately.
 Descriptor begin_connection(const SocketAddress&);
-/// Whether what begin_connection() began has come to a connection (1), to an error (-1), or to nothing yet (0).
+/// State of a connection started by begin_connection(): connected (1), failed (-1), or still pending (0).
 int connection_state(const Descriptor&);
-/// A silent peer whose machine or cable has died is noticed within 15 seconds: reads then fail.
+/// Enables keepalive, so reads fail within 15 seconds if the peer's machine or cable has failed.
 void watch_peer(int fd);
 
-/// Small pieces go at once.
+/// Sends small packets at once (TCP_NODELAY).
 void without_delay(int fd);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Frames of fewer forces than a skin has sites.
+// Frames with fewer forces than a skin has sites.
 
 #include <cstdint>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace corpuscle {
 
-/// Force k of each frame goes to site sites[k]; the others of all_sites have none. `from` gives frames of sites.size() forces, and is
-/// returned as it is where these are all sites in order.
+/// Assigns force k of each frame to site sites[k]; the other sites of all_sites get none. `from` gives frames of sites.size() forces. It is
+/// returned unchanged if these are all sites in order.
 std::unique_ptr<FrameSource> placed_frames(std::unique_ptr<FrameSource> from, std::vector<std::uint32_t> sites, std::size_t all_sites);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// A recording as a stream: each frame when it is due, or as fast as they can be answered.
+// A recording as a stream: each frame at its time, or as fast as they can be simulated.
 
 #include "live/frame_source.hpp"
 
@@ -6,14 +6,14 @@ namespace corpuscle {
 namespace {
 
 class RecordedFrames final : public FrameSource {
-    static constexpr std::size_t block = 1024;    // read ahead
-    static constexpr std::int64_t at_once = 256;  // as fast as can be: between two looks at the rest of the world
+    static constexpr std::size_t block = 1024;    // frames read ahead
+    static constexpr std::int64_t at_once = 256;  // if not paced: frames between two polls of the stream loop
 
     std::unique_ptr<Source> source_;
     Frames frames_;
-    std::size_t at_ = 0;       // in the block
-    std::int64_t begun_ = -1;  // when the first was due; ns
-    std::int64_t count_ = 0, in_turn_ = 0;
+    std::size_t at_ = 0;       // position in the block
+    std::int64_t begun_ = -1;  // when the first frame was due; ns
+    std::int64_t count_ = 0, in_batch_ = 0;
     bool paced_;
 
     std::int64_t due_of(std::int64_t frame) const {
@@ -32,7 +32,7 @@ public:
     FrameCounts counts() const override { return {.frames = count_, .producers = 1}; }
 
     Result<bool> receive() override {
-        in_turn_ = 0;
+        in_batch_ = 0;
         if (at_ == frames_.count) {
             if (auto ok = source_->read(frames_); !ok) return ok.error();
             at_ = 0;
@@ -42,17 +42,17 @@ public:
     }
 
     Next next(std::span<double> force) override {
-        if (at_ == frames_.count || in_turn_ == at_once || (paced_ && steady_now() < due_of(count_))) return Next::nothing;
+        if (at_ == frames_.count || in_batch_ == at_once || (paced_ && steady_now() < due_of(count_))) return Next::nothing;
         for (std::size_t s = 0; s < force.size(); ++s) force[s] = frames_.force[s][at_];
-        ++at_, ++count_, ++in_turn_;
+        ++at_, ++count_, ++in_batch_;
         return Next::frame;
     }
 };
 
 }  // namespace
 
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source> source, bool at_its_pace) {
-    return std::make_unique<RecordedFrames>(std::move(source), at_its_pace);
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source> source, bool real_time) {
+    return std::make_unique<RecordedFrames>(std::move(source), real_time);
 }
 
 }  // namespace corpuscle

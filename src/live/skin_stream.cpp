@@ -6,46 +6,46 @@
 
 namespace corpuscle {
 
-Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Innervation> innervation, const Clock& clock, bool sampled,
-                                                     std::size_t together) {
+Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Innervation> innervation, const Clock& clock,
+                                                     bool spikes_on_samples, std::size_t batch_frames) {
     const auto set = instruction_set();
     if (!set) return set.error();
-    auto skin = Skin::make(innervation, {.dt = clock.T(), .sampled = sampled}, *set);
+    auto skin = Skin::make(innervation, {.dt = clock.T(), .sampled = spikes_on_samples}, *set);
     if (!skin) return skin.error();
     std::unique_ptr<SkinStream> stream(new SkinStream(std::move(innervation), clock, std::move(*skin)));
-    stream->make_room(together);
+    stream->make_room(batch_frames);
     if (auto ok = stream->warm_up(); !ok) return ok.error();
     return stream;
 }
 
-/// Blows of 10 N as every unit feels it, now and again, then as it was: what a skin asks for when all of it fires, it has then.
+/// Simulates random presses of 10 N on all afferents, then restores the state. This allocates the memory that is needed when all fire.
 Result<void> SkinStream::warm_up() {
     const auto start = skin_->save();
     const auto& plan = innervation_->plan;
-    const double blow = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
+    const double press = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
     std::vector<double> frame(sites());
     std::uint32_t chance = 1;
     const auto frames = std::clamp<std::size_t>(2'000'000 / innervation_->units.size(), 32, 512);
     for (std::size_t k = 0; k < frames; ++k) {
         chance = 1664525 * chance + 1013904223;
-        std::fill(frame.begin(), frame.end(), chance >> 31 == 0 ? 0.0 : blow);
-        if (k + 2 * together_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // at the end at one site alone
+        std::fill(frame.begin(), frame.end(), chance >> 31 == 0 ? 0.0 : press);
+        if (k + 2 * together_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // the last ones at one site only
         if (together_ > 1 && !gather(frame)) continue;
-        if (auto answered = together_ > 1 ? answer_gathered() : push(frame); !answered) return answered.error();
+        if (auto done = together_ > 1 ? answer_gathered() : push(frame); !done) return done.error();
     }
     if (together_ > 1)
         if (auto answered = answer_gathered(); !answered) return answered.error();
     return skin_->resume(start);
 }
 
-/// The sites at which there is force: most of a skin is touched nowhere, so many are looked at together. Among those of which some are
-/// touched, without a branch for each: noise makes zeros come and go.
+/// The sites with a force. Most of a skin is usually untouched, so blocks of sites are tested at once. Within a touched block no branches
+/// are used, because noise makes zeros unpredictable.
 std::span<const std::uint32_t> SkinStream::touched_by(std::span<const double> frame) {
     if (std::count(frame.begin(), frame.end(), 0.0) == 0) return every_;
-    constexpr std::size_t together = 16;
+    constexpr std::size_t block = 16;
     std::size_t touched = 0;
-    for (std::size_t from = 0; from < frame.size(); from += together) {
-        const auto some = frame.subspan(from, std::min(together, frame.size() - from));
+    for (std::size_t from = 0; from < frame.size(); from += block) {
+        const auto some = frame.subspan(from, std::min(block, frame.size() - from));
         if (static_cast<std::size_t>(std::count(some.begin(), some.end(), 0.0)) == some.size()) continue;
         for (std::size_t k = 0; k < some.size(); ++k) touched_[touched] = static_cast<std::uint32_t>(from + k), touched += some[k] != 0;
     }
@@ -53,18 +53,18 @@ std::span<const std::uint32_t> SkinStream::touched_by(std::span<const double> fr
 }
 
 Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
-    if (frame.size() != sites()) return bad_input(fmt::format("a frame of {} forces for {} sites", frame.size(), sites()));
+    if (frame.size() != sites()) return bad_input(fmt::format("a frame has {} forces, but there are {} sites", frame.size(), sites()));
     spikes_.clear();
     if (auto ok = skin_->respond({frame.data(), 1, touched_by(frame), false}, 1, spikes_, here_); !ok) return ok.error();
     return std::span<const Spike>(spikes_);
 }
 
-void SkinStream::make_room(std::size_t together) {
+void SkinStream::make_room(std::size_t batch_frames) {
     touched_.resize(sites()), every_.resize(sites());
     std::iota(every_.begin(), every_.end(), 0U);
     spikes_.reserve(8 * innervation_->units.size() + 64);
-    together_ = together;
-    block_.assign(sites() * together, 0.0);
+    together_ = batch_frames;
+    block_.assign(sites() * batch_frames, 0.0);
     is_in_block_.assign(sites(), 0);
     in_block_.reserve(sites());
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A skin that answers frame by frame: one frame of forces in, the spikes that arrive in it out. No lock, no memory asked for once it is
-// made, and the same spikes as a recording answered as a whole.
+// Simulates a skin frame by frame: one frame of forces in, the spikes that arrive during it out. It uses no locks and allocates no memory
+// after construction. The spikes are the same as those of a recording of these frames.
 
 #include <span>
 #include <vector>
@@ -16,7 +16,7 @@ class SkinStream {
     Pool here_{1};
     std::vector<std::uint32_t> touched_, every_;
     std::vector<Spike> spikes_;
-    // Frames that are answered together: [site][frame], of the sites that any of them touches.
+    // Frames of a batch: [site][frame], for the sites that any of them touches.
     std::size_t together_ = 1, gathered_ = 0;
     std::vector<double> block_;
     std::vector<std::uint32_t> in_block_;
@@ -24,33 +24,34 @@ class SkinStream {
 
     SkinStream(std::shared_ptr<const Innervation> innervation, const Clock& clock, std::unique_ptr<Skin> skin)
         : innervation_(std::move(innervation)), clock_(clock), skin_(std::move(skin)) {}
-    void make_room(std::size_t together);
+    void make_room(std::size_t batch_frames);
     Result<void> warm_up();
     std::span<const std::uint32_t> touched_by(std::span<const double> frame);
 
 public:
-    /// `sampled`: spikes on the samples, not between them. `together`: frames that may be gathered.
-    static Result<std::unique_ptr<SkinStream>> make(std::shared_ptr<const Innervation>, const Clock&, bool sampled = false,
-                                                    std::size_t together = 1);
+    /// `spikes_on_samples`: spikes are put on samples, not between them. `batch_frames`: size of a batch.
+    static Result<std::unique_ptr<SkinStream>> make(std::shared_ptr<const Innervation>, const Clock&, bool spikes_on_samples = false,
+                                                    std::size_t batch_frames = 1);
 
     const Innervation& innervation() const { return *innervation_; }
     const Clock& clock() const { return clock_; }
     std::size_t sites() const { return skin_->sites(); }
-    std::int64_t frames() const { return skin_->step(); }  ///< answered so far
+    std::int64_t frames() const { return skin_->step(); }  ///< simulated so far
     const SkinWork& work() const { return skin_->work(); }
 
-    /// One force (N) a site. The spikes that arrive in this frame, in order of time, then unit; they stay until the next call.
+    /// Simulates one frame: one force (N) for each site. Returns the spikes that arrive during it, in order of time, then afferent; valid
+    /// until the next call.
     Result<std::span<const Spike>> push(std::span<const double> frame);
     std::size_t together() const { return together_; }
-    /// One more frame, kept to be answered together with others: less work, and the same spikes later. True: it is time to answer them.
+    /// Adds a frame to the batch, which is simulated at once: less work, but the spikes come later. Returns true when the batch is full.
     bool gather(std::span<const double> frame);
-    /// The spikes that arrive in the frames gathered; there may be none.
+    /// The spikes that arrive during the frames of the batch, which may be empty.
     Result<std::span<const Spike>> answer_gathered();
 
-    /// At the end of it all: the spikes still on their way.
+    /// Call after the last frame: the spikes that are still in transit.
     std::span<const Spike> last();
 
-    /// Where it stands; the same population at the same rate goes on from there.
+    /// The state; a stream with the same population and rate can resume from it.
     std::vector<std::byte> save() const { return skin_->save(); }
     Result<void> resume(std::span<const std::byte> state) { return skin_->resume(state); }
 };

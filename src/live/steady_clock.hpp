@@ -1,5 +1,5 @@
 #pragma once
-// The clock that never steps back, in nanoseconds.
+// A monotonic clock, in nanoseconds.
 
 #include <chrono>
 #include <cstdint>

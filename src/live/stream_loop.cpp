@@ -7,9 +7,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000, longest_wait = second / 5;
-constexpr std::int64_t longest_rest = 5 * second;  // once stopped: for the frames that have come
-constexpr int grace_ms = 50;                       // once stopped: for bytes on their way between two machines, in all
+constexpr std::int64_t second = 1'000'000'000, max_wait = second / 5;
+constexpr std::int64_t max_rest = 5 * second;  // once stopped: for the frames that have come
+constexpr int grace_ms = 50;                   // after a stop: total wait for bytes in transit between two machines
 
 }  // namespace
 
@@ -40,29 +40,29 @@ Result<void> StreamLoop::run() {
     return ended ? finished : ended;
 }
 
-/// For frames, for room to write, for the time of the next look; false at the end of the frames.
+/// Waits for frames, for space to write, or for the next check; returns false at the end of the frames.
 Result<bool> StreamLoop::wait() {
     pollfd on[2] = {{frames_.waits_on(), POLLIN, 0}, {outlet_.waits_on(), POLLOUT, 0}};
     const auto left =
-        std::max<std::int64_t>(0, std::min(frames_.due() - (frames_.due() == FrameSource::never ? 0 : steady_now()), longest_wait));
+        std::max<std::int64_t>(0, std::min(frames_.due() - (frames_.due() == FrameSource::never ? 0 : steady_now()), max_wait));
     const timespec wait = {0, ways_.spin ? 0 : static_cast<long>(left)};
     const int ready = ::ppoll(on, 2, &wait, nullptr);
-    if (ready < 0) return true;  // a signal: stop() is asked
+    if (ready < 0) return true;  // a signal; stop() is checked next
     const bool due = on[0].revents != 0 || frames_.due() <= steady_now();
     if (on[1].revents != 0 || (ready == 0 && !ways_.spin))
         if (auto ok = outlet_.flush(); !ok) return ok.error();
     if (!due) return true;
     const auto more = frames_.receive();
-    if (!more && ways_.stop()) return false;  // a read that a signal broke off
+    if (!more && ways_.stop()) return false;  // a read interrupted by a signal
     if (!more) return more.error();
     if (auto ok = answer_all(); !ok) return ok.error();
     return *more;
 }
 
-/// Once stopped: the frames that have come, and no others for long. A file's can be read again.
+/// After a stop: simulates the frames that have arrived, and waits only briefly for others. The frames of a file can be read again.
 Result<void> StreamLoop::answer_rest() {
     frames_.hurry();
-    const auto until = steady_now() + longest_rest;
+    const auto until = steady_now() + max_rest;
     auto grace = second / 1000 * grace_ms;
     for (bool more = frames_.waits_on() >= 0 && frames_.is_live(); more && steady_now() < until;) {
         const auto before = steady_now();
@@ -80,7 +80,7 @@ Result<void> StreamLoop::answer_rest() {
     return {};
 }
 
-/// The frames that are there.
+/// Simulates the frames that have arrived.
 Result<void> StreamLoop::answer_all() {
     const auto at = steady_now();
     const auto before = done_.came;
@@ -103,7 +103,7 @@ Result<void> StreamLoop::answer(bool came, std::int64_t at) {
     return tell(skin_.together() > 1 ? skin_.answer_gathered() : skin_.push(force_));
 }
 
-/// Fewer than go together, at the end.
+/// Simulates an incomplete batch, at the end.
 Result<void> StreamLoop::answer_gathered() { return skin_.together() > 1 ? tell(skin_.answer_gathered()) : Result<void>{}; }
 
 Result<void> StreamLoop::tell(const Result<std::span<const Spike>>& spikes) {
@@ -129,7 +129,7 @@ Result<void> StreamLoop::put(std::span<const Spike> spikes) {
     return {};
 }
 
-/// Waits for a reader who may be waited for; false: there is no room. Once stopped, a reader that takes nothing has one more second.
+/// Waits for space if the reader may be waited for; false: there is none. After a stop, a reader that reads nothing has one more second.
 Result<bool> StreamLoop::make_room(std::size_t bytes) {
     while (waits_for_reader() && steady_now() < patience_ends_) {
         const auto room = outlet_.wait_for_room(bytes, 100);

@@ -1,6 +1,6 @@
 #pragma once
-// The loop of a live stream: waits for frames, answers each, writes its spikes. One thread; it waits for a reader of the spikes only where
-// that is our own writer of a file, or where the frames can wait.
+// The main loop of a live stream: waits for frames, simulates each, writes its spikes. It runs in one thread. It waits for a reader of the
+// spikes only if this is our own file writer, or if the frames can wait.
 
 #include <functional>
 
@@ -11,18 +11,18 @@
 
 namespace corpuscle {
 
-/// What has been done, and how long it took.
+/// Statistics of a stream.
 struct StreamDone {
-    std::int64_t filled = 0;                     ///< frames answered in the place of others
+    std::int64_t filled = 0;                     ///< frames inserted for missing or unreadable ones
     std::int64_t spikes = 0;                     ///< of the skin
-    std::int64_t dropped = 0;                    ///< of those, left out since the ring was full
+    std::int64_t dropped = 0;                    ///< of these, dropped because the ring was full
     std::int64_t first_came = 0, last_came = 0;  ///< frames; steady_now()
-    std::int64_t came = 0;                       ///< frames
-    std::int64_t reads = 0;                      ///< that brought whole frames
-    std::size_t unread = 0;                      ///< bytes that had come when it was stopped, and were not read
-    Delays delay;                                ///< from a frame's last byte, read, to its spikes written
-    Delays jitter;                               ///< how far the time between two frames was from the sample's
-    double rate() const {                        ///< at which frames came, Hz; 0 if nobody can say
+    std::int64_t came = 0;                       ///< frames received
+    std::int64_t reads = 0;                      ///< reads that returned whole frames
+    std::size_t unread = 0;                      ///< bytes that had arrived when it was stopped, but were not read
+    Delays delay;                                ///< from reading the last byte of a frame to writing its spikes
+    Delays jitter;                               ///< difference between the interval of two frames and the sampling interval
+    double rate() const {                        ///< rate of received frames, Hz; 0 if unknown
         return came > 1 && last_came > first_came ? static_cast<double>(came - 1) * 1e9 / static_cast<double>(last_came - first_came) : 0;
     }
 };
@@ -30,16 +30,16 @@ struct StreamDone {
 class StreamLoop {
 public:
     struct Ways {
-        std::function<bool()> stop = [] { return false; };  ///< asked at least five times a second
-        std::function<void()> seen = [] {};                 ///< called once a second
-        bool spin = false;                                  ///< wait without sleeping: a core of its own, and no time to wake
-        std::function<void(const FrameMisfit&)> misfit = [](const FrameMisfit&) {};  ///< the first frame that could not be read
-        bool goes_on = false;  ///< its state is kept: spikes on their way at the end are the next stream's
+        std::function<bool()> stop = [] { return false; };                           ///< called at least five times a second
+        std::function<void()> seen = [] {};                                          ///< called once a second
+        bool spin = false;                                                           ///< busy polling: no wake-up delay, but it uses a core
+        std::function<void(const FrameMisfit&)> misfit = [](const FrameMisfit&) {};  ///< called for the first frame that could not be read
+        bool goes_on = false;  ///< the state is saved: spikes in transit at the end belong to the next stream
     };
 
     StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventOutlet& outlet, Ways ways);
 
-    /// To the end of the frames, until stopped, or until nobody reads the spikes any more.
+    /// Runs until the frames end, it is stopped, or the reader of the spikes closes.
     Result<void> run();
     const StreamDone& done() const { return done_; }
     std::span<double> force() { return force_; }  ///< of the last frame, N
@@ -64,7 +64,7 @@ private:
     StreamDone done_;
     std::vector<double> force_;
     std::vector<char> event_;
-    std::vector<std::int64_t> came_;  // of the frames gathered, those that came: when
+    std::vector<std::int64_t> came_;  // arrival times of the received frames of the batch
     std::int64_t next_look_ = 0, patience_ends_ = FrameSource::never;
     bool misfit_told_ = false;
 };

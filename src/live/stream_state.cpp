@@ -11,9 +11,9 @@ namespace corpuscle {
 namespace {
 
 constexpr std::string_view state_magic = "corplive";
-constexpr std::uint32_t state_version = 2;  // ends with a checksum of all before it; version 1, which has none, is read
+constexpr std::uint32_t state_version = 2;  // ends with a checksum of all bytes before it; version 1, which has none, can still be read
 
-/// What stands before the forces and the skin's bytes; little-endian.
+/// The header before the forces and the state of the skin; little-endian.
 struct StateHead {
     char magic[8];
     std::uint32_t version, numbered, number, sites;
@@ -50,25 +50,25 @@ Result<StreamState> unpacked(std::span<const std::byte> bytes, const std::string
                                      "program that saved it",
                                      head.version, state_version),
                          {file});
-    auto rest = bytes.subspan(sizeof head);
+    auto body = bytes.subspan(sizeof head);
     if (head.version >= 2) {
         std::uint64_t sum = 0;
-        if (rest.size() < sizeof sum) return bad_input("this saved state is cut short; start without --resume", {file});
+        if (body.size() < sizeof sum) return bad_input("this saved state is truncated; start without --resume", {file});
         std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
         if (sum != checksum_of(bytes.first(bytes.size() - sizeof sum)))
             return bad_input("this saved state is damaged: its checksum is wrong; start without --resume", {file});
-        rest = rest.first(rest.size() - sizeof sum);
+        body = body.first(body.size() - sizeof sum);
     }
     const auto forces = head.sites * std::uint64_t{sizeof(double)};
-    if (rest.size() < forces || rest.size() - forces != head.skin)
-        return bad_input("this saved state is cut short or too long; start without --resume", {file});
+    if (body.size() < forces || body.size() - forces != head.skin)
+        return bad_input("this saved state is truncated or too long; start without --resume", {file});
     StreamState state;
     state.force.resize(head.sites);
-    if (forces > 0) std::memcpy(state.force.data(), rest.data(), forces);
+    if (forces > 0) std::memcpy(state.force.data(), body.data(), forces);
     if (first_not_finite(state.force) < state.force.size())
-        return bad_input("this saved state is damaged: a force that is no number", {file});
+        return bad_input("this saved state is damaged: a force is not a finite number", {file});
     if (head.numbered != 0) state.number = head.number;
-    state.skin.assign(rest.begin() + static_cast<std::ptrdiff_t>(forces), rest.end());
+    state.skin.assign(body.begin() + static_cast<std::ptrdiff_t>(forces), body.end());
     return state;
 }
 
@@ -84,8 +84,8 @@ Result<void> save_stream(const std::string& path, const StreamState& state) {
 Result<StreamState> load_stream(const std::string& path) {
     auto file = open_bytes(path);
     if (!file) return file.error();
-    constexpr std::uint64_t most = std::uint64_t{1} << 34;
-    if ((*file)->size() > most) return bad_input("this file is too large to be a saved state", {path});
+    constexpr std::uint64_t max_size = std::uint64_t{1} << 34;
+    if ((*file)->size() > max_size) return bad_input("this file is too large to be a saved state", {path});
     std::vector<std::byte> bytes((*file)->size());
     if (auto ok = (*file)->read(bytes); !ok) return ok.error();
     return unpacked(bytes, path);

@@ -5,13 +5,13 @@
 
 namespace corpuscle {
 
-/// Adaptation ratio: the first interspike interval of the phase over its last, both between two of its spikes (early over late,
-/// as NeuroElectro collects it; Tripathy et al. 2014, Front Neuroinform 8:40). Needs two intervals; a train whose pauses outlast its
-/// firing has none.
+/// Adaptation ratio: the first interspike interval of the phase divided by its last, both between two spikes of the phase. This is early
+/// over late, as in NeuroElectro (Tripathy et al. 2014, Front Neuroinform 8:40). It needs two intervals. There is no value for a train
+/// whose pauses are longer in total than its firing.
 struct AdaptationRatio : Deaf {
     static constexpr Measure row{"adaptation_ratio", "adaptation", "", 2,
-                                 "first interval of the phase over its last: 1 does not adapt, 0.5 has slowed to half"};
-    int intervals = 0;  // up to 2: more need no counting
+                                 "first interval of the phase divided by its last: 1 is no adaptation, 0.5 a slowing to half"};
+    int intervals = 0;  // up to 2; more are not counted
     double first = 0, last = 0;
     Pauses pauses;
     void interval(double from, double to, bool inside) {

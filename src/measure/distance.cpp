@@ -10,32 +10,32 @@
 namespace corpuscle {
 namespace {
 
-/// What is saved against removing all of one train and adding all of the other: 2 - q |dt| for each move. Row by row over a, only
-/// the columns of b that are worth a move from there: before them nothing changes, behind them the last value holds.
+/// The saving, compared with removing all of one train and adding all of the other: 2 - q |dt| for each move. Computed row by row over a,
+/// and only for the columns of b where a move saves something. Before these columns nothing changes; after them the last value applies.
 class Savings {
     std::span<const double> a_, b_;
     double q_;
-    std::vector<double> best_;  // best_[j]: of a[0 .. i) and b[0 .. j); known up to known_
+    std::vector<double> best_;  // best_[j]: for a[0 .. i) and b[0 .. j); valid up to known_
     std::size_t known_ = 0;
 
 public:
     enum Choice : unsigned char { skip_a, skip_b, move };
-    struct Row {
+    struct RowRange {
         std::size_t from = 0, to = 0;  // the columns of b, [from, to)
-        std::size_t cells = 0;         // of all rows before
+        std::size_t cells = 0;         // in all rows before
     };
-    /// All that the rows from `row` on depend on.
+    /// The state on which the rows from `row` on depend.
     struct Checkpoint {
         std::size_t row, from, known;
-        std::vector<double> best;  // of [from, known]
+        std::vector<double> best;  // for [from, known]
     };
 
     Savings(std::span<const double> a, std::span<const double> b, double q) : a_(a), b_(b), q_(q), best_(b.size() + 1) {}
 
     double saved(std::size_t i, std::size_t j) const { return 2 - q_ * std::abs(a_[i] - b_[j]); }
 
-    std::vector<Row> rows() const {
-        std::vector<Row> all(a_.size());
+    std::vector<RowRange> rows() const {
+        std::vector<RowRange> all(a_.size());
         std::size_t from = 0, to = 0, cells = 0;
         for (std::size_t i = 0; i < a_.size(); ++i) {
             while (from < b_.size() && b_[from] <= a_[i] && saved(i, from) <= 0) ++from;
@@ -47,7 +47,7 @@ public:
         return all;
     }
 
-    void answer(std::size_t i, const Row& row, std::vector<Choice>* choices) {
+    void process_row(std::size_t i, const RowRange& row, std::vector<Choice>* choices) {
         if (row.from == row.to) return;
         while (known_ < row.to) best_[known_ + 1] = best_[known_], ++known_;
         double diagonal = best_[row.from];  // of the row above
@@ -64,7 +64,7 @@ public:
         const auto begin = best_.begin() + static_cast<std::ptrdiff_t>(std::min(from, known_));
         return {row, std::min(from, known_), known_, {begin, best_.begin() + static_cast<std::ptrdiff_t>(known_) + 1}};
     }
-    void go_back_to(const Checkpoint& there) {
+    void restore(const Checkpoint& there) {
         known_ = there.known;
         std::copy(there.best.begin(), there.best.end(), best_.begin() + static_cast<std::ptrdiff_t>(there.from));
     }
@@ -72,11 +72,11 @@ public:
     double total() const { return best_[known_]; }
 };
 
-constexpr std::size_t cells_kept = std::size_t{1} << 22;  // choices at once
+constexpr std::size_t cells_kept = std::size_t{1} << 22;  // choices in memory at once
 
-/// The moves of rows [from, to), whose choices are at hand, in falling order.
-void follow_back(std::span<const Savings::Row> rows, std::size_t from, std::size_t to, const std::vector<Savings::Choice>& choices,
-                 std::size_t& j, std::vector<Match>& moved) {
+/// Collects the moves of rows [from, to), whose choices are in memory, in falling order.
+void trace_back(std::span<const Savings::RowRange> rows, std::size_t from, std::size_t to, const std::vector<Savings::Choice>& choices,
+                std::size_t& j, std::vector<Match>& moved) {
     for (std::size_t i = to; i-- > from;)
         for (j = std::min(j, rows[i].to); j > rows[i].from;) {
             const auto choice = choices[rows[i].cells - rows[from].cells + j - 1 - rows[i].from];
@@ -93,24 +93,25 @@ Result<Alignment> align(std::span<const double> a, std::span<const double> b, do
     const auto rows = savings.rows();
     const std::size_t cells = rows.empty() ? 0 : rows.back().cells + rows.back().to - rows.back().from;
     if (cells > (with_moves ? most_candidates() / 4 : most_candidates()))
-        return bad_input(fmt::format("at a cost of {:g} a second, {} and {} spikes are {} pairs within reach of each other; raise the cost",
-                                     q, a.size(), b.size(), cells));
-    // Choices are kept of as many rows as go into a fixed room; those before are worked out again, from where their rows began.
+        return bad_input(
+            fmt::format("at a cost of {:g} per second, {} and {} spikes have {} pairs within reach of each other; raise the cost", q,
+                        a.size(), b.size(), cells));
+    // Choices are kept for as many rows as fit a fixed amount of memory. Those of earlier blocks are computed again from their checkpoints.
     std::vector<Savings::Choice> choices;
     std::vector<Savings::Checkpoint> blocks;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (with_moves && (blocks.empty() || rows[i].cells + rows[i].to - rows[i].from - rows[blocks.back().row].cells > cells_kept))
             blocks.push_back(savings.checkpoint(i, rows[i].from)), choices.clear();
-        savings.answer(i, rows[i], with_moves ? &choices : nullptr);
+        savings.process_row(i, rows[i], with_moves ? &choices : nullptr);
     }
     Alignment out{static_cast<double>(a.size() + b.size()) - savings.total(), {}};
     std::size_t j = b.size(), end = rows.size();
     for (auto block = blocks.rbegin(); block != blocks.rend(); end = block->row, ++block) {
         if (block != blocks.rbegin()) {
-            savings.go_back_to(*block), choices.clear();
-            for (std::size_t i = block->row; i < end; ++i) savings.answer(i, rows[i], &choices);
+            savings.restore(*block), choices.clear();
+            for (std::size_t i = block->row; i < end; ++i) savings.process_row(i, rows[i], &choices);
         }
-        follow_back(rows, block->row, end, choices, j, out.moved);
+        trace_back(rows, block->row, end, choices, j, out.moved);
     }
     std::reverse(out.moved.begin(), out.moved.end());
     return out;
@@ -127,8 +128,8 @@ Result<double> victor_purpura(std::span<const double> a, std::span<const double>
 Result<Alignment> align(std::span<const double> a, std::span<const double> b, double q) { return align(a, b, q, true); }
 
 double van_rossum_squared(std::span<const double> a, std::span<const double> b, double tau) {
-    // Spikes of a count +1, those of b -1: the sum over all pairs of sign sign e^(-|dt|/tau). `before` is that of a spike with all
-    // that went before it, so each spike adds its own 1 and twice its sign times `before`.
+    // Spikes of a have sign +1, those of b -1. The sum runs over all pairs: sign * sign * e^(-|dt|/tau). `before` is the sum of a spike
+    // with all earlier ones. Each spike therefore adds 1 and twice its sign times `before`.
     double sum = 0, before = 0, last = 0;
     for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
         const bool of_a = j == b.size() || (i < a.size() && a[i] <= b[j]);

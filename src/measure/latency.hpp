@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// First-spike latency (Johansson & Birznieks 2004, Nat Neurosci 7:170), here from the phase's start: the onset of force in it.
+/// First-spike latency (Johansson & Birznieks 2004, Nat Neurosci 7:170), measured from the start of the phase, in which the force begins.
 struct Latency : Deaf {
     static constexpr Measure row{"latency", "latency", "s", 4, "from the phase's start to its first spike"};
     double first = no_value;

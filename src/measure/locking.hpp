@@ -1,5 +1,5 @@
 #pragma once
-// How spikes keep to the cycles of a stimulus that repeats itself, over the whole cycles of a phase, counted from its start.
+// Phase locking of spikes to a periodic stimulus, over the complete cycles of a phase, counted from its start.
 
 #include <cmath>
 
@@ -8,17 +8,17 @@
 
 namespace corpuscle {
 
-/// The spikes of one cycle are held back until the next begins: the last one may not be whole, and then they do not count.
+/// The spikes of a cycle are added only when the next one begins. The last cycle may be incomplete, and is then not counted.
 template <class Sum>
 struct ByCycle : Deaf {
-    double cycle = -1;  // whose spikes are held back
+    double cycle = -1;  // index of the current cycle
     Sum held{}, sum{};
 
     void spike(double t, const Stretch& s) {
         if (!(s.cycle > 0)) return;
-        const double turns = (t - s.from) * s.cycle;
-        if (std::floor(turns) != cycle) sum.add(held), held = {}, cycle = std::floor(turns);
-        held.spike(turns);
+        const double cycles_elapsed = (t - s.from) * s.cycle;
+        if (std::floor(cycles_elapsed) != cycle) sum.add(held), held = {}, cycle = std::floor(cycles_elapsed);
+        held.spike(cycles_elapsed);
     }
     static double cycles(const Stretch& s) { return std::floor((s.to - s.from) * s.cycle * (1 + 1e-12)); }
     Sum whole(const Stretch& s) const {
@@ -30,15 +30,15 @@ struct ByCycle : Deaf {
 
 struct PhaseSum {
     double count = 0, x = 0, y = 0;
-    void spike(double turns) { ++count, x += num::cos_turns(turns), y += num::sin_turns(turns); }
+    void spike(double cycles_elapsed) { ++count, x += num::cos_turns(cycles_elapsed), y += num::sin_turns(cycles_elapsed); }
     void add(const PhaseSum& o) { count += o.count, x += o.x, y += o.y; }
 };
 
-/// Goldberg & Brown 1969 (J Neurophysiol 32:613): the length of the mean of the spikes' phases as unit vectors. One spike alone
-/// always gives 1, so two are needed.
+/// Goldberg & Brown 1969 (J Neurophysiol 32:613): the length of the mean of the spikes' phases as unit vectors. A single spike always gives
+/// 1, so at least two are required.
 struct VectorStrength : ByCycle<PhaseSum> {
     static constexpr Measure row{"vector_strength", "vector strength", "", 3,
-                                 "of the spikes' places in the stimulus's cycle: 1 all at one place, 0 evenly spread"};
+                                 "phase locking of the spikes to the stimulus cycle: 1 all at one phase, 0 uniformly distributed"};
     double value(const Stretch& s) const {
         const auto all = whole(s);
         return all.count >= 2 ? std::sqrt(all.x * all.x + all.y * all.y) / all.count : no_value;
@@ -51,9 +51,9 @@ struct SingleSum {
     void add(const SingleSum& o) { singles += o.singles; }
 };
 
-/// One spike a cycle is what Talbot et al. 1968 (J Neurophysiol 31:301) call tuned, and others entrained one to one.
+/// One spike per cycle is called tuned by Talbot et al. 1968 (J Neurophysiol 31:301), and entrained one to one by others.
 struct Entrainment : ByCycle<SingleSum> {
-    static constexpr Measure row{"entrainment", "entrainment", "", 3, "share of the stimulus's whole cycles that have exactly one spike"};
+    static constexpr Measure row{"entrainment", "entrainment", "", 3, "fraction of the complete stimulus cycles with exactly one spike"};
     double value(const Stretch& s) const { return s.cycle > 0 && cycles(s) >= 1 ? whole(s).singles / cycles(s) : no_value; }
 };
 

@@ -5,10 +5,10 @@
 namespace corpuscle {
 namespace {
 
-/// Calls f with each measure held.
-template <class Held, class F>
-void each(Held& held, F&& f) {
-    std::apply([&](auto&... m) { (f(m), ...); }, held);
+/// Calls f with each measure.
+template <class Tuple, class F>
+void each(Tuple& all, F&& f) {
+    std::apply([&](auto&... m) { (f(m), ...); }, all);
 }
 
 }  // namespace

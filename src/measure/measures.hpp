@@ -1,6 +1,6 @@
 #pragma once
-// Spikes to numbers. A new measure: its struct in a file here, and its name in the list; it is then a column in summary, table and
-// report. Measures take spikes as they come and keep a few numbers each, however long the train.
+// Measures of spike trains. To add one, put its struct into a file here and its name into the list. It is then a column in summary, table
+// and report. Measures receive spikes one by one and keep a few numbers each, independent of the length of the train.
 
 #include <span>
 #include <tuple>
@@ -24,7 +24,7 @@ using Measures = MeasureList<SpikeCount, MeanRate, PeakRate, FirstRate, LastRate
 
 inline constexpr auto& measures = Measures::rows;
 
-/// Where a measure stands among `measures`.
+/// The index of a measure in `measures`.
 template <class M>
 inline constexpr std::size_t place_of_measure = [] {
     std::size_t k = 0;
@@ -32,22 +32,22 @@ inline constexpr std::size_t place_of_measure = [] {
     return k;
 }();
 
-/// Every measure of every train in every stretch.
+/// Computes every measure of every train in every time window.
 class Tally {
     struct Train {
-        std::vector<Measures::Held> in;  // each stretch
-        std::size_t at = 0;              // the stretch of the last spike, or the one after it
-        double last = no_value;          // s; none if that spike was in no stretch
+        std::vector<Measures::Held> in;  // one for each window
+        std::size_t at = 0;              // the window of the last spike, or the next one
+        double last = no_value;          // s; NaN if that spike was in no window
     };
     std::vector<Stretch> stretches_;
     std::vector<Train> trains_;
 
 public:
-    /// The stretches are in order of time and do not overlap.
+    /// The windows are in order of time and do not overlap.
     explicit Tally(std::vector<Stretch> stretches = {}, std::size_t trains = 0);
     /// The next spike of a train, at t (s).
     void spike(std::size_t train, double t);
-    /// An end that was not known is here.
+    /// Sets the end of windows whose end was unknown.
     void end(double t);
     /// A value for each of `measures`.
     std::vector<double> values(std::size_t train, std::size_t stretch) const;
@@ -57,7 +57,7 @@ public:
     }
 };
 
-/// One measure of a train that is at hand whole: measure<PeakRate>(train, {0.25, 0.375}).
+/// One measure of a complete train: measure<PeakRate>(train, {0.25, 0.375}).
 template <class M>
 double measure(std::span<const double> train, const Stretch& stretch) {
     Tally tally({stretch}, 1);
@@ -65,7 +65,7 @@ double measure(std::span<const double> train, const Stretch& stretch) {
     return tally.value<M>(0, 0);
 }
 
-/// The instantaneous frequencies of a train, one fewer than its spikes; Hz.
+/// The instantaneous frequencies of a train, Hz; one value fewer than its spikes.
 std::vector<double> instantaneous_rates(std::span<const double> train);
 
 }  // namespace corpuscle

@@ -1,21 +1,22 @@
 #pragma once
-// Intervals between bursts of spikes, which are no firing: what was in hand was let go.
+// Pauses between bursts of spikes, for example while no object is touched.
 
 namespace corpuscle {
 
-/// Tells pauses from intervals as they come. A pause is longer than half a second and than ten times the mean of the intervals before it,
-/// or longer than ten seconds (choices: afferents that are touched fire faster than once a second, most of them ten times as fast).
+/// Separates pauses from interspike intervals, one by one. A pause is longer than half a second and longer than ten times the mean of the
+/// intervals before it. An interval of more than ten seconds is always a pause. Both are choices: touched afferents fire faster than once a
+/// second, most of them ten times as fast.
 class Pauses {
     static constexpr double least = 0.5, times = 10;
     double firing_ = 0, paused_ = 0;  // s, in all
-    double intervals_ = 0;            // that are no pauses
+    double intervals_ = 0;            // not counting pauses
 
     double mean() const { return firing_ / intervals_; }
 
 public:
-    static constexpr double longest = 10;  ///< s: no interval is longer
+    static constexpr double longest = 10;  ///< s: a longer one is always a pause
 
-    /// The next interval, s; whether it is a pause.
+    /// Adds the next interval, s; returns true if it is a pause.
     bool add(double interval) {
         if (interval > longest || (intervals_ > 0 && interval > least && interval > times * mean())) {
             paused_ += interval;
@@ -25,7 +26,7 @@ public:
         firing_ += interval, ++intervals_;
         return false;
     }
-    /// Of such a train an interval at its beginning says nothing of one at its end.
+    /// True if the pauses are longer in total than the firing. The first and last intervals of such a train are then not comparable.
     bool outlast_firing() const { return paused_ > firing_; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// How many, how fast: counts and frequencies.
+// Spike counts and frequencies.
 
 #include <cmath>
 
@@ -8,9 +8,9 @@
 
 namespace corpuscle {
 
-/// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), drawn at t[k] (3.3). Two spikes on one sample have none.
+/// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), plotted at t[k] (3.3). Two spikes on one sample have none.
 inline double rate_between(double from, double to) { return to > from ? 1 / (to - from) : no_value; }
-/// The same of two spikes that belong together: none over a pause.
+/// The same, but NaN over a pause.
 inline double firing_rate_between(double from, double to) { return to - from > Pauses::longest ? no_value : rate_between(from, to); }
 
 struct SpikeCount : Deaf {
@@ -21,7 +21,7 @@ struct SpikeCount : Deaf {
 };
 
 struct MeanRate : Deaf {
-    static constexpr Measure row{"mean_rate", "mean", "Hz", 1, "spikes in the phase over its length"};
+    static constexpr Measure row{"mean_rate", "mean", "Hz", 1, "spikes in the phase divided by its length"};
     double count = 0;
     void spike(double, const Stretch&) { ++count; }
     double value(const Stretch& s) const { return s.to > s.from ? count / (s.to - s.from) : no_value; }

@@ -1,5 +1,5 @@
 #pragma once
-// What every measure is told, and what it says of itself.
+// The interface of measures: the events that they receive, and their description.
 
 #include <limits>
 #include <string_view>
@@ -8,25 +8,25 @@ namespace corpuscle {
 
 inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-/// The stretch of time that is measured, [from, to) in s. While spikes come, `to` may not be known yet: infinite.
+/// The time window that is measured, [from, to) in s. `to` is infinite while the end is not known.
 struct Stretch {
     double from = 0, to = std::numeric_limits<double>::infinity();
-    double cycle = 0;  ///< Hz, of a stimulus that repeats itself; 0 if it does not
+    double cycle = 0;  ///< Hz, of a periodic stimulus; 0: not periodic
 };
 
-/// A measure in words. Its struct says this as `row`, and takes what it needs of:
-///     spike(t, stretch)            each spike of the stretch, in order
-///     interval(a, b, inside)       from each spike of the stretch to the next one; inside: that is in the stretch, too
-///     value(stretch)               at the end; no_value where it has no meaning
+/// Description of a measure. A measure is a struct with this as `info`. It implements those of the following functions that it needs:
+///     spike(t, window)            each spike of the window, in order
+///     interval(a, b, inside)      from each spike of the window to the next one; inside: that one is in the window as well
+///     value(window)               at the end; no_value if it is undefined
 struct Measure {
     std::string_view name;   ///< in files: "peak_rate"
-    std::string_view title;  ///< for people: "peak"
+    std::string_view title;  ///< for display: "peak"
     std::string_view unit;
-    int decimals;  ///< that tell something; 0 is a count
+    int decimals;  ///< significant decimals; 0 for a count
     std::string_view sentence;
 };
 
-/// What a measure does not ask for.
+/// Base of measures: ignores all events.
 struct Deaf {
     void spike(double, const Stretch&) {}
     void interval(double, double, bool) {}

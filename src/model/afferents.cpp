@@ -1,4 +1,4 @@
-// The afferents that have a name: what each is made of and where it differs from its parts' defaults.
+// The named afferents: which models each is made of, and which parameters differ from the defaults of these models.
 
 #include "model/catalog.hpp"
 
@@ -25,14 +25,14 @@ const std::vector<NamedAfferent>& named_afferents() {
          "lif-b",
          {{"k_s", 2e-6}, {"k_d", 30e-9}},
          {"sa-ii"},
-         "slowly adapting type II: holds without adapting, feels release as it feels touch",
+         "slowly adapting type II: fires steadily through the hold; responds to release as to touch",
          "SA-IA taken for SA-II as thesis 3.1 suggests; values are a choice"},
         {"fa2",
          "vibration",
          "lif-b",
          {{"C_m", 100e-9}, {"I_leak0", 1e-6}},
          {"fa-ii", "pc"},
-         "fast adapting type II: vibration, best at 200 to 300 Hz; deaf to slow force",
+         "fast adapting type II: vibration, best at 200 to 300 Hz; does not respond to slow force",
          "choice, to the tuning of PC afferents in PMC2657072, table 1"},
         {"sa1-kim",
          "sa1a",
@@ -40,15 +40,15 @@ const std::vector<NamedAfferent>& named_afferents() {
          {},
          {},
          "the earlier digital SA-I: SA-IA with LIF-A, in fixed point behind a sensor and a converter",
-         "Kim et al. 2012 as told in thesis 3.1; values are a choice",
+         "Kim et al. 2012 as described in thesis 3.1; values are a choice",
          "fsr+f2v+adc"},
         {"fa1-lee",
          "fa1a",
          "adaptive",
          {{"k", 200e-9}},
          {},
-         "the earlier digital FA-I: rising and falling force to a neuron each, adaptive threshold; likewise",
-         "Lee et al. 2016 as told in thesis 3.1; values are a choice",
+         "the earlier digital FA-I: one neuron for rising and one for falling force, adaptive threshold; also in fixed point",
+         "Lee et al. 2016 as described in thesis 3.1; values are a choice",
          "fsr+f2v+adc"},
     };
     return all;

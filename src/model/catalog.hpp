@@ -1,5 +1,5 @@
 #pragma once
-// What can stand before a transduction, and the afferents that have a name. To add a sensor: its include and its name here.
+// The components that can come before a receptor, and the named afferents. To add a sensor, add its include and its name here.
 
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace corpuscle {
 
-/// What stands before a transduction; these know no kind of number but double.
+/// The components before a receptor. They are written for double only.
 template <class... M>
 struct PartList {};
 template <class M>
@@ -33,17 +33,17 @@ using Sensors = PartList<Fsr>;
 using Transducers = PartList<F2v, F2i>;
 using Converters = PartList<Adc>;
 
-/// An afferent with a name: a transduction, a neuron, and the parameters that differ from theirs.
+/// An afferent with a name: a receptor, a neuron, and the parameters that differ from their defaults.
 struct NamedAfferent {
     std::string_view name, receptor, neuron;
     std::vector<Setting> settings;
-    std::vector<std::string_view> other_names;  ///< accepted in any case
+    std::vector<std::string_view> other_names;  ///< matched without regard to case
     std::string_view sentence, source;
-    std::string_view front = {};  ///< sensor, transducer, converter before it
+    std::string_view front = {};  ///< sensor, transducer and converter before it: "fsr+f2v+adc"
 };
 const std::vector<NamedAfferent>& named_afferents();
 
-std::vector<Card> sensor_cards();  ///< each with its calibration's rows
+std::vector<Card> sensor_cards();  ///< each with the rows of its calibration
 std::vector<Card> transducer_cards();
 std::vector<Card> converter_cards();
 std::vector<Card> receptor_cards();
@@ -52,47 +52,49 @@ std::vector<Card> neuron_cards();
 /// One parameter of an afferent.
 struct Parameter {
     Row row;
-    std::string_view of;  ///< the part it belongs to
-    bool set = false;     ///< by the user
+    std::string_view of;  ///< the component that it belongs to
+    bool set = false;     ///< true if the user set it
 };
 
-/// Of two parameters of an afferent, one must stay below the other.
+/// The first of two parameters of an afferent must be below the second.
 struct Order {
     std::string_view lesser, greater;
     bool or_equal = false;
 };
 
-/// What an afferent is, before it is given a clock.
+/// A complete description of an afferent, before its sampling interval is known.
 struct AfferentPlan {
-    std::string name;  ///< as asked for: "sa1", "sa1b+izhikevich"
+    std::string name;  ///< as requested: "sa1", "sa1b+izhikevich"
     std::string_view receptor, neuron, sentence, source;
-    std::shared_ptr<const std::vector<Parameter>> parameters;       ///< what they are; copies share it
+    std::shared_ptr<const std::vector<Parameter>> parameters;       ///< their descriptions, shared by all copies
     std::vector<double> values;                                     ///< of each parameter, SI
-    double least_rate = 0;                                          ///< Hz; below it the answer is not to be trusted
-    std::string_view sensor = {}, transducer = {}, converter = {};  ///< "": there is none
-    std::uint32_t copy = 0;                                         ///< its number among its copies, from 1; 0: it is none
-    std::string of = {};                                            ///< the name of what it is a copy of
-    std::shared_ptr<const Design> design = {};                      ///< what it is, where no model is: then there is no neuron either
+    double least_rate = 0;                                          ///< Hz; below this sampling rate the response is not reliable
+    std::string_view sensor = {}, transducer = {}, converter = {};  ///< "": none
+    std::uint32_t copy = 0;                                         ///< number among its copies, from 1; 0: not a copy
+    std::string of = {};                                            ///< of a copy: the name of the original
+    /// set if the afferent is not made of model equations; then there is no neuron either
+    std::shared_ptr<const Design> design = {};
     std::optional<double> value(std::string_view parameter) const;
     std::string made_of() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
 };
 
-/// Whether the plan that was asked for as `asked` goes by this name.
-bool goes_by(const AfferentPlan&, std::string_view asked, std::string_view name);
+/// True if `name` refers to the plan that was requested as `requested`.
+bool goes_by(const AfferentPlan&, std::string_view requested, std::string_view name);
 
-/// Which of its parameters must stand in which order.
+/// Pairs of its parameters whose order is constrained.
 std::vector<Order> orders_of(const AfferentPlan&);
 
-/// What the rows alone cannot say: orders, whole numbers, a front that cannot measure its own range, words too short.
+/// Checks what single rows cannot: order constraints, integers, a front end that cannot measure its own range, fixed-point words that are
+/// too short.
 std::optional<Error> refusal(const AfferentPlan&);
 
-/// The values of a plan's parameters, for `with`.
+/// The values of a plan's parameters, in the form that `with` takes.
 std::vector<Setting> settings_of(const AfferentPlan&);
 
-/// Reads "sa1", "SA1", "sa1b+izhikevich", "fsr+f2i+sa1"; wishes name it as it was asked for or by its own name.
-Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> wishes);
+/// Parses "sa1", "SA1", "sa1b+izhikevich", "fsr+f2i+sa1". Overrides may use the requested name or the plan's own name.
+Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> overrides);
 
-/// The afferent of a plan, for samples T = run.dt apart.
+/// Builds the afferent of a plan, for samples run.dt apart.
 std::unique_ptr<Afferent> make_afferent(const AfferentPlan&, const Run&);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// A transduction joined to a neuron: one afferent at a time, in double.
+// A receptor followed by one or more neurons: one afferent at a time, in double.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace corpuscle {
 
-/// How a chain is run.
+/// Options of a simulation.
 struct Run {
-    double dt = 1e-4;  ///< s, one sample
+    double dt = 1e-4;  ///< s, sampling interval
     Method method = Method::exact;
-    bool sampled = false;  ///< spikes on the sample, as in the thesis, not inside the step
-    /// Membrane noise: a white current to each neuron; its standard deviation within noise_band, A. Constant in each step.
+    bool sampled = false;  ///< spikes are put on the sample, as in the thesis; otherwise they get a time within the step
+    /// Membrane noise: a white current into each neuron, constant within a step. Its standard deviation within noise_band, A.
     double noise = 0;
     std::uint64_t seed = 0;
 };
@@ -46,12 +46,12 @@ class Chain final : public Afferent {
     };
     static_assert(std::is_trivially_copyable_v<Values> && sizeof(Values) % sizeof(double) == 0, "a state is doubles and nothing else");
 
-    /// Where the spikes of one step go.
+    /// Receives the spikes of one step.
     struct Into {
-        Answer& answer;
+        Answer& response;
         bool sampled;
         std::int64_t step;
-        void operator()(bool, double x) { answer.spikes.push_back({step, sampled ? 1.0 : x, answer.unit}); }
+        void operator()(bool, double x) { response.spikes.push_back({step, sampled ? 1.0 : x, response.unit}); }
     };
 
     Receptor receptor_;
@@ -81,16 +81,16 @@ class Chain final : public Afferent {
         for (std::size_t k = 0; k < names_.size(); ++k) probes_.push_back({names_[k], units[k]});
     }
 
-    /// Noise on each neuron's current; it depends on what it is for alone: seed, unit, neuron and step.
-    void disturb(Currents& i, std::uint32_t unit, std::int64_t step) const {
-        constexpr std::uint32_t purpose = 0x6d656d00;  // membranes' own streams, one a neuron
+    /// Adds noise to each neuron's current. It depends only on seed, afferent, neuron and step.
+    void disturb(Currents& i, std::uint32_t afferent, std::int64_t step) const {
+        constexpr std::uint32_t purpose = 0x6d656d00;  // separate random streams of the membranes, one for each neuron
         for (std::uint32_t n = 0; n < outputs; ++n) {
-            const double x = noise_ * normal(seed_, unit, purpose + n, static_cast<std::uint64_t>(step));
+            const double x = noise_ * normal(seed_, afferent, purpose + n, static_cast<std::uint64_t>(step));
             i[n] = {i[n].from + x, i[n].to + x};
         }
     }
 
-    /// What the probes show, in their order: components of the current, the currents, each neuron's own.
+    /// The recordable quantities in the order of the probes: components of the current, the currents, then those of each neuron.
     void show(const Values& s, const Currents& i, double (&out)[shown_parts]) const {
         std::size_t at = 0;
         const auto add = [&](const auto& model, const auto& state, auto& parts) {
@@ -108,56 +108,56 @@ class Chain final : public Afferent {
         }
     }
 
-    /// Shows sample k, if somebody watches.
-    void show(const Values& s, const Currents& i, std::size_t k, Answer& answer) const {
-        if (answer.probes.empty()) return;
+    /// Writes the recordable quantities of sample k, if probes are requested.
+    void show(const Values& s, const Currents& i, std::size_t k, Answer& response) const {
+        if (response.probes.empty()) return;
         double shown[shown_parts];
         show(s, i, shown);
-        for (std::size_t p = 0; p < shown_parts; ++p) answer.probes[p][k] = shown[p];
+        for (std::size_t p = 0; p < shown_parts; ++p) response.probes[p][k] = shown[p];
     }
 
-    /// Currents into neurons. Returns whether a cap on spikes cut the step short.
+    /// Feeds currents into neurons. Returns true if the limit on spikes per step truncated the step.
     [[gnu::always_inline]] bool fire(typename Neuron::State (&n)[outputs], const Currents& i, Into& into) const {
         if constexpr (outputs == 1) {
             return neuron_.step(n[0], i[0], into);
         } else {
-            const std::size_t seen = into.answer.spikes.size();
+            const std::size_t seen = into.response.spikes.size();
             bool capped = false;
             for (int k = 0; k < outputs; ++k) capped |= neuron_.step(n[k], i[k], into);
-            auto& spikes = into.answer.spikes;
+            auto& spikes = into.response.spikes;
             if (spikes.size() > seen + 1) std::sort(spikes.begin() + static_cast<std::ptrdiff_t>(seen), spikes.end());
             return capped;
         }
     }
 
-    /// The first sample: the force before it was the same. Backward Euler takes a step there, as the algorithms do, and puts its
-    /// spikes on the sample: there is no time before it. Exact has no time to cover yet.
-    void begin(double force, Values& s, Answer& answer) const {
+    /// The first sample: the force before it is taken to be the same. Backward Euler takes a step there, as the published algorithms do,
+    /// and puts its spikes on the sample, because there is no time before it. The exact method has no interval to integrate yet.
+    void begin(double force, Values& s, Answer& response) const {
         s.receptor = receptor_.start(force);
         for (auto& n : s.neuron) n = neuron_.start();
         Currents i;
         receptor_.step(s.receptor, force, i);
         if (method_ == Method::backward_euler) {
-            if (noise_ > 0) disturb(i, answer.unit, 0);
-            Into into{answer, true, 0};
-            answer.capped += fire(s.neuron, i, into);
+            if (noise_ > 0) disturb(i, response.unit, 0);
+            Into into{response, true, 0};
+            response.capped += fire(s.neuron, i, into);
         }
-        show(s, i, 0, answer);
+        show(s, i, 0, response);
     }
 
-    /// Samples [from, to). Where nobody watches and there is no noise, the state stays in registers.
-    template <bool Watched>
-    void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state, Answer& answer) const {
+    /// Samples [from, to). Without probes and noise the state stays in registers.
+    template <bool observed>
+    void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state, Answer& response) const {
         Values s = state;
-        Into into{answer, sampled_, 0};
+        Into into{response, sampled_, 0};
         for (std::size_t k = from; k < to; ++k) {
             Currents i;
             receptor_.step(s.receptor, force[k], i);
             into.step = first + static_cast<std::int64_t>(k);
-            if constexpr (Watched)
-                if (noise_ > 0) disturb(i, answer.unit, into.step);
-            if (fire(s.neuron, i, into)) ++answer.capped;
-            if constexpr (Watched) show(s, i, k, answer);
+            if constexpr (observed)
+                if (noise_ > 0) disturb(i, response.unit, into.step);
+            if (fire(s.neuron, i, into)) ++response.capped;
+            if constexpr (observed) show(s, i, k, response);
         }
         state = s;
     }
@@ -180,23 +180,23 @@ public:
     std::span<const Probe> probes() const override { return probes_; }
     State start(Turn) const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
 
-    Result<void> respond(std::span<const double> force, State& state, Answer& answer) const override {
+    Result<void> respond(std::span<const double> force, State& state, Answer& response) const override {
         if (auto ok = check_block(name_, format_, sizeof(Values) / sizeof(double), state, force); !ok) return ok;
         if (force.empty()) return {};
         Values s;
         std::memcpy(&s, state.values.data(), sizeof s);
-        const bool beginning = state.step == 0;
-        if (beginning) begin(force[0], s, answer);
-        const auto rest = answer.probes.empty() && noise_ == 0 ? &Chain::run<false> : &Chain::run<true>;
-        for (std::size_t k = beginning ? 1 : 0, to = 0; k < force.size(); k = to) {
+        const bool is_first = state.step == 0;
+        if (is_first) begin(force[0], s, response);
+        const auto rest = response.probes.empty() && noise_ == 0 ? &Chain::run<false> : &Chain::run<true>;
+        for (std::size_t k = is_first ? 1 : 0, to = 0; k < force.size(); k = to) {
             const std::int64_t now = state.step + static_cast<std::int64_t>(k), left = settling - now % settling;
             if (left == settling) settle(s);
             to = std::min(force.size(), k + static_cast<std::size_t>(left));
-            (this->*rest)(force, k, to, state.step, s, answer);
+            (this->*rest)(force, k, to, state.step, s, response);
         }
         std::memcpy(state.values.data(), &s, sizeof s);
         if (first_not_finite(state.values) < state.values.size())
-            return Error{Code::not_converged, fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a "
+            return Error{Code::not_converged, fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a "
                                                           "gain is far too large, or the substep too long",
                                                           name_, state.step, state.step + static_cast<std::int64_t>(force.size()))};
         state.step += static_cast<std::int64_t>(force.size());

@@ -1,5 +1,5 @@
 #pragma once
-// What passes from a transduction to a neuron, and how time is stepped.
+// The current from a receptor to a neuron, and how time is stepped.
 
 #include <cstdint>
 
@@ -7,21 +7,21 @@
 
 namespace corpuscle {
 
-/// exact: between samples the force is a straight line (first-order hold), filters are integrated exactly under it.
-/// backward_euler: the thesis's own algorithms, for its figures.
+/// exact: between samples the force is a straight line (first-order hold), and filters are integrated exactly for such a force.
+/// backward_euler: the algorithms of the thesis, to reproduce its figures.
 enum class Method { exact, backward_euler };
 
-/// The current over one step, a straight line between its ends; A.
+/// The current over one step: a straight line between the values at its ends, A.
 template <class T>
 struct Current {
     T from, to;
-    T sum() const { return from + to; }  ///< of its ends: twice its mean
-    /// Where it begins below a level and ends above it.
+    T sum() const { return from + to; }  ///< of the two ends: twice the mean
+    /// True where it begins below a level and ends above it.
     num::Mask<T> rises_through(T level) const { return (from < level) & (to > level); }
     static constexpr bool may_rise() { return true; }
 };
 
-/// A current of one shape for all lanes, times each lane's own gain; the shape's mean is worked out once. V: of one lane.
+/// A current with the same shape on all lanes, times a gain for each lane. The sum of its ends is computed once. V: type of one lane.
 template <class T, class V, bool rising>
 struct Scaled {
     T gain, both;
@@ -32,7 +32,7 @@ struct Scaled {
     static constexpr bool may_rise() { return rising; }
 };
 
-/// High-pass x' + 2 pi f x = K F', under a force that is a straight line in each step.
+/// High-pass x' + 2 pi f x = K F', for a force that is a straight line in each step.
 /// Backward Euler has the same form with other constants: x[n] = k (K (F[n] - F[n-1]) + x[n-1]), k = 1 / (1 + 2 pi f T).
 template <class T>
 struct HighPass {
@@ -45,28 +45,28 @@ struct HighPass {
     T next(T x, T dF) const { return keep * x + gain * dF; }
 };
 
-/// After so many samples, counted from the first, a model's settle() lets go of what has faded: so states come to rest where force does,
-/// and no numbers are left that are slow because they are tiny.
+/// Every 1,024 samples, counted from the first, a model's flush_decayed() sets decayed state to zero. Without force a state then reaches
+/// exact rest. This also avoids denormals, which are slow.
 inline constexpr std::int64_t settling = 1024;
-/// What faded so far is nothing: some 1e-16 of what an ulp of its effect would be.
+/// State below these limits is set to zero: it is some 1e-16 of one ulp of its effect.
 inline constexpr double faded_current = 1e-24, faded_force = 1e-18, faded_voltage = 1e-20;  // A, N, V
 
-/// x, or `level` where they are nearer than `faded`.
+/// `level` where x is closer to it than `tolerance`, otherwise x.
 template <class T>
-T settled(T x, double faded, T level = T(0.0)) {
-    return num::select(num::abs(x - level) < T(faded), level, x);
+T settled(T x, double tolerance, T level = T(0.0)) {
+    return num::select(num::abs(x - level) < T(tolerance), level, x);
 }
 
-/// Hands a model the values of its parameters as T. This one: the same double for every lane.
+/// Gives a model the values of its parameters as T: here the same double on all lanes.
 template <class P>
 struct Same {
     const P& p;
     double operator()(double P::* at) const { return p.*at; }
-    /// A value that is one for all lanes.
+    /// A value that must be the same on all lanes.
     double one(double P::* at) const { return p.*at; }
 };
 
-/// A dual in one chosen parameter: everything derived from it carries the slope.
+/// The parameters as dual numbers with slope 1 in one of them: everything computed from them carries the derivative.
 template <class P>
 struct Seeded {
     const P& p;

@@ -1,5 +1,5 @@
 #pragma once
-// Every transduction and every neuron. To add one: its include and its name here.
+// All receptors and neurons. To add one, add its include and its name here.
 
 #include <string_view>
 
@@ -20,7 +20,7 @@ template <template <class> class... M>
 struct ModelList {
     static constexpr int size = sizeof...(M);
 };
-/// A model without its kind of number, to be handed to a function.
+/// A model without its number type, to be passed to a function.
 template <template <class> class M>
 struct Model {};
 template <template <class> class... M, class F>
@@ -28,7 +28,7 @@ void each(ModelList<M...>, const F& f) {
     (f(Model<M>{}), ...);
 }
 
-/// Calls f with the member that has this name.
+/// Calls f with the entry of the list that has this name.
 template <class List, class F>
 void with_named(List list, std::string_view name, const F& f) {
     each(list, [&]<template <class> class M>(Model<M> m) {

@@ -14,13 +14,13 @@ std::vector<std::string_view> names_of(const std::vector<Card>& cards) {
     return names;
 }
 
-/// The catalogue's own text for a name in it, in any case; "" if it is not there.
-std::string_view found(const std::vector<std::string_view>& names, std::string_view typed) {
+/// The catalogue's spelling of a name, which is matched without regard to case; "" if there is none.
+std::string_view catalog_name(const std::vector<std::string_view>& names, std::string_view typed) {
     const auto at = std::find_if(names.begin(), names.end(), [&](auto name) { return same_letters(name, typed); });
     return at == names.end() ? std::string_view() : *at;
 }
 
-/// The kinds of part that stand before an afferent, in their order.
+/// The kinds of component that can come before an afferent, in their order.
 struct Kind {
     std::string_view article_and_name;
     std::vector<std::string_view> names;
@@ -41,20 +41,20 @@ std::string order() {
 }
 
 std::vector<std::string_view> split(std::string_view text) {
-    std::vector<std::string_view> words;
+    std::vector<std::string_view> names;
     for (std::size_t at = 0; at <= text.size();) {
         const auto end = std::min(text.find('+', at), text.size());
-        words.push_back(text.substr(at, end - at));
+        names.push_back(text.substr(at, end - at));
         at = end + 1;
     }
-    return words;
+    return names;
 }
 
 Error unknown_afferent(std::string_view text) {
     std::vector<std::string_view> names;
     for (const auto& a : named_afferents()) names.push_back(a.name);
     return bad_input(
-        fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')", text,
+        fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all; a receptor and a neuron are combined as 'sa1b+lif-b')", text,
                     did_you_mean(text, names)));
 }
 
@@ -65,42 +65,42 @@ Result<std::string_view> part_named(std::string_view text, std::string_view type
         fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, typed, did_you_mean(typed, names), fmt::join(names, ", ")));
 }
 
-/// A part of the front after its place, or a word that is no part at all.
+/// The error for a component after its place, or for a word that is not a component.
 Error misplaced(std::string_view text, std::string_view word, const Parts& parts) {
     std::vector<std::string_view> known;
     for (const auto& kind : kinds()) {
         known.insert(known.end(), kind.names.begin(), kind.names.end());
-        const auto name = found(kind.names, word);
+        const auto name = catalog_name(kind.names, word);
         if (name.empty()) continue;
         if (const auto first = parts.*kind.at; !first.empty())
-            return bad_input(fmt::format("{}: '{}' after '{}': {} is enough", text, name, first, kind.article_and_name));
-        return bad_input(fmt::format("{}: '{}' stands too late; {}", text, name, order()));
+            return bad_input(fmt::format("{}: '{}' after '{}': use only one of them", text, name, first));
+        return bad_input(fmt::format("{}: '{}' is in the wrong place; {}", text, name, order()));
     }
-    return bad_input(fmt::format("{}: '{}' is no part that can stand there{} ({})", text, word, did_you_mean(word, known), order()));
+    return bad_input(fmt::format("{}: '{}' is not a component that fits there{} ({})", text, word, did_you_mean(word, known), order()));
 }
 
-/// Takes the front's parts from the first words; gives how many they were.
+/// Reads the components of the front end from the first words; returns how many they were.
 std::size_t take_front(std::span<const std::string_view> words, Parts& parts) {
     std::size_t taken = 0;
     for (const auto& kind : kinds())
         if (taken < words.size())
-            if (const auto name = found(kind.names, words[taken]); !name.empty()) parts.*kind.at = name, ++taken;
+            if (const auto name = catalog_name(kind.names, words[taken]); !name.empty()) parts.*kind.at = name, ++taken;
     return taken;
 }
 
 Result<void> take_afferent(std::string_view text, std::span<const std::string_view> words, Parts& parts) {
     static const auto receptors = names_of(receptor_cards()), neurons = names_of(neuron_cards());
     if (words.empty())
-        return bad_input(fmt::format("{}: no afferent stands behind '{}'; name one, such as '{}+sa1'", text, parts.front(), text));
+        return bad_input(fmt::format("{}: '{}' must be followed by an afferent, such as '{}+sa1'", text, parts.front(), text));
     parts.named = afferent_named(words.back());
     const std::size_t own = parts.named ? 1 : 2;  // words of the afferent itself
     for (const auto& kind : kinds())
         for (const auto word : words)
-            if (!found(kind.names, word).empty()) return misplaced(text, word, parts);
+            if (!catalog_name(kind.names, word).empty()) return misplaced(text, word, parts);
     if (words.size() > own) return misplaced(text, words[0], parts);
     if (words.size() < own) return unknown_afferent(words[0]);
     if (parts.named) return {};
-    const auto receptor = part_named(text, words[0], receptors, "transduction");
+    const auto receptor = part_named(text, words[0], receptors, "receptor");
     if (!receptor) return receptor.error();
     const auto neuron = part_named(text, words[1], neurons, "neuron");
     if (!neuron) return neuron.error();
@@ -134,7 +134,7 @@ Result<Parts> parse_parts(std::string_view text) {
     if (parts.named) {
         parts.receptor = parts.named->receptor, parts.neuron = parts.named->neuron;
         if (taken > 0 && !parts.named->front.empty())
-            return bad_input(fmt::format("{}: {} has a front of its own ({}); put '{}' before {}+{} instead", text, parts.named->name,
+            return bad_input(fmt::format("{}: {} has its own front end ({}); put '{}' before {}+{} instead", text, parts.named->name,
                                          parts.named->front, parts.front(), parts.receptor, parts.neuron));
         if (taken == 0 && !parts.named->front.empty()) take_front(split(parts.named->front), parts);
     }

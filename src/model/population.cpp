@@ -32,7 +32,7 @@ const L* named(std::span<const L> all, std::string_view name) {
     return at == all.end() ? nullptr : &*at;
 }
 
-/// Whether the parameters of one part are the same in all plans.
+/// True if the parameters of one component are the same in all plans.
 bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view part) {
     const auto& first = *plans[0];
     for (const auto* plan : plans)
@@ -41,23 +41,23 @@ bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view p
     return true;
 }
 
-/// Refuses plans that cannot stand side by side.
-std::optional<Error> unlike(std::span<const AfferentPlan* const> plans) {
+/// Returns an error for plans that cannot share lanes.
+std::optional<Error> check_alike(std::span<const AfferentPlan* const> plans) {
     const auto& first = *plans[0];
     for (const auto* plan : plans) {
         if (plan->receptor != first.receptor || plan->neuron != first.neuron)
-            return bad_input(fmt::format("a population of {} cannot hold a {}", first.made_of(), plan->made_of()));
+            return bad_input(fmt::format("a population of {} cannot contain a {}", first.made_of(), plan->made_of()));
         for (std::size_t k = 0; k < first.values.size(); ++k)
             if (const auto& p = (*first.parameters)[k]; p.row.one_for_all && plan->values[k] != first.values[k])
-                return bad_input(fmt::format("{} is one for all of a population: {:g} and {:g} cannot both be", p.row.name, first.values[k],
-                                             plan->values[k]));
+                return bad_input(fmt::format("{} must be the same in a whole population, but {:g} and {:g} were given", p.row.name,
+                                             first.values[k], plan->values[k]));
     }
     return {};
 }
 
-/// The models of a part, for all tiles.
+/// The models of one component, for all tiles.
 template <class V, class L, class List>
-Buffer<std::byte> models_of(List list, const L& lanes, int width, std::span<const AfferentPlan* const> plans, std::size_t units,
+Buffer<std::byte> models_of(List list, const L& lanes, int width, std::span<const AfferentPlan* const> plans, std::size_t size,
                             const Run& run) {
     Buffer<std::byte> models;
     with_named(list, lanes.name, [&]<template <class> class M>(Model<M>) {
@@ -70,7 +70,7 @@ Buffer<std::byte> models_of(List list, const L& lanes, int width, std::span<cons
             lanes.build(models.data(), params.data(), 1, run.dt, run.method);
             return;
         }
-        params.resize((units + tile_units - 1) / tile_units * tile_units, params.back());
+        params.resize((size + tile_units - 1) / tile_units * tile_units, params.back());
         const std::size_t a_tile = tile_units / static_cast<std::size_t>(width) * lanes.model_bytes;
         models = Buffer<std::byte>(params.size() / tile_units * a_tile);
         for (std::size_t tile = 0; tile * tile_units < params.size(); ++tile)
@@ -80,26 +80,26 @@ Buffer<std::byte> models_of(List list, const L& lanes, int width, std::span<cons
 }
 
 template <class V>
-std::unique_ptr<Population> crowd(const PopulationPlan& p, const Run& run, InstructionSet set) {
+std::unique_ptr<Population> make_tiled(const PopulationPlan& p, const Run& run, InstructionSet set) {
     const auto& table = table_of<V>(set);
     const auto& plan = *p.plans[0];
-    Cast<V> cast{named(table.receptors, plan.receptor),
-                 named(table.neurons, plan.neuron),
-                 nullptr,
-                 table.lanes,
-                 p.units,
-                 {},
-                 {},
-                 nullptr,
-                 scales(plan),
-                 {p.numbers.begin(), p.numbers.end()},
-                 fmt::format("{}+{}", plan.receptor, plan.neuron)};
-    cast.receptors = models_of<V>(Receptors{}, *cast.receptor, table.lanes, p.plans, p.units, run);
-    cast.neurons = models_of<V>(Neurons{}, *cast.neuron, table.lanes, p.plans, p.units, run);
-    const auto& joined = cast.receptor->joined[static_cast<std::size_t>(cast.neuron - table.neurons.data())];
-    if (joined.run && joined.suits(cast.neurons.data(), cast.neurons.size() / cast.neuron->model_bytes)) cast.joined = &joined;
-    if (cast.receptors.size() == cast.receptor->model_bytes) cast.once = profile_transduction(plan, run);
-    return std::make_unique<Crowd<V>>(std::move(cast), run);
+    Cast<V> layout{named(table.receptors, plan.receptor),
+                   named(table.neurons, plan.neuron),
+                   nullptr,
+                   table.lanes,
+                   p.units,
+                   {},
+                   {},
+                   nullptr,
+                   scales(plan),
+                   {p.numbers.begin(), p.numbers.end()},
+                   fmt::format("{}+{}", plan.receptor, plan.neuron)};
+    layout.receptors = models_of<V>(Receptors{}, *layout.receptor, table.lanes, p.plans, p.units, run);
+    layout.neurons = models_of<V>(Neurons{}, *layout.neuron, table.lanes, p.plans, p.units, run);
+    const auto& joined = layout.receptor->joined[static_cast<std::size_t>(layout.neuron - table.neurons.data())];
+    if (joined.run && joined.suits(layout.neurons.data(), layout.neurons.size() / layout.neuron->model_bytes)) layout.joined = &joined;
+    if (layout.receptors.size() == layout.receptor->model_bytes) layout.once = profile_transduction(plan, run);
+    return std::make_unique<Crowd<V>>(std::move(layout), run);
 }
 
 }  // namespace
@@ -110,14 +110,15 @@ bool goes_on_lanes(const AfferentPlan& plan, const Run& run) {
 
 Result<std::unique_ptr<Population>> make_population(const PopulationPlan& p, const Run& run, InstructionSet set) {
     if (p.units == 0 || p.plans.empty() || (p.plans.size() != 1 && p.plans.size() != p.units))
-        return bad_input(fmt::format("a population of {} units with {} plans", p.units, p.plans.size()));
+        return bad_input(
+            fmt::format("a population of {} afferents with {} plans: give one plan, or one for each", p.units, p.plans.size()));
     if (!p.numbers.empty() && p.numbers.size() != p.units)
-        return bad_input(fmt::format("{} numbers for {} units", p.numbers.size(), p.units));
-    if (auto wrong = unlike(p.plans)) return *wrong;
+        return bad_input(fmt::format("{} afferent numbers for {} afferents", p.numbers.size(), p.units));
+    if (auto error = check_alike(p.plans)) return *error;
     for (const auto* plan : p.plans)
         if (!goes_on_lanes(*plan, run))
-            return bad_input(fmt::format("{}: netlists, sensors, converters and noise do not go on lanes", plan->name));
-    return p.precision == Precision::in_double ? crowd<double>(p, run, set) : crowd<float>(p, run, set);
+            return bad_input(fmt::format("{}: netlists, sensors, converters and noise cannot run on SIMD lanes", plan->name));
+    return p.precision == Precision::in_double ? make_tiled<double>(p, run, set) : make_tiled<float>(p, run, set);
 }
 
 }  // namespace corpuscle

@@ -1,6 +1,7 @@
 #pragma once
-// Many afferents of one kind at once: the same transduction and neuron, parameters of their own or shared, side by side on SIMD
-// lanes and on threads. In double it answers as the afferents would one by one, to the bit, whatever the lanes and the threads.
+// Many afferents of one kind, simulated together on SIMD lanes and threads. All have the same receptor and neuron models, with individual
+// or shared parameters. In double precision the result is bit-identical to simulating the afferents one by one, for any number of lanes and
+// threads.
 
 #include <memory>
 #include <span>
@@ -13,32 +14,32 @@
 
 namespace corpuscle {
 
-/// A block of force, one array of samples (N) for each unit; units may share one.
+/// A block of force: one array of samples (N) for each afferent. Afferents may share an array.
 struct ForceColumns {
     std::span<const double* const> of;
 };
 
-/// Units that stand side by side in tiled force.
+/// Afferents per tile of tiled force.
 inline constexpr std::size_t force_tile = 64;
 
-/// A block of force in tiles: [tile][step][force_tile], N. On 64 bytes; the last tile is padded with zeros. The fastest
-/// to read; V is the population's own precision.
+/// A block of force in tiles: [tile][step][tile_width], N. Aligned to 64 bytes; the last tile is padded with zeros. This is the fastest
+/// layout to read. V is the precision of the population.
 template <class V>
 struct ForceTiles {
     const V* rows;
-    /// If given, a byte a tile: not 0 where no force comes all through the block. Its rows are not read, and a tile in which nothing
-    /// can change without force is passed over.
+    /// Optional: one byte for each tile, not 0 if its force is zero during the whole block. The rows of such a tile are not read, and the
+    /// tile is skipped if its state cannot change without force.
     const std::uint8_t* without = nullptr;
 };
 
-/// Tiles of 16-bit integers as a converter gives them; times `scale` they are N.
+/// Tiles of 16-bit integers, as a converter gives them; times `scale` they are in N.
 struct ForceWords {
     const std::int16_t* rows;
     double scale;
 };
 
-/// One force for all (N), each unit feeling `gain` (0 or more) times it; no gains: 1. Where all units share their transduction
-/// and its current scales with force, it is worked out once, in double, and the current multiplied.
+/// One force for all afferents (N), multiplied by a `gain` (0 or more) for each; without gains by 1. If all afferents share their receptor,
+/// and its current scales with force, the current is computed once, in double, and then multiplied.
 struct ForceProfile {
     std::span<const double> force;
     std::span<const double> gain = {};
@@ -46,16 +47,16 @@ struct ForceProfile {
 
 using PopulationForce = std::variant<ForceColumns, ForceTiles<double>, ForceTiles<float>, ForceWords, ForceProfile>;
 
-/// Where a population puts its answer.
+/// The response of a population to a block.
 struct PopulationAnswer {
-    std::vector<Spike>* spikes = nullptr;  ///< appended, in order of time, then unit
-    /// Or one bit a unit and step: word [tile][step], unit u of a tile in bit u; each block overwrites it. A unit's further spikes
-    /// in one step are counted in `unmarked`.
+    std::vector<Spike>* spikes = nullptr;  ///< appended, in order of time, then afferent
+    /// Or one bit for each afferent and step: word [tile][step], bit u for afferent u of the tile. Each block overwrites it. Further spikes
+    /// of an afferent in the same step are counted in `extra_spikes`.
     std::vector<std::uint64_t>* marks = nullptr;
     std::int64_t unmarked = 0;
-    std::int64_t capped = 0;  ///< steps whose spikes were more than the cap allows
-    std::int64_t passed = 0;  ///< steps of units that were passed over: nothing in them could change
-    std::size_t failed = 0;   ///< the first unit that an error is about
+    std::int64_t capped = 0;  ///< steps that reached the limit of spikes per step
+    std::int64_t passed = 0;  ///< steps of afferents that were skipped, because no state could change
+    std::size_t failed = 0;   ///< the first afferent that an error is about
 };
 
 enum class Precision { in_double, in_float };
@@ -64,27 +65,27 @@ class Population {
 public:
     virtual ~Population() = default;
     virtual std::size_t units() const = 0;
-    /// Answers the next block of `steps` samples. Blocks of any size give the same spikes; every block's force comes the same way.
-    /// A force that is no number, or a state that leaves the finite numbers, is an error, and ends the population.
+    /// Simulates the next block of `steps` samples. The block size does not change the spikes. The force of all blocks must have the same
+    /// layout. A NaN force, or a state that becomes NaN or infinite, is an error; the population cannot be used after it.
     virtual Result<void> respond(const PopulationForce&, std::size_t steps, PopulationAnswer&, Pool&) = 0;
-    virtual std::int64_t step() const = 0;  ///< samples answered so far
-    /// All that it carries. The same population, made anew, goes on from there to the bit; it refuses what is not its own.
+    virtual std::int64_t step() const = 0;  ///< samples simulated so far
+    /// The complete state. An identical new population resumes from it bit for bit, and refuses the state of another population.
     virtual std::vector<double> save() const = 0;
     virtual Result<void> resume(std::span<const double>) = 0;
 };
 
-/// What makes a population.
+/// Specification of a population.
 struct PopulationPlan {
-    std::span<const AfferentPlan* const> plans;   ///< one for all units, or one for each; of the same transduction and neuron
+    std::span<const AfferentPlan* const> plans;   ///< one for all afferents, or one for each; with the same receptor and neuron models
     std::size_t units = 0;                        ///< at least 1
-    std::span<const std::uint32_t> numbers = {};  ///< how spikes call each unit, rising; none: 0, 1, 2 ...
+    std::span<const std::uint32_t> numbers = {};  ///< the afferent numbers in spikes, rising; empty: 0, 1, 2 ...
     Precision precision = Precision::in_double;
 };
 
-/// Whether a population can stand for these afferents: no sensor, transducer or converter before them, and no noise.
+/// True if lanes can simulate this afferent: no sensor, transducer or converter before it, and no noise.
 bool goes_on_lanes(const AfferentPlan&, const Run&);
 
-/// Refuses what lanes cannot share: different parts, or different values of a parameter that is one for all.
+/// Returns an error for plans that cannot share lanes: different models, or different values of a parameter that must be the same for all.
 Result<std::unique_ptr<Population>> make_population(const PopulationPlan&, const Run&, InstructionSet);
 
 }  // namespace corpuscle

@@ -1,39 +1,39 @@
 #pragma once
-// A population: copies of one afferent whose parameters differ, each drawn about the afferent's own (doc/populations.md).
+// Copies of one afferent whose parameters vary: each value is sampled from a distribution about the afferent's own (doc/populations.md).
 
 #include "model/catalog.hpp"
 
 namespace corpuscle {
 
-/// How one parameter differs from copy to copy: normally about the afferent's own value.
+/// The normal distribution of one parameter over the copies; its mean is the afferent's own value.
 struct Spread {
-    std::string afferent;  ///< its own name
+    std::string afferent;  ///< the afferent's own name
     std::string_view parameter, unit;
     double deviation = 0;              ///< standard deviation, SI
-    std::optional<double> share = {};  ///< of the value, if it was said so: 0.1 of "10%"
+    std::optional<double> share = {};  ///< of the value, if it was given as a percentage: 0.1 for "10%"
     bool operator==(const Spread&) const = default;
 };
 
-/// What was asked for: how many copies of each afferent, and how they differ.
+/// The requested copies: how many of each afferent, and how their parameters vary.
 struct Copies {
-    std::uint32_t copies = 0;  ///< 0: the afferents themselves
+    std::uint32_t copies = 0;  ///< 0: only the afferents themselves
     std::vector<Spread> spreads;
 };
 
 inline constexpr std::uint32_t most_copies = 1'000'000;
 
-/// The spreads among `wishes` that are for this plan ("sa1.f_B=10%", "sa1.f_B=2Hz"), which was asked for as `asked`; marks them used.
-/// Refuses what copies share, a whole number, a share of nothing, and the same parameter twice.
-Result<std::vector<Spread>> spreads_for(const AfferentPlan&, std::string_view asked, std::span<const Wish> wishes);
+/// Selects the overrides of --spread that belong to this plan ("sa1.f_B=10%", "sa1.f_B=2Hz"), which was requested as `requested`, and marks
+/// them used. Refuses a parameter that all copies share, an integer, a percentage of 0, and the same parameter twice.
+Result<std::vector<Spread>> spreads_for(const AfferentPlan&, std::string_view requested, std::span<const Wish> overrides);
 
-/// Copies 1 to n of a plan, each with values of its own. A value depends on the seed, the names of afferent and parameter and the
-/// copy's number. One outside its row's range is drawn again, and where an order is broken the parameters that it binds are.
+/// Copies 1 to n of a plan, each with its own values. A value depends only on the seed, the names of afferent and parameter, and the number
+/// of the copy. A value outside the parameter's range is sampled again. So are the parameters of an order constraint that is violated.
 Result<std::vector<AfferentPlan>> copies_of(const AfferentPlan&, std::uint32_t n, std::span<const Spread>, std::uint64_t seed);
 
-/// Where each afferent's copies begin, and behind the last the end; one that has no copies stands alone.
+/// Index of the first copy of each afferent, then the total. An afferent without copies counts as one.
 std::vector<std::size_t> groups_of(std::span<const AfferentPlan>);
 
-/// What outputs call an afferent: copies by what they are copies of.
+/// The name of an afferent in outputs; for a copy, the name of the original.
 const std::string& base_name(const AfferentPlan&);
 
 }  // namespace corpuscle

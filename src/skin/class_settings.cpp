@@ -4,27 +4,27 @@
 
 namespace corpuscle {
 
-Result<void> set_classes(SkinPlan& plan, std::span<const Wish> wishes) {
+Result<void> set_classes(SkinPlan& plan, std::span<const Wish> overrides) {
     for (auto& c : plan.classes) {
         std::vector<Row> rows;
         for (const auto& p : *c.afferent.parameters) rows.push_back(p.row);
-        const auto settings = settings_for(c.name, rows, wishes);
+        const auto settings = settings_for(c.name, rows, overrides);
         if (!settings) return settings.error();
         for (const auto& s : *settings)
             for (std::size_t k = 0; k < rows.size(); ++k)
                 if (rows[k].name == s.name) c.afferent.values[k] = s.value;
-        if (auto wrong = refusal(c.afferent)) return *wrong;
+        if (auto error = refusal(c.afferent)) return *error;
     }
     return {};
 }
 
-Result<void> check_all_used(const SkinPlan& plan, std::span<const Wish> wishes, std::span<const std::string_view> others) {
+Result<void> check_all_used(const SkinPlan& plan, std::span<const Wish> overrides, std::span<const std::string_view> others) {
     std::vector<std::string_view> names(others.begin(), others.end());
     for (const auto& c : plan.classes) names.push_back(c.name);
-    for (const auto& w : wishes)
-        if (!w.used)
-            return bad_usage(
-                fmt::format("{}: no '{}' takes part{} ({} can be set)", w.text(), w.of, did_you_mean(w.of, names), fmt::join(names, ", ")));
+    for (const auto& o : overrides)
+        if (!o.used)
+            return bad_usage(fmt::format("{}: there is no '{}' here{} ({} can be set)", o.text(), o.of, did_you_mean(o.of, names),
+                                         fmt::join(names, ", ")));
     return {};
 }
 

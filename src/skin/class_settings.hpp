@@ -1,5 +1,5 @@
 #pragma once
-// Parameters of a population's classes, as the user sets them.
+// Parameters that the user sets for the classes of a population.
 
 #include <span>
 
@@ -8,11 +8,11 @@
 
 namespace corpuscle {
 
-/// "sa1.f_B=25Hz": all units of the class sa1 are drawn about it. Marks the wishes that name a class as used; refuses a parameter that the
-/// class does not have, and a value out of its range.
+/// "sa1.f_B=25Hz": sets the value about which the parameters of the class sa1 are sampled. Marks the overrides that name a class as used.
+/// Refuses a parameter that the class does not have, and a value outside its range.
 Result<void> set_classes(SkinPlan&, std::span<const Wish>);
 
-/// Refuses a wish that nothing has used: no class has this name, nor any of the other things that take part.
+/// Refuses an override that has not been used: neither a class nor any of the other settable things has its name.
 Result<void> check_all_used(const SkinPlan&, std::span<const Wish>, std::span<const std::string_view> others = {});
 
 }  // namespace corpuscle

@@ -7,15 +7,15 @@
 namespace corpuscle::skins {
 namespace {
 
-constexpr double most_dense = 1e10;             // units a m2: a million in 1 cm2
-constexpr double widest = 0.1;                  // m, of a hot spot and of how far they lie
-constexpr double slowest = 0.1, fastest = 200;  // m/s
+constexpr double max_density = 1e10;                      // afferents per m2: a million in 1 cm2
+constexpr double max_width = 0.1;                         // m, of a hot spot and of the distances between them
+constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 
-/// Wishes of a file for an afferent, by the name it is asked for; each with its place.
-std::vector<Wish> wishes_for(std::string_view afferent, std::span<const SaidSetting> said) {
+/// The settings of a file for an afferent as overrides of the name by which it was requested. Each keeps its location.
+std::vector<Wish> overrides_for(std::string_view afferent, std::span<const SaidSetting> spec) {
     std::vector<Wish> out;
-    for (const auto& s : said) {
-        const auto dot = s.name.rfind('.');  // "adc.bits" is a part's own; "f_B" the afferent's
+    for (const auto& s : spec) {
+        const auto dot = s.name.rfind('.');  // "adc.bits" belongs to a component, "f_B" to the afferent
         if (dot == std::string::npos)
             out.push_back({std::string(afferent), s.name, s.value.text});
         else
@@ -24,63 +24,63 @@ std::vector<Wish> wishes_for(std::string_view afferent, std::span<const SaidSett
     return out;
 }
 
-/// An error about wishes as an error in a file: of the first setting that alone brings it about.
+/// Turns an error about overrides into one with a location in the file: that of the first setting that alone causes it.
 template <class F>
-Error in_file(std::span<const SaidSetting> said, const Error& all, F&& fails_with) {
-    for (std::size_t k = 0; k < said.size(); ++k)
-        if (fails_with(said.subspan(k, 1))) return said[k].value.wrong(all.sentence);
-    return said.empty() ? all : said.front().value.wrong(all.sentence);
+Error in_file(std::span<const SaidSetting> spec, const Error& all, F&& fails_with) {
+    for (std::size_t k = 0; k < spec.size(); ++k)
+        if (fails_with(spec.subspan(k, 1))) return spec[k].value.wrong(all.sentence);
+    return spec.empty() ? all : spec.front().value.wrong(all.sentence);
 }
 
-Result<AfferentPlan> afferent_of(const SaidClass& said) {
-    if (!said.afferent) return bad_input("[[class]]: afferent is missing: afferent = \"sa1\"", said.place);
-    const auto& text = said.afferent->text;
-    if (const auto known = plan_afferent(text, {}); !known) return said.afferent->wrong(known.error().sentence);
-    const auto wishes = wishes_for(text, said.set);
-    auto plan = plan_afferent(text, wishes);
-    if (!plan) return in_file(said.set, plan.error(), [&](auto some) { return !plan_afferent(text, wishes_for(text, some)); });
-    for (std::size_t k = 0; k < wishes.size(); ++k)
-        if (!wishes[k].used) return said.set[k].value.wrong(fmt::format("nothing in {} is called '{}'", text, said.set[k].name));
+Result<AfferentPlan> afferent_of(const SaidClass& spec) {
+    if (!spec.afferent) return bad_input("[[class]]: afferent is missing: afferent = \"sa1\"", spec.place);
+    const auto& text = spec.afferent->text;
+    if (const auto known = plan_afferent(text, {}); !known) return spec.afferent->wrong(known.error().sentence);
+    const auto overrides = overrides_for(text, spec.set);
+    auto plan = plan_afferent(text, overrides);
+    if (!plan) return in_file(spec.set, plan.error(), [&](auto some) { return !plan_afferent(text, overrides_for(text, some)); });
+    for (std::size_t k = 0; k < overrides.size(); ++k)
+        if (!overrides[k].used) return spec.set[k].value.wrong(fmt::format("{} has no parameter '{}'", text, spec.set[k].name));
     return plan;
 }
 
-Result<std::vector<Spread>> spreads_of(const SaidClass& said, const AfferentPlan& plan) {
-    const auto& text = said.afferent->text;
-    const auto wishes = wishes_for(text, said.spread);
-    auto spreads = spreads_for(plan, text, wishes);
+Result<std::vector<Spread>> spreads_of(const SaidClass& spec, const AfferentPlan& plan) {
+    const auto& text = spec.afferent->text;
+    const auto overrides = overrides_for(text, spec.spread);
+    auto spreads = spreads_for(plan, text, overrides);
     if (!spreads) {
-        auto wrong = in_file(said.spread, spreads.error(), [&](auto some) { return !spreads_for(plan, text, wishes_for(text, some)); });
-        if (wrong.sentence.starts_with("--spread ")) wrong.sentence.erase(0, 9);  // there is no such word in a file
-        return wrong;
+        auto error = in_file(spec.spread, spreads.error(), [&](auto some) { return !spreads_for(plan, text, overrides_for(text, some)); });
+        if (error.sentence.starts_with("--spread ")) error.sentence.erase(0, 9);  // a file does not use this option
+        return error;
     }
-    for (std::size_t k = 0; k < wishes.size(); ++k)
-        if (!wishes[k].used) return said.spread[k].value.wrong(fmt::format("nothing in {} is called '{}'", text, said.spread[k].name));
+    for (std::size_t k = 0; k < overrides.size(); ++k)
+        if (!overrides[k].used) return spec.spread[k].value.wrong(fmt::format("{} has no parameter '{}'", text, spec.spread[k].name));
     return spreads;
 }
 
-/// Whether a density's key means a region: its name, or the part of it behind a dot.
-bool means(std::string_view key, std::string_view region) {
+/// True if the key of a density refers to a region: by its name, or by the part of it after a dot.
+bool matches_region(std::string_view key, std::string_view region) {
     return region == key || (region.size() > key.size() && region.ends_with(key) && region[region.size() - key.size() - 1] == '.');
 }
 
-Result<std::vector<double>> densities_of(const SaidClass& said, const Sites& sites, const SaidNumbers& numbers) {
-    const auto density = [&](const Said& s) { return numbers.number(s, "density", "1/m2", 0, most_dense); };
-    if (said.even_density) {
-        const auto all = density(*said.even_density);
+Result<std::vector<double>> densities_of(const SaidClass& spec, const Sites& sites, const SaidNumbers& numbers) {
+    const auto density = [&](const Said& s) { return numbers.number(s, "density", "1/m2", 0, max_density); };
+    if (spec.even_density) {
+        const auto all = density(*spec.even_density);
         return all ? std::vector<double>(sites.regions.size(), *all) : Result<std::vector<double>>(all.error());
     }
     std::vector<double> out(sites.regions.size(), -1);
     std::vector<char> exact(sites.regions.size(), 0);
-    for (const auto& s : said.density) {
+    for (const auto& s : spec.density) {
         const auto value = density(s.value);
         if (!value) return value.error();
-        bool meant = false;
+        bool matched = false;
         for (std::size_t r = 0; r < out.size(); ++r) {
-            if (!means(s.name, sites.regions[r])) continue;
-            meant = true;
-            if (const bool is = sites.regions[r] == s.name; is || !exact[r]) out[r] = *value, exact[r] = is;
+            if (!matches_region(s.name, sites.regions[r])) continue;
+            matched = true;
+            if (const bool is_same = sites.regions[r] == s.name; is_same || !exact[r]) out[r] = *value, exact[r] = is_same;
         }
-        if (meant) continue;
+        if (matched) continue;
         const std::vector<std::string_view> names(sites.regions.begin(), sites.regions.end());
         return s.value.wrong(
             fmt::format("density: there is no region '{}'{} (there are {})", s.name, did_you_mean(s.name, names), fmt::join(names, ", ")));
@@ -88,90 +88,90 @@ Result<std::vector<double>> densities_of(const SaidClass& said, const Sites& sit
     for (std::size_t r = 0; r < out.size(); ++r)
         if (out[r] < 0)
             return bad_input(
-                fmt::format("density: none is given for region '{0}'; write {0} = \"0 /cm2\" if it has none", sites.regions[r]),
-                said.density.front().value.place);
+                fmt::format("density: none is given for region '{0}'; write {0} = \"0 /cm2\" if it has no afferents", sites.regions[r]),
+                spec.density.front().value.place);
     return out;
 }
 
-/// How many units there are, and where.
-Result<void> read_numbers(const SaidClass& said, const Sites& sites, const SaidNumbers& numbers, SkinClass& out) {
-    const bool dense = said.even_density || !said.density.empty();
-    if (dense == said.per_site.has_value())
-        return bad_input(fmt::format("[[class]] {}: either density = \"70 /cm2\" or per_site = 1 is wanted", out.name), said.place);
+/// The number of afferents: a density, or a number for each site.
+Result<void> read_numbers(const SaidClass& spec, const Sites& sites, const SaidNumbers& numbers, SkinClass& out) {
+    const bool dense = spec.even_density || !spec.density.empty();
+    if (dense == spec.per_site.has_value())
+        return bad_input(fmt::format("[[class]] {}: needs either density = \"70 /cm2\" or per_site = 1", out.name), spec.place);
     if (dense && !(sites.area > 0))
-        return bad_input(fmt::format("[[class]] {}: a density wants sites that stand for an area of skin: regions, or area = \"4 mm2\" in "
-                                     "[sites]; of sensors say per_site = 1",
+        return bad_input(fmt::format("[[class]] {}: a density needs sites that represent an area of skin: regions, or area = \"4 mm2\" in "
+                                     "[sites]; for sensors use per_site = 1",
                                      out.name),
-                         said.place);
-    const auto per_site = numbers.whole(said.per_site, "per_site", 1, 1000, 0);
+                         spec.place);
+    const auto per_site = numbers.whole(spec.per_site, "per_site", 1, 1000, 0);
     if (!per_site) return per_site.error();
     out.per_site = static_cast<std::uint32_t>(*per_site);
     if (!dense) return {};
-    auto density = densities_of(said, sites, numbers);
+    auto density = densities_of(spec, sites, numbers);
     if (!density) return density.error();
     out.density = std::move(*density);
     return {};
 }
 
-Result<void> read_field(const SaidClass& said, const SaidNumbers& numbers, SkinClass& out) {
-    struct One {
-        const MaybeSaid& said;
+Result<void> read_field(const SaidClass& spec, const SaidNumbers& numbers, SkinClass& out) {
+    struct FieldSetting {
+        const MaybeSaid& spec;
         std::string_view name, unit;
         double low, high;
-        double& to;
+        double& target;
     };
-    const One all[] = {{said.sigma, "sigma", "m", 0, widest, out.sigma},
-                       {said.hot_spot_spread, "hot_spot_spread", "m", 0, widest, out.hot_spot_spread},
-                       {said.velocity, "velocity", "m/s", slowest, fastest, out.velocity},
-                       {said.velocity_spread, "velocity_spread", "m/s", 0, fastest, out.velocity_spread}};
+    const FieldSetting all[] = {{spec.sigma, "sigma", "m", 0, max_width, out.sigma},
+                                {spec.hot_spot_spread, "hot_spot_spread", "m", 0, max_width, out.hot_spot_spread},
+                                {spec.velocity, "velocity", "m/s", min_velocity, max_velocity, out.velocity},
+                                {spec.velocity_spread, "velocity_spread", "m/s", 0, max_velocity, out.velocity_spread}};
     for (const auto& one : all) {
-        const auto value = numbers.number(one.said, one.name, one.unit, one.low, one.high, 0);
+        const auto value = numbers.number(one.spec, one.name, one.unit, one.low, one.high, 0);
         if (!value) return value.error();
-        one.to = *value;
+        one.target = *value;
     }
-    const auto spots = numbers.whole(said.hot_spots, "hot_spots", 1, 100, 1);
+    const auto spots = numbers.whole(spec.hot_spots, "hot_spots", 1, 100, 1);
     if (!spots) return spots.error();
     out.hot_spots = static_cast<std::uint32_t>(*spots);
     if (out.hot_spots > 1 && !(out.sigma > 0 && out.hot_spot_spread > 0))
-        return said.hot_spots->wrong("several hot spots want a sigma and a hot_spot_spread");
-    if (said.velocity_spread && !said.velocity) return said.velocity_spread->wrong("velocity_spread wants a velocity");
+        return spec.hot_spots->wrong("several hot spots need a sigma and a hot_spot_spread");
+    if (spec.velocity_spread && !spec.velocity) return spec.velocity_spread->wrong("velocity_spread needs a velocity");
     return {};
 }
 
-Result<SkinClass> class_of(const SaidClass& said, const Sites& sites, const SaidNumbers& numbers) {
+Result<SkinClass> class_of(const SaidClass& spec, const Sites& sites, const SaidNumbers& numbers) {
     SkinClass out;
-    auto plan = afferent_of(said);
+    auto plan = afferent_of(spec);
     if (!plan) return plan.error();
-    out.name = said.name ? said.name->text : plan->name;
+    out.name = spec.name ? spec.name->text : plan->name;
     if (out.name.empty() || out.name.find_first_of("# \t,\n\r\"") != std::string::npos)
-        return (said.name ? *said.name : *said.afferent)
-            .wrong(fmt::format("'{}' cannot name a class: no blank, comma, # or quote", out.name));
-    auto spreads = spreads_of(said, *plan);
+        return (spec.name ? *spec.name : *spec.afferent)
+            .wrong(fmt::format("'{}' is not a valid class name: it must not contain blanks, commas, # or quotes", out.name));
+    auto spreads = spreads_of(spec, *plan);
     if (!spreads) return spreads.error();
-    plan->name = out.name;  // random numbers and outputs go by it: two classes may be of the same afferent
+    plan->name = out.name;  // it identifies random streams and outputs: two classes may use the same afferent
     for (auto& s : *spreads) s.afferent = out.name;
-    out.afferent = std::move(*plan), out.spreads = std::move(*spreads), out.sources = sources_of(said.source);
-    if (auto ok = read_numbers(said, sites, numbers, out); !ok) return ok.error();
-    if (auto ok = read_field(said, numbers, out); !ok) return ok.error();
+    out.afferent = std::move(*plan), out.spreads = std::move(*spreads), out.sources = sources_of(spec.source);
+    if (auto ok = read_numbers(spec, sites, numbers, out); !ok) return ok.error();
+    if (auto ok = read_field(spec, numbers, out); !ok) return ok.error();
     return out;
 }
 
 }  // namespace
 
-std::vector<Sourced> sources_of(std::span<const SaidSetting> said) {
+std::vector<Sourced> sources_of(std::span<const SaidSetting> spec) {
     std::vector<Sourced> out;
-    for (const auto& s : said) out.push_back({s.name, s.value.text});
+    for (const auto& s : spec) out.push_back({s.name, s.value.text});
     return out;
 }
 
-Result<std::vector<SkinClass>> classes_of(const SkinText& said, const Sites& sites, const SaidNumbers& numbers) {
-    if (said.classes.empty()) return bad_input("a skin without afferents: [[class]]", {said.file});
+Result<std::vector<SkinClass>> classes_of(const SkinText& spec, const Sites& sites, const SaidNumbers& numbers) {
+    if (spec.classes.empty()) return bad_input("a skin needs afferents: [[class]]", {spec.file});
     std::vector<SkinClass> out;
-    for (const auto& c : said.classes) {
+    for (const auto& c : spec.classes) {
         auto one = class_of(c, sites, numbers);
         if (!one) return one.error();
         if (std::any_of(out.begin(), out.end(), [&](const SkinClass& other) { return other.name == one->name; }))
-            return (c.name ? *c.name : *c.afferent).wrong(fmt::format("there are two classes '{}'; give one another name", one->name));
+            return (c.name ? *c.name : *c.afferent).wrong(fmt::format("there are two classes '{}'; rename one of them", one->name));
         out.push_back(std::move(*one));
     }
     return out;

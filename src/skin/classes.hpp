@@ -1,5 +1,5 @@
 #pragma once
-// The classes of afferents that a population file asks for.
+// The classes of afferents in a population file.
 
 #include "skin/plan.hpp"
 #include "skin/said_numbers.hpp"

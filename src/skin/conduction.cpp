@@ -6,7 +6,7 @@
 namespace corpuscle {
 namespace {
 
-void in_order(std::span<const Spike> spikes, std::vector<Spike>& to) {
+void append_sorted(std::span<const Spike> spikes, std::vector<Spike>& to) {
     const auto old = static_cast<std::ptrdiff_t>(to.size());
     to.insert(to.end(), spikes.begin(), spikes.end());
     if (!std::is_sorted(to.begin() + old, to.end())) std::sort(to.begin() + old, to.end());
@@ -16,19 +16,19 @@ void in_order(std::span<const Spike> spikes, std::vector<Spike>& to) {
 
 Conduction::Conduction(const Innervation& skin, double T) {
     if (std::all_of(skin.units.begin(), skin.units.end(), [](const SkinUnit& u) { return u.delay == 0; })) return;
-    std::int32_t most = 0;
+    std::int32_t max_steps = 0;
     for (const auto& u : skin.units) {
-        const double steps = u.delay / T, whole = std::floor(steps);
-        delays_.push_back({static_cast<std::int32_t>(whole), steps - whole});
-        most = std::max(most, delays_.back().steps);
+        const double steps = u.delay / T, full_steps = std::floor(steps);
+        delays_.push_back({static_cast<std::int32_t>(full_steps), steps - full_steps});
+        max_steps = std::max(max_steps, delays_.back().steps);
     }
-    arriving_.resize(static_cast<std::size_t>(most) + 2 + reach);
+    arriving_.resize(static_cast<std::size_t>(max_steps) + 2 + reach);
     for (auto& step : arriving_) step.reserve(skin.units.size() / 16 + 16);
 }
 
-void Conduction::carry(std::span<const Spike> left, std::int64_t now, std::vector<Spike>& arrived) {
-    if (delays_.empty()) return in_order(left, arrived);
-    for (const auto& s : left) {
+void Conduction::carry(std::span<const Spike> fired, std::int64_t now, std::vector<Spike>& arrived) {
+    if (delays_.empty()) return append_sorted(fired, arrived);
+    for (const auto& s : fired) {
         const auto& d = delays_[s.unit];
         const double offset = s.offset + d.rest;  // (0, 2)
         const bool next = offset > 1;
@@ -37,7 +37,7 @@ void Conduction::carry(std::span<const Spike> left, std::int64_t now, std::vecto
     }
     for (; told_ < now; ++told_) {
         auto& due = at(told_ + 1);
-        in_order(due, arrived);
+        append_sorted(due, arrived);
         due.clear();
     }
 }

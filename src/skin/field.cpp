@@ -6,14 +6,14 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t field_steps = 4;  // a multiple of it: rows of sums begin on whole vectors
+constexpr std::size_t field_steps = 4;  // rows of sums are padded to a multiple of this, to begin on whole vectors
 
-constexpr std::size_t much = 2;  // of a skin is touched: one site of so many
+constexpr std::size_t dense = 2;  // by_afferent is used if more than one site in this many is touched
 
 std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
-/// [unit][step] to [step][unit].
-void turn(const double* sums, std::size_t stride, std::size_t steps, double* rows) {
+/// Transposes [afferent][step] to [step][afferent].
+void transpose(const double* sums, std::size_t stride, std::size_t steps, double* rows) {
     for (std::size_t from = 0; from < steps; from += field_steps)
         for (std::size_t u = 0; u < force_tile; ++u)
             for (std::size_t t = from; t < std::min(from + field_steps, steps); ++t) rows[t * force_tile + u] = sums[u * stride + t];
@@ -28,10 +28,10 @@ FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size
     for (auto& p : pieces_) p.begin.assign(1, 0);
     for (std::size_t s = 0; s < sites; ++s) {
         for (std::size_t k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
-            const std::size_t unit = fields.unit[k];
-            if (unit < first || unit >= first + count) continue;
-            auto& p = pieces_[(unit - first) / piece_units];
-            p.unit.push_back(static_cast<std::uint32_t>((unit - first) % piece_units));
+            const std::size_t afferent = fields.unit[k];
+            if (afferent < first || afferent >= first + count) continue;
+            auto& p = pieces_[(afferent - first) / piece_units];
+            p.unit.push_back(static_cast<std::uint32_t>((afferent - first) % piece_units));
             p.weight.push_back(fields.weight[k]);
         }
         for (auto& p : pieces_) p.begin.push_back(static_cast<std::uint32_t>(p.unit.size()));
@@ -41,7 +41,7 @@ FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size
 void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool& pool) {
     const Call call{force, touched, at, steps};
     if (steps == 1) return feel_one_step(call);
-    if (touched.size() * much > pieces_[0].begin.size()) return feel_by_unit(call, pool);
+    if (touched.size() * dense > pieces_[0].begin.size()) return feel_by_unit(call, pool);
     while (sums_.size() < pool.threads()) sums_.emplace_back(piece_tiles * force_tile * skin_steps);
     pool.each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { feel_piece(piece, call, sums_[thread].data()); });
 }
@@ -50,7 +50,7 @@ void FeltForce::make_by_unit() {
     const std::size_t sites = pieces_[0].begin.size() - 1;
     by_unit_.emplace(units_, lanes_);
     for (std::size_t n = 0; n < pieces_.size(); ++n)
-        for (const auto unit : pieces_[n].unit) by_unit_->count(n * piece_tiles * force_tile + unit);
+        for (const auto afferent : pieces_[n].unit) by_unit_->count(n * piece_tiles * force_tile + afferent);
     by_unit_->counted();
     for (std::size_t n = 0; n < pieces_.size(); ++n)
         for (std::uint32_t s = 0; s < sites; ++s)
@@ -58,11 +58,11 @@ void FeltForce::make_by_unit() {
                 by_unit_->add(n * piece_tiles * force_tile + pieces_[n].unit[k], s, pieces_[n].weight[k]);
 }
 
-/// All tiles: with so much touched few are without force.
+/// All tiles are computed: with so many touched sites few would be without force.
 void FeltForce::feel_by_unit(const Call& call, Pool& pool) {
-    static constexpr std::array<double, skin_steps> nothing = {};
+    static constexpr std::array<double, skin_steps> zero = {};
     if (!by_unit_) make_by_unit();
-    site_rows_.assign(pieces_[0].begin.size() - 1, nothing.data());
+    site_rows_.assign(pieces_[0].begin.size() - 1, zero.data());
     for (const auto s : call.touched) site_rows_[s] = call.force.of + s * call.force.stride + call.at;
     std::fill(without_.begin(), without_.end(), std::uint8_t{0});
     pool.each(tiles_, [&call, this](std::size_t tile, unsigned) {
@@ -85,7 +85,7 @@ void FeltForce::feel_piece(std::size_t piece, const Call& call, double* sums) {
         lanes_.add_site(p.unit.data() + begin, p.weight.data() + begin, end - begin, force.of + s * force.stride + at, steps, sums, stride);
     }
     for (std::size_t tile = 0; tile < tiles; ++tile)
-        if (!without[tile]) turn(sums + tile * force_tile * stride, stride, steps, rows + tile * steps * force_tile);
+        if (!without[tile]) transpose(sums + tile * force_tile * stride, stride, steps, rows + tile * steps * force_tile);
 }
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// Receptive fields at a single step. The same sums in the same order as over many, to the bit.
+// Receptive fields at a single step. The sums and their order are those of several steps, bit for bit.
 
 #include <algorithm>
 #include <array>
@@ -16,47 +16,47 @@ constexpr std::size_t margin = force_tile;
 
 }  // namespace
 
-/// Eight weights side by side, each eight kept once: where units are alike, most are.
+/// Groups of eight weights, each distinct group stored once. Most are equal where afferents are alike.
 class FeltForce::Eights {
-    std::map<std::array<double, eight>, std::uint32_t> place_;
+    std::map<std::array<double, eight>, std::uint32_t> index_;
 
 public:
     std::vector<double> all = {};
-    std::uint32_t place(const double* of) {
-        std::array<double, eight> side_by_side;
-        std::copy_n(of, eight, side_by_side.begin());
-        const auto [at, is_new] = place_.try_emplace(side_by_side, static_cast<std::uint32_t>(all.size()));
-        if (is_new) all.insert(all.end(), side_by_side.begin(), side_by_side.end());
+    std::uint32_t index_of(const double* weights) {
+        std::array<double, eight> group;
+        std::copy_n(weights, eight, group.begin());
+        const auto [at, is_new] = index_.try_emplace(group, static_cast<std::uint32_t>(all.size()));
+        if (is_new) all.insert(all.end(), group.begin(), group.end());
         return at->second;
     }
 };
 
-/// What one tile feels, if its units stand as the sites do: neighbours feel neighbours.
+/// Builds the rows of one tile, if its afferents are arranged like the sites, so that neighbours respond to neighbouring sites.
 void FeltForce::make_tile(std::size_t tile, std::size_t sites, Eights& eights) {
     const auto& p = pieces_[tile / piece_tiles];
     const std::size_t first = tile % piece_tiles * force_tile;
     struct Entry {
         std::ptrdiff_t row;
-        std::size_t unit;
+        std::size_t afferent;
         double weight;
     };
-    std::vector<Entry> felt;
+    std::vector<Entry> entries;
     std::vector<std::size_t> counts(force_tile);
-    std::map<std::ptrdiff_t, std::size_t> rows;  // by the site of their first unit
+    std::map<std::ptrdiff_t, std::size_t> rows;  // by the site of their first afferent
     for (std::uint32_t s = 0; s < sites; ++s)
         for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
             if (p.unit[k] < first || p.unit[k] >= first + force_tile) continue;
-            const std::size_t unit = p.unit[k] - first;
-            felt.push_back({static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(unit), unit, p.weight[k]});
-            rows[felt.back().row] = 0, ++counts[unit];
+            const std::size_t afferent = p.unit[k] - first;
+            entries.push_back({static_cast<std::ptrdiff_t>(s) - static_cast<std::ptrdiff_t>(afferent), afferent, p.weight[k]});
+            rows[entries.back().row] = 0, ++counts[afferent];
         }
-    const auto most = *std::max_element(counts.begin(), counts.end());
-    if (rows.size() > most + most / 2) return;
+    const auto max_count = *std::max_element(counts.begin(), counts.end());
+    if (rows.size() > max_count + max_count / 2) return;
     auto& out = one_step_[tile];
     for (auto& [row, k] : rows) k = out.row.size(), out.row.push_back(row);
     std::vector<double> weights(rows.size() * force_tile);
-    for (const auto& e : felt) weights[rows[e.row] * force_tile + e.unit] = e.weight;
-    for (std::size_t k = 0; k < weights.size(); k += eight) out.weights.push_back(eights.place(weights.data() + k));
+    for (const auto& e : entries) weights[rows[e.row] * force_tile + e.afferent] = e.weight;
+    for (std::size_t k = 0; k < weights.size(); k += eight) out.weights.push_back(eights.index_of(weights.data() + k));
 }
 
 void FeltForce::make_one_step() {
@@ -85,7 +85,7 @@ void FeltForce::make_one_step() {
 void FeltForce::feel_one_step(const Call& call) {
     if (one_step_.empty()) make_one_step();
     const bool all = call.touched.size() == now_.size() - 2 * margin;
-    std::fill(without_.begin(), without_.end(), static_cast<std::uint8_t>(!all));  // every unit feels some site
+    std::fill(without_.begin(), without_.end(), static_cast<std::uint8_t>(!all));  // every afferent responds to some site
     if (!all)
         for (const auto s : call.touched)
             for (std::size_t k = reach_begin_[s]; k < reach_begin_[s + 1]; ++k) without_[reach_[k]] = 0;
@@ -109,7 +109,7 @@ void FeltForce::feel_in_rows(std::size_t piece, const double* now) {
             lanes_.add_rows(tile.row.data(), tile.row.size(), tile.weights.data(), weights_.data(), now, rows_.data() + t * force_tile);
 }
 
-/// Each site gives its share to all who feel it.
+/// Adds the contribution of each site to all afferents that respond to it.
 void FeltForce::feel_site_by_site(std::size_t piece, const Call& call) {
     const auto& p = pieces_[piece];
     const std::size_t first = piece * piece_tiles, tiles = std::min(piece_tiles, tiles_ - first);

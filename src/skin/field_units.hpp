@@ -1,6 +1,6 @@
 #pragma once
-// Receptive fields unit by unit, for where much of a skin is touched: a unit's whole sum at a time, in registers, and not each site's
-// share in many.
+// Receptive fields stored afferent by afferent, for use when a large part of the skin is touched. The sum of one afferent is computed
+// completely, in registers. This is faster than adding the contribution of each site to many sums.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace corpuscle {
 
 class FieldsByUnit {
 public:
-    FieldsByUnit(std::size_t units, const lanes::FieldLanes& lanes) : lanes_(lanes), begin_(units + 1) {}
-    /// First how many sites each unit feels, then, in the order of the sites, which.
-    void count(std::size_t unit) { ++begin_[unit + 1]; }
+    FieldsByUnit(std::size_t size, const lanes::FieldLanes& lanes) : lanes_(lanes), begin_(size + 1) {}
+    /// First call count_site() for each site of each afferent, then finish_counts(), then add() in the order of the sites.
+    void count(std::size_t afferent) { ++begin_[afferent + 1]; }
     void counted();
-    void add(std::size_t unit, std::uint32_t site, double weight);
+    void add(std::size_t afferent, std::uint32_t site, double weight);
 
-    /// What a tile's units feel over some steps, from the rows of all sites' force into rows [step][unit]. The sums of any other way, to
-    /// the bit.
+    /// Computes the force on the afferents of a tile over some steps, from the rows of all sites' force into rows [step][afferent]. The
+    /// sums equal those of the other methods bit for bit.
     void feel_tile(std::size_t tile, std::span<const double* const> site_rows, std::size_t steps, double* rows) const;
 
 private:

@@ -9,10 +9,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr double grid_pitch = 2e-3;            // choice: between the e-skins of a robot's fingertip (1 to 2 mm) and of its palm
-constexpr double grid_sigma = grid_pitch / 2;  // choice: a unit feels its own sensor first, and somewhat its neighbours'
+constexpr double grid_pitch = 2e-3;            // choice: between robot fingertip skins (1 to 2 mm) and palm skins
+constexpr double grid_sigma = grid_pitch / 2;  // choice: an afferent responds mainly to its own sensor, and less to its neighbours
 
-/// The two numbers of "8x8".
+/// Parses the two numbers of "8x8".
 std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_view text) {
     const auto by = text.find_first_of("xX");
     if (by == std::string_view::npos) return {};
@@ -26,7 +26,7 @@ std::optional<std::pair<std::size_t, std::size_t>> rows_by_columns(std::string_v
     return rows && columns ? std::optional(std::pair(*rows, *columns)) : std::nullopt;
 }
 
-SkinClass one_a_site(std::string_view afferent) {
+SkinClass class_with_one_per_site(std::string_view afferent) {
     SkinClass c;
     c.name = afferent, c.afferent = *plan_afferent(afferent, {});
     c.per_site = 1, c.sigma = grid_sigma;
@@ -42,7 +42,7 @@ bool is_grid(std::string_view text) {
 
 Result<SkinPlan> plan_grid(std::string_view text) {
     const auto size = rows_by_columns(trimmed(text).substr(std::min<std::size_t>(5, trimmed(text).size())));
-    if (!size) return bad_usage(fmt::format("'{}' is no grid; write rows and columns, such as 'grid 8x8'", text));
+    if (!size) return bad_usage(fmt::format("'{}' is not a grid; write rows and columns, such as 'grid 8x8'", text));
     const double count = static_cast<double>(size->first) * static_cast<double>(size->second);
     if (count <= static_cast<double>(most_sites))
         if (auto ok = check_memory(fmt::format("grid {}x{}", size->first, size->second), count, 2 * count, 18 * count); !ok)
@@ -53,7 +53,7 @@ Result<SkinPlan> plan_grid(std::string_view text) {
     plan.name = fmt::format("grid {}x{}", size->first, size->second);
     plan.sentence = fmt::format("{} by {} sensors, 2 mm apart; an SA-I and an FA-I at each", size->first, size->second);
     plan.sites = std::move(*sites);
-    plan.classes = {one_a_site("sa1"), one_a_site("fa1")};
+    plan.classes = {class_with_one_per_site("sa1"), class_with_one_per_site("fa1")};
     return plan;
 }
 

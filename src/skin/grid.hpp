@@ -1,5 +1,5 @@
 #pragma once
-// "grid 8x8": a sensor array as it comes, an SA-I and an FA-I at each site.
+// "grid 8x8": a rectangular sensor array, with an SA-I and an FA-I at each site.
 
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace corpuscle {
 
-/// Whether a text asks for a grid, "grid ..." or "grid:...".
+/// True if a text names a grid, "grid ..." or "grid:...".
 bool is_grid(std::string_view text);
 
 /// The plan of "grid 8x8", rows by columns.

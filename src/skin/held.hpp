@@ -1,5 +1,5 @@
 #pragma once
-// What a skin at work holds. Included by skin.cpp and saved.cpp alone.
+// Implementation of Skin. Included only by skin.cpp and skin_state.cpp.
 
 #include <optional>
 
@@ -10,11 +10,11 @@
 
 namespace corpuscle {
 
-/// The units of one class: what they feel, and they.
+/// The afferents of one class and the force on them.
 struct SkinCrowd {
     std::unique_ptr<Population> population;
     std::shared_ptr<FeltForce> felt;
-    bool as_before = false;  ///< another class stands as this one and feels the same: it has worked that out
+    bool as_before = false;  ///< the force is shared with a class that has the same receptive fields and is computed there
 };
 
 struct Skin::Held {
@@ -26,8 +26,8 @@ struct Skin::Held {
     SkinShare share;
     std::vector<SkinCrowd> crowds;
     Conduction conduction;
-    std::vector<Spike> left;             // the skin, in the steps at work
-    std::vector<std::uint32_t> touched;  // in them
+    std::vector<Spike> left;             // spikes fired in the current steps
+    std::vector<std::uint32_t> touched;  // sites touched in them
     std::int64_t step = 0;
     SkinWork work;
 

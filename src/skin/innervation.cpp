@@ -10,53 +10,55 @@
 namespace corpuscle {
 namespace {
 
-/// What a plan that was not read from a file may have wrong.
-std::optional<Error> refused(const SkinPlan& plan) {
+/// Checks a plan that was not read from a file.
+std::optional<Error> check_sites(const SkinPlan& plan) {
     const auto& s = plan.sites;
     if (s.at.empty() || s.names.size() != s.size() || s.region.size() != s.size() || s.regions.empty() || s.size() > most_sites)
         return bad_input(fmt::format("{}: a skin needs sites, each with a name and a region ({} sites)", plan.name, s.size()));
     for (const auto& p : s.at)
         if (!(std::abs(p.x) <= 1e3 && std::abs(p.y) <= 1e3))
-            return bad_input(fmt::format("{}: a site at ({:g}, {:g}) m is not on a skin", plan.name, p.x, p.y));
+            return bad_input(
+                fmt::format("{}: a site at ({:g}, {:g}) m is too far away: coordinates must be within 1,000 m", plan.name, p.x, p.y));
     for (const auto r : s.region)
-        if (r >= s.regions.size()) return bad_input(fmt::format("{}: region {} of {}", plan.name, r, s.regions.size()));
+        if (r >= s.regions.size())
+            return bad_input(fmt::format("{}: a site is in region {}, but there are {} regions", plan.name, r, s.regions.size()));
     for (const auto& c : plan.classes) {
         if (!c.density.empty() && c.density.size() != s.regions.size())
-            return bad_input(fmt::format("{}: {} densities for {} regions", c.name, c.density.size(), s.regions.size()));
+            return bad_input(fmt::format("{}: {} densities for {} regions; give one for each", c.name, c.density.size(), s.regions.size()));
         if (!c.density.empty() && !(s.area > 0))
-            return bad_input(fmt::format("{}: a density wants sites that stand for an area of skin", c.name));
+            return bad_input(fmt::format("{}: a density needs sites that represent an area of skin", c.name));
     }
     return {};
 }
 
-/// Before anything is placed: whether there is memory for it.
-Result<void> check_room(const SkinPlan& plan) {
+/// Checks the memory that is needed, before any afferent is placed.
+Result<void> check_skin_memory(const SkinPlan& plan) {
     double left = plan.sites.at[0].x, right = left, low = plan.sites.at[0].y, high = low;
     for (const auto& p : plan.sites.at)
         left = std::min(left, p.x), right = std::max(right, p.x), low = std::min(low, p.y), high = std::max(high, p.y);
     const auto sites = static_cast<double>(plan.sites.size());
     const double a_site = plan.sites.area > 0 ? plan.sites.area : std::max((right - left) * (high - low) / sites, 1e-12);
-    double units = 0, weights = 0;
+    double afferents = 0, weights = 0;
     for (std::uint32_t c = 0; c < plan.classes.size(); ++c) {
         const auto& k = plan.classes[c];
         double all = 0;
         for (const auto n : units_by_region(plan, c)) all += static_cast<double>(n);
-        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // of most of a field
-        units += all, weights += all * std::clamp(3 * reach * reach / a_site, 1.0, sites);
+        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // that contains most of a field
+        afferents += all, weights += all * std::clamp(3 * reach * reach / a_site, 1.0, sites);
     }
-    return check_memory(plan.name, sites, units, weights);
+    return check_memory(plan.name, sites, afferents, weights);
 }
 
 }  // namespace
 
-std::string Innervation::unit_name(std::size_t unit) const {
-    const auto& u = units[unit];
+std::string Innervation::unit_name(std::size_t index) const {
+    const auto& u = units[index];
     return fmt::format("{}#{}", plan.classes[u.of].name, u.copy);
 }
 
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
-    if (auto wrong = refused(plan)) return *wrong;
-    if (auto ok = check_room(plan); !ok) return ok.error();
+    if (auto error = check_sites(plan)) return *error;
+    if (auto ok = check_skin_memory(plan); !ok) return ok.error();
     auto out = std::make_shared<Innervation>();
     out->plan = std::move(plan);
     const auto& p = out->plan;
@@ -64,16 +66,16 @@ Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
     const auto touching = touching_regions(p.sites, near);
     out->first.push_back(0);
     for (std::uint32_t c = 0; c < p.classes.size(); ++c) {
-        const auto units = placed_units(p, c);
-        if (!units) return units.error();
-        auto fields = fields_of(p, c, *units, near, touching);
+        const auto afferents = placed_units(p, c);
+        if (!afferents) return afferents.error();
+        auto fields = fields_of(p, c, *afferents, near, touching);
         if (!fields) return fields.error();
-        out->units.insert(out->units.end(), units->begin(), units->end());
+        out->units.insert(out->units.end(), afferents->begin(), afferents->end());
         out->fields.push_back(std::move(*fields));
         out->first.push_back(out->units.size());
-        if (out->units.size() > most_units) return bad_input(fmt::format("{}: more than {} units", p.name, most_units));
+        if (out->units.size() > most_units) return bad_input(fmt::format("{}: more than {} afferents", p.name, most_units));
     }
-    if (out->units.empty()) return bad_input(fmt::format("{}: a skin without afferents; raise a density, or add a class", p.name));
+    if (out->units.empty()) return bad_input(fmt::format("{}: there are no afferents; raise a density, or add a class", p.name));
     return std::shared_ptr<const Innervation>(std::move(out));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A skin with its afferents placed: which unit is where, of which class, and which sites it feels.
+// A skin with its afferents placed: the position and class of each, and the sites in its receptive field.
 
 #include <memory>
 
@@ -7,17 +7,17 @@
 
 namespace corpuscle {
 
-/// One afferent in the skin.
+/// One afferent of a skin.
 struct SkinUnit {
-    std::uint32_t of = 0;    ///< its class
-    std::uint32_t copy = 0;  ///< its number in the class, from 1: "sa1#17"
+    std::uint32_t of = 0;    ///< index of its class
+    std::uint32_t copy = 0;  ///< number within its class, from 1: "sa1#17"
     std::uint32_t region = 0;
     Position at = {};  ///< m
-    double delay = 0;  ///< s that a spike takes to where the nerve is listened to
+    double delay = 0;  ///< conduction delay to the recording point, s
 };
 
-/// The sites that a class feels, site by site: entries [begin[s], begin[s + 1]) say which units feel site s, and how much of its force.
-/// Units are counted from the class's first; rising in each site.
+/// The receptive fields of a class, site by site. Entries [begin[s], begin[s + 1]) are the afferents that respond to site s, and the weight
+/// of its force. Afferents count from the first of the class, and rise within each site.
 struct ReceptiveFields {
     std::vector<std::size_t> begin;
     std::vector<std::uint32_t> unit;
@@ -27,17 +27,17 @@ struct ReceptiveFields {
 
 struct Innervation {
     SkinPlan plan;
-    std::vector<SkinUnit> units;                    ///< class after class; within one neighbours stand close together
-    std::vector<std::size_t> first;                 ///< of each class; behind the last the end
-    std::vector<ReceptiveFields> fields;            ///< of each class
-    std::string unit_name(std::size_t unit) const;  ///< "sa1#17"
+    std::vector<SkinUnit> units;                     ///< class after class; neighbours within a class are close together
+    std::vector<std::size_t> first;                  ///< index of the first afferent of each class, then the total
+    std::vector<ReceptiveFields> fields;             ///< of each class
+    std::string unit_name(std::size_t index) const;  ///< "sa1#17"
 };
 
-/// How many units of a class each region has.
-std::vector<std::uint64_t> units_by_region(const SkinPlan&, std::uint32_t of);
+/// Number of afferents of a class in each region.
+std::vector<std::uint64_t> units_by_region(const SkinPlan&, std::uint32_t class_index);
 
-/// Places a plan's units: where each stands, what it feels. The same for the same plan, on every machine. Refuses a skin without
-/// units and one of more than 2^24.
+/// Places the afferents of a plan and computes their receptive fields. The result for a plan is the same on every machine. Refuses a skin
+/// without afferents and one with more than 2^24.
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan);
 
 }  // namespace corpuscle

@@ -8,26 +8,28 @@
 namespace corpuscle {
 namespace {
 
-// As measured of grids and of the hand, from 20 thousand to 3 million units.
-constexpr double bytes_a_site = 1600, bytes_a_unit = 1600, bytes_a_weight = 60;
+// Measured on grids and on the hand, with 20 thousand to 3 million afferents.
+constexpr double bytes_per_site = 1600, bytes_per_afferent = 1600, bytes_per_weight = 60;
 
-double most_bytes() {
-    constexpr double share = 0.8;  // of the machine's, for others need some
-    double most = share * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+double available_bytes() {
+    constexpr double fraction = 0.8;  // of the machine's memory; other programs need some
+    double max_bytes = fraction * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
     struct ::rlimit limit = {};
-    if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) most = std::min(most, static_cast<double>(limit.rlim_cur));
-    return most;
+    if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        max_bytes = std::min(max_bytes, static_cast<double>(limit.rlim_cur));
+    return max_bytes;
 }
 
 }  // namespace
 
-Result<void> check_memory(std::string_view name, double sites, double units, double weights) {
-    const double needed = sites * bytes_a_site + units * bytes_a_unit + weights * bytes_a_weight, most = most_bytes();
-    if (needed <= most) return {};
+Result<void> check_memory(std::string_view name, double sites, double afferents, double weights) {
+    const double needed = sites * bytes_per_site + afferents * bytes_per_afferent + weights * bytes_per_weight,
+                 max_bytes = available_bytes();
+    if (needed <= max_bytes) return {};
     return bad_input(
-        fmt::format("{}: {:.0f} sites and {:.0f} afferents need about {:.3g} GB of memory, and there is room for {:.3g} GB; take "
+        fmt::format("{}: {:.0f} sites and {:.0f} afferents need about {:.3g} GB of memory, but only {:.3g} GB are available; use "
                     "fewer sites",
-                    name, sites, units, needed * 1e-9, most * 1e-9));
+                    name, sites, afferents, needed * 1e-9, max_bytes * 1e-9));
 }
 
 }  // namespace corpuscle

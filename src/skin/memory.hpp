@@ -1,5 +1,5 @@
 #pragma once
-// How much memory a skin takes, before it is made.
+// Checks the memory that a skin needs before it is built.
 
 #include <string_view>
 
@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-/// Refuses what this machine, or the limit set for this process (ulimit -v), has no room for. `weights`: sites that a unit feels, of all
-/// units together.
-Result<void> check_memory(std::string_view name, double sites, double units, double weights);
+/// Refuses what exceeds the memory of this machine or the limit of this process (ulimit -v). `weights`: sites in the receptive fields of
+/// all afferents together.
+Result<void> check_memory(std::string_view name, double sites, double afferents, double weights);
 
 }  // namespace corpuscle

@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 NearSites::NearSites(const std::vector<Position>& at) {
-    constexpr double a_cell = 0.7;  // sites in one, were they spread evenly; measured
+    constexpr double a_cell = 0.7;  // sites per cell if they were evenly distributed; measured
     double right = at[0].x, high = at[0].y;
     left_ = right, low_ = high;
     for (const auto& p : at)
@@ -27,13 +27,13 @@ NearSites::NearSites(const std::vector<Position>& at) {
 std::uint32_t NearSites::nearest(double x, double y) const {
     double best = std::numeric_limits<double>::infinity();
     std::uint32_t found = 0;
-    const auto look = [&](std::uint32_t site, double d2) {
+    const auto visit = [&](std::uint32_t site, double d2) {
         if (d2 < best || (d2 == best && site < found)) best = d2, found = site;
     };
     const double right = left_ + cell_ * static_cast<double>(columns_), high = low_ + cell_ * static_cast<double>(rows_);
     const double outside = std::max({left_ - x, x - right, low_ - y, y - high, 0.0});
     for (double reach = outside + cell_; best == std::numeric_limits<double>::infinity(); reach = outside + (reach - outside) * 2)
-        within(x, y, reach, look);
+        within(x, y, reach, visit);
     return found;
 }
 

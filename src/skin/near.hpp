@@ -1,5 +1,5 @@
 #pragma once
-// Which sites are near a place: sites in square cells, looked up cell by cell.
+// A spatial index of sites: square cells that are searched one by one.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,22 +14,22 @@ class NearSites {
 public:
     explicit NearSites(const std::vector<Position>& at);
 
-    /// Calls f(site, d2) for each site within `reach` (m) of (x, y), d2 its distance squared; in an order that depends on the sites alone.
+    /// Calls f(site, d2) for each site within `reach` (m) of (x, y), where d2 is its squared distance. The order depends only on the sites.
     template <class F>
     void within(double x, double y, double reach, F&& f) const {
-        const double most = reach * reach;
+        const double max_d2 = reach * reach;
         const auto left = column(x - reach), right = column(x + reach), low = row(y - reach), high = row(y + reach);
         for (auto r = low; r <= high; ++r)
-            for (auto k = begin_[r * columns_ + left]; k < begin_[r * columns_ + right + 1]; ++k) {  // a row's cells follow each other
+            for (auto k = begin_[r * columns_ + left]; k < begin_[r * columns_ + right + 1]; ++k) {  // the cells of a row are consecutive
                 const auto& s = sorted_[k];
                 const double dx = s.x - x, dy = s.y - y, d2 = dx * dx + dy * dy;
-                if (d2 <= most) f(s.site, d2);
+                if (d2 <= max_d2) f(s.site, d2);
             }
     }
 
-    /// The site nearest to (x, y); of several the first.
+    /// The site nearest to (x, y); of several equally near the first.
     std::uint32_t nearest(double x, double y) const;
-    double cell() const { return cell_; }  ///< its side, m
+    double cell() const { return cell_; }  ///< side of a cell, m
 
 private:
     struct Sorted {

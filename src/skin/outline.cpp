@@ -9,13 +9,13 @@
 namespace corpuscle {
 namespace {
 
-/// Where (x, y) is as seen from the middle line of a strip.
-struct Beside {
+/// Coordinates of a point relative to the centre line of a strip.
+struct StripPosition {
     double along;   ///< 0 at its beginning, 1 at its end
     double across;  ///< m
 };
 
-Beside beside(const SkinShape& s, double x, double y) {
+StripPosition strip_position(const SkinShape& s, double x, double y) {
     const double dx = s.points[1].x - s.points[0].x, dy = s.points[1].y - s.points[0].y, square = dx * dx + dy * dy;
     const double px = x - s.points[0].x, py = y - s.points[0].y;
     if (!(square > 0)) return {-1, 0};
@@ -23,12 +23,12 @@ Beside beside(const SkinShape& s, double x, double y) {
 }
 
 bool in_strip(const SkinShape& s, double x, double y) {
-    const auto at = beside(s, x, y);
+    const auto at = strip_position(s, x, y);
     return at.along >= 0 && at.along <= 1 && 2 * std::abs(at.across) <= s.width + (s.other - s.width) * at.along;
 }
 
-bool in_disc(const Position& middle, double width, double x, double y) {
-    const double dx = x - middle.x, dy = y - middle.y;
+bool in_disc(const Position& centre, double width, double x, double y) {
+    const double dx = x - centre.x, dy = y - centre.y;
     return 4 * (dx * dx + dy * dy) <= width * width;
 }
 
@@ -47,7 +47,7 @@ bool in_polygon(const SkinShape& s, double x, double y) {
     return inside;
 }
 
-/// Cells of a lattice whose lines run through the origin.
+/// Cells of a lattice whose lines pass through the origin.
 struct Lattice {
     double pitch, left, low;  ///< of the first cell, in cells
     std::size_t columns, rows;
@@ -55,8 +55,8 @@ struct Lattice {
 
     double x(std::size_t c) const { return (left + static_cast<double>(c) + 0.5) * pitch; }
     double y(std::size_t r) const { return (low + static_cast<double>(r) + 0.5) * pitch; }
-    /// The cells from..to that a stretch of a row or column may touch.
-    static std::pair<std::size_t, std::size_t> stretch(double from, double to, double first, std::size_t count) {
+    /// The cells that an interval of a row or column may touch.
+    static std::pair<std::size_t, std::size_t> cells_between(double from, double to, double first, std::size_t count) {
         const auto cell = [&](double at) { return static_cast<std::size_t>(std::clamp(at - first, 0.0, static_cast<double>(count))); };
         return {cell(std::floor(from)), cell(std::floor(to) + 1)};
     }
@@ -69,7 +69,7 @@ Result<Lattice> lattice_over(std::span<const SkinRegion> regions, double pitch) 
             const auto [from, to] = s.box();
             left = std::min(left, from.x), low = std::min(low, from.y), right = std::max(right, to.x), high = std::max(high, to.y);
         }
-    if (!(right > left && high > low)) return bad_input("the regions hold no skin");
+    if (!(right > left && high > low)) return bad_input("the regions have no area");
     Lattice out{pitch, std::floor(left / pitch), std::floor(low / pitch), 0, 0, {}};
     const double columns = std::floor(right / pitch) - out.left + 1, rows = std::floor(high / pitch) - out.low + 1;
     if (!(columns * rows <= static_cast<double>(most_sites)))
@@ -82,8 +82,8 @@ Result<Lattice> lattice_over(std::span<const SkinRegion> regions, double pitch) 
 
 void fill(Lattice& lattice, const SkinShape& shape, std::int32_t region) {
     const auto [from, to] = shape.box();
-    const auto across = Lattice::stretch(from.x / lattice.pitch, to.x / lattice.pitch, lattice.left, lattice.columns);
-    const auto up = Lattice::stretch(from.y / lattice.pitch, to.y / lattice.pitch, lattice.low, lattice.rows);
+    const auto across = Lattice::cells_between(from.x / lattice.pitch, to.x / lattice.pitch, lattice.left, lattice.columns);
+    const auto up = Lattice::cells_between(from.y / lattice.pitch, to.y / lattice.pitch, lattice.low, lattice.rows);
     for (auto r = up.first; r < up.second; ++r)
         for (auto c = across.first; c < across.second; ++c)
             if (auto& cell = lattice.region[r * lattice.columns + c]; cell < 0 && shape.holds(lattice.x(c), lattice.y(r))) cell = region;
@@ -127,15 +127,15 @@ Result<Sites> outline_sites(std::span<const SkinRegion> regions, double pitch) {
     std::vector<std::size_t> count(regions.size());
     for (std::size_t k = 0; k < lattice->region.size(); ++k) {
         if (lattice->region[k] < 0) continue;
-        const auto of = static_cast<std::size_t>(lattice->region[k]);
+        const auto region = static_cast<std::size_t>(lattice->region[k]);
         out.at.push_back({lattice->x(k % lattice->columns), lattice->y(k / lattice->columns), 0});
-        out.region.push_back(static_cast<std::uint32_t>(of));
-        out.names.push_back(fmt::format("{}.{}", regions[of].name, ++count[of]));
+        out.region.push_back(static_cast<std::uint32_t>(region));
+        out.names.push_back(fmt::format("{}.{}", regions[region].name, ++count[region]));
     }
     for (std::size_t r = 0; r < regions.size(); ++r)
         if (count[r] == 0)
             return bad_input(
-                fmt::format("region '{}' has no site: it is smaller than the pitch, or regions before it hold all of it", regions[r].name));
+                fmt::format("region '{}' has no site: it is smaller than the pitch, or earlier regions cover all of it", regions[r].name));
     return out;
 }
 

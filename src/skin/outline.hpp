@@ -1,5 +1,5 @@
 #pragma once
-// A skin drawn as regions made of shapes, filled with sites.
+// A skin described by regions made of shapes, which is filled with sites.
 
 #include <string>
 
@@ -10,14 +10,14 @@ namespace corpuscle {
 /// One shape; lengths in m.
 struct SkinShape {
     enum class Kind { strip, capsule, ellipse, polygon } kind;
-    /// Of a strip and a capsule the ends of their middle line, of an ellipse its middle, of a polygon its corners.
+    /// The ends of the centre line for a strip and a capsule, the centre of an ellipse, the corners of a polygon.
     std::vector<Position> points;
-    double width = 0;  ///< of a strip or capsule where it begins; of an ellipse
-    double other = 0;  ///< of a strip or capsule where it ends; of an ellipse its height
-    double turns = 0;  ///< of an ellipse: its width is turned so far from x, counter-clockwise
+    double width = 0;  ///< of a strip or capsule at its beginning; of an ellipse
+    double other = 0;  ///< of a strip or capsule at its end; height of an ellipse
+    double turns = 0;  ///< of an ellipse: angle from x to its width, counter-clockwise, in turns
 
     bool holds(double x, double y) const;
-    /// A box about it: {left, low} and {right, high}.
+    /// A bounding box: {left, low} and {right, high}.
     std::pair<Position, Position> box() const;
 };
 
@@ -26,8 +26,8 @@ struct SkinRegion {
     std::vector<SkinShape> shapes;
 };
 
-/// Sites `pitch` apart in square cells, over all that the regions hold: a cell whose middle several regions hold is the first one's.
-/// Each stands for pitch squared of skin. Refuses a region without a site.
+/// Sites in square cells `pitch` apart, over the area of all regions. A cell whose centre is in several regions belongs to the first. Each
+/// site represents pitch squared of skin. Refuses a region without a site.
 Result<Sites> outline_sites(std::span<const SkinRegion>, double pitch);
 
 }  // namespace corpuscle

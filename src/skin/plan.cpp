@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_of_a_skin = std::size_t{64} << 20;  // bytes
+constexpr std::size_t max_file_size = std::size_t{64} << 20;  // bytes
 
 std::string carried_path(std::string_view name) { return fmt::format("skins/{}.toml", name); }
 
@@ -27,13 +27,13 @@ Error unknown_skin(std::string_view name) {
                                  did_you_mean(name, names), fmt::join(names.begin() + 1, names.end(), ", ")));
 }
 
-/// Titles and names of those that the program carries, for as long as it runs.
+/// Titles and names of the built-in populations; they are kept as long as the program runs.
 std::vector<std::pair<std::string, std::string>> carried_skins() {
     std::vector<std::pair<std::string, std::string>> out;
     for (const auto file : carried_files()) {
         if (!file.starts_with("skins/")) continue;
-        const auto said = skins::read_skin_text(*carried_text(std::string(file)), std::string(file));
-        out.emplace_back(fs::path(file).stem().string(), said && said->title ? said->title->text : "");
+        const auto spec = skins::read_skin_text(*carried_text(std::string(file)), std::string(file));
+        out.emplace_back(fs::path(file).stem().string(), spec && spec->title ? spec->title->text : "");
     }
     return out;
 }
@@ -57,7 +57,7 @@ Result<SkinPlan> plan_skin(std::string_view name, std::span<const Channel> chann
     const fs::path path(name);
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_directory(path, status)) {
-        const auto text = read_whole_input(path.string(), most_of_a_skin, "population file");
+        const auto text = read_whole_input(path.string(), max_file_size, "population file");
         return text ? read_skin_plan(*text, path.string(), channels) : Result<SkinPlan>(text.error());
     }
     if (path.extension() == ".toml") return bad_input("cannot be read: there is no such file", {path.string()});

@@ -12,8 +12,8 @@ std::string take_for_skin(SkinPlan& plan) {
     if (!cells.tile()) return "";
     plan.sites.area = cells.side() * cells.side(), plan.felt_area = usual_felt_area;
     return fmt::format(
-        "{} is pressed with an indenter, so each site stands for {:.3g} mm2 of skin and a unit feels the force on {:.3g} cm2 of "
-        "it, as in hand and fingertip; felt_area in a population file sets another (doc/skin.md)",
+        "{} is pressed with an indenter, so each site represents {:.3g} mm2 of skin and an afferent responds to the force on {:.3g} cm2 "
+        "of it, as in hand and fingertip; felt_area in a population file changes this (doc/skin.md)",
         plan.name, 1e6 * plan.sites.area, 1e4 * plan.felt_area);
 }
 

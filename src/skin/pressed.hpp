@@ -1,5 +1,5 @@
 #pragma once
-// A sensor array under an indenter: what its sites stand for.
+// The area that the sites of a sensor array represent under an indenter.
 
 #include <string>
 
@@ -7,12 +7,12 @@
 
 namespace corpuscle {
 
-/// Under an indenter an array of sensors that says nothing of area is taken for skin: each site for a cell of its lattice, and what a unit
-/// feels as `felt_area` has it in the built-in skins. Returns the sentence that says so; "": nothing was changed, because the plan says
-/// what its sites stand for, or because they are on no lattice.
+/// Under an indenter a sensor array without area information is treated as skin. Each site represents a cell of its lattice, and afferents
+/// respond as with the `felt_area` of the built-in skins. Returns a note about it. Returns "" if nothing was changed, because the plan
+/// defines the area of its sites or they are not on a lattice.
 std::string take_for_skin(SkinPlan&);
 
-/// m2: as the built-in skins have it.
+// m2, as in the built-in skins
 inline constexpr double usual_felt_area = 1e-4;
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// What a population file means.
+// Interprets a population file.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -14,64 +14,64 @@ namespace corpuscle {
 namespace skins {
 namespace {
 
-constexpr double largest_place = 10, least_pitch = 10e-6, largest_pitch = 0.1;  // m
+constexpr double max_coordinate = 10, min_pitch = 10e-6, max_pitch = 0.1;  // m
 
-/// Numbers of a file with what all lengths in it are in.
-Result<SaidNumbers> numbers_of(const SkinText& said) {
-    if (!said.unit) return SaidNumbers{};
-    const auto unit = parse_unit(said.unit->text);
+/// The numbers of a file, with the file's unit of length.
+Result<SaidNumbers> numbers_of(const SkinText& spec) {
+    if (!spec.unit) return SaidNumbers{};
+    const auto unit = parse_unit(spec.unit->text);
     if (!unit || !unit->same_kind(*parse_unit("m")))
-        return said.unit->wrong(fmt::format("unit = '{}' is no length; write unit = \"mm\"", said.unit->text));
+        return spec.unit->wrong(fmt::format("unit = '{}' is not a unit of length; write unit = \"mm\"", spec.unit->text));
     return SaidNumbers(unit->factor);
 }
 
-Result<Position> place_of(const Pair& said, std::string_view name, const SaidNumbers& numbers) {
+Result<Position> position_of(const Pair& spec, std::string_view name, const SaidNumbers& numbers) {
     Position out;
     for (const auto k : {0U, 1U}) {
-        const auto value = numbers.number(said[k], name, "m", -largest_place, largest_place);
+        const auto value = numbers.number(spec[k], name, "m", -max_coordinate, max_coordinate);
         if (!value) return value.error();
         (k == 0 ? out.x : out.y) = *value;
     }
     return out;
 }
 
-Result<SkinShape> shape_of(const SaidShape& said, const SaidNumbers& numbers) {
+Result<SkinShape> shape_of(const SaidShape& spec, const SaidNumbers& numbers) {
     using Kind = SkinShape::Kind;
-    const std::string_view kind = said.kind.text;
+    const std::string_view kind = spec.kind.text;
     SkinShape out{kind == "strip"     ? Kind::strip
                   : kind == "capsule" ? Kind::capsule
                   : kind == "ellipse" ? Kind::ellipse
                                       : Kind::polygon,
                   {}};
     const bool line = out.kind == Kind::strip || out.kind == Kind::capsule;
-    for (const auto& p : said.points) {
-        const auto place = place_of(p, kind, numbers);
-        if (!place) return place.error();
-        out.points.push_back(*place);
+    for (const auto& p : spec.points) {
+        const auto position = position_of(p, kind, numbers);
+        if (!position) return position.error();
+        out.points.push_back(*position);
     }
-    const auto refuse = [&](std::string_view why) { return said.kind.wrong(fmt::format("a {} {}", kind, why)); };
-    if (line && out.points.size() != 2) return refuse("wants the two ends of its middle line: [[x, y], [x, y]]");
-    if (out.kind == Kind::polygon && (out.points.size() < 3 || out.points.size() > 1000)) return refuse("wants 3 to 1000 corners");
+    const auto error = [&](std::string_view why) { return spec.kind.wrong(fmt::format("a {} {}", kind, why)); };
+    if (line && out.points.size() != 2) return error("needs the two ends of its centre line: [[x, y], [x, y]]");
+    if (out.kind == Kind::polygon && (out.points.size() < 3 || out.points.size() > 1000)) return error("needs 3 to 1000 corners");
     const bool ellipse = out.kind == Kind::ellipse;
-    if (said.height.has_value() != ellipse || (said.angle && !ellipse))
-        return refuse(ellipse ? "wants a height, too" : "has neither height nor angle");
-    if (out.kind == Kind::polygon) return said.width.empty() ? Result<SkinShape>(out) : refuse("has no width");
-    if (said.width.empty() || said.width.size() > (line ? 2U : 1U))
-        return refuse(line ? "wants a width, or two, at either end: width = [16, 14]" : "wants one width");
-    const auto width = numbers.number(said.width.front(), "width", "m", least_pitch, largest_place);
+    if (spec.height.has_value() != ellipse || (spec.angle && !ellipse))
+        return error(ellipse ? "also needs a height" : "has neither height nor angle");
+    if (out.kind == Kind::polygon) return spec.width.empty() ? Result<SkinShape>(out) : error("has no width");
+    if (spec.width.empty() || spec.width.size() > (line ? 2U : 1U))
+        return error(line ? "needs one width, or one for each end: width = [16, 14]" : "needs one width");
+    const auto width = numbers.number(spec.width.front(), "width", "m", min_pitch, max_coordinate);
     if (!width) return width.error();
     const auto other =
-        numbers.number(ellipse ? *said.height : said.width.back(), ellipse ? "height" : "width", "m", least_pitch, largest_place);
+        numbers.number(ellipse ? *spec.height : spec.width.back(), ellipse ? "height" : "width", "m", min_pitch, max_coordinate);
     if (!other) return other.error();
-    const auto angle = numbers.number(said.angle, "angle (degrees)", "", -360, 360, 0);
+    const auto angle = numbers.number(spec.angle, "angle (degrees)", "", -360, 360, 0);
     if (!angle) return angle.error();
     out.width = *width, out.other = *other, out.turns = *angle / 360;
     return out;
 }
 
-Result<Sites> sites_of_regions(const SkinText& said, double pitch, const SaidNumbers& numbers) {
+Result<Sites> sites_of_regions(const SkinText& spec, double pitch, const SaidNumbers& numbers) {
     std::vector<SkinRegion> regions;
-    for (const auto& r : said.regions) {
+    for (const auto& r : spec.regions) {
         if (r.name.text.empty()) return r.name.wrong("a region needs a name");
         for (const auto& other : regions)
             if (other.name == r.name.text) return r.name.wrong(fmt::format("there are two regions '{}'", r.name.text));
@@ -84,20 +84,20 @@ Result<Sites> sites_of_regions(const SkinText& said, double pitch, const SaidNum
         }
     }
     auto sites = outline_sites(regions, pitch);
-    if (!sites) return bad_input(sites.error().sentence, said.sites->place);
+    if (!sites) return bad_input(sites.error().sentence, spec.sites->place);
     return sites;
 }
 
-Result<Sites> sites_of_list(const SaidSites& said, const SaidNumbers& numbers) {
+Result<Sites> sites_of_list(const SaidSites& spec, const SaidNumbers& numbers) {
     Sites out;
     std::set<std::string_view> names;
-    if (said.list.empty()) return bad_input("list = []: a skin needs sites", said.place);
-    for (const auto& s : said.list) {
-        const auto place = place_of({s.x, s.y}, s.name.text, numbers);
-        if (!place) return place.error();
+    if (spec.list.empty()) return bad_input("list = []: a skin needs sites", spec.place);
+    for (const auto& s : spec.list) {
+        const auto position = position_of({s.x, s.y}, s.name.text, numbers);
+        if (!position) return position.error();
         if (s.name.text.empty() || !names.insert(s.name.text).second)
             return s.name.wrong(s.name.text.empty() ? "a site needs a name" : fmt::format("there are two sites '{}'", s.name.text));
-        out.at.push_back(*place), out.names.push_back(s.name.text);
+        out.at.push_back(*position), out.names.push_back(s.name.text);
         const std::string region = s.region ? s.region->text : "skin";
         const auto found = std::find(out.regions.begin(), out.regions.end(), region);
         out.region.push_back(static_cast<std::uint32_t>(found - out.regions.begin()));
@@ -106,76 +106,77 @@ Result<Sites> sites_of_list(const SaidSites& said, const SaidNumbers& numbers) {
     return out;
 }
 
-Result<Sites> sites_of_grid(const SaidSites& said, double pitch, const SaidNumbers& numbers) {
-    const auto rows = numbers.whole(said.rows, "rows", 1, most_sites, 0),
-               columns = numbers.whole(said.columns, "columns", 1, most_sites, 0);
+Result<Sites> sites_of_grid(const SaidSites& spec, double pitch, const SaidNumbers& numbers) {
+    const auto rows = numbers.whole(spec.rows, "rows", 1, most_sites, 0),
+               columns = numbers.whole(spec.columns, "columns", 1, most_sites, 0);
     if (!rows) return rows.error();
     if (!columns) return columns.error();
-    if (*rows == 0 || *columns == 0) return bad_input("a grid wants rows and columns", said.place);
+    if (*rows == 0 || *columns == 0) return bad_input("a grid needs rows and columns", spec.place);
     auto grid = grid_sites(*rows, *columns, pitch);
-    if (!grid) return bad_input(grid.error().sentence, said.place);
+    if (!grid) return bad_input(grid.error().sentence, spec.place);
     return grid;
 }
 
-/// What [sites] asks for, before its area.
-Result<Sites> sites_asked(const SkinText& said, std::span<const Channel> channels, const SaidNumbers& numbers) {
-    const auto& s = *said.sites;
+/// The sites that [sites] describes, before its area.
+Result<Sites> requested_sites(const SkinText& spec, std::span<const Channel> channels, const SaidNumbers& numbers) {
+    const auto& s = *spec.sites;
     if (s.word) {
         if (s.word->text != "channels")
-            return s.word->wrong(fmt::format("sites = '{}'; a word is known for it: \"channels\"", s.word->text));
+            return s.word->wrong(fmt::format("sites = '{}': the only word allowed is \"channels\"", s.word->text));
         if (channels.empty())
-            return s.word->wrong("its sites are a recording's channels: it wants a recording, with a layout that says where they sit");
+            return s.word->wrong(
+                "its sites are the channels of a recording: it needs a recording with a layout that gives their positions");
         auto sites = channel_sites(channels);
         return sites ? sites : Result<Sites>(s.word->wrong(sites.error().sentence));
     }
-    const bool grid = s.rows || s.columns, list = s.listed || s.file, outline = !said.regions.empty();
+    const bool grid = s.rows || s.columns, list = s.listed || s.file, outline = !spec.regions.empty();
     if (grid + list + outline != 1)
-        return bad_input("[sites] wants one of these: rows and columns; a list; pitch and regions ([[region]])", s.place);
+        return bad_input("[sites] needs exactly one of these: rows and columns; a list; pitch and regions ([[region]])", s.place);
     if (list && s.pitch) return s.pitch->wrong("a list of sites has no pitch");
-    if (s.file) return read_site_table((std::filesystem::path(said.file).parent_path() / s.file->text).string());
+    if (s.file) return read_site_table((std::filesystem::path(spec.file).parent_path() / s.file->text).string());
     if (list) return sites_of_list(s, numbers);
     if (!s.pitch) return bad_input("pitch is missing: pitch = \"2 mm\"", s.place);
-    const auto pitch = numbers.number(*s.pitch, "pitch", "m", least_pitch, largest_pitch);
+    const auto pitch = numbers.number(*s.pitch, "pitch", "m", min_pitch, max_pitch);
     if (!pitch) return pitch.error();
-    return grid ? sites_of_grid(s, *pitch, numbers) : sites_of_regions(said, *pitch, numbers);
+    return grid ? sites_of_grid(s, *pitch, numbers) : sites_of_regions(spec, *pitch, numbers);
 }
 
-Result<Sites> sites_of(const SkinText& said, std::span<const Channel> channels, const SaidNumbers& numbers) {
-    if (!said.sites) return bad_input("nothing says where force is felt: [sites]", {said.file});
-    auto sites = sites_asked(said, channels, numbers);
-    if (!sites || !said.sites->area) return sites;
-    if (!said.regions.empty()) return said.sites->area->wrong("sites of regions stand for pitch squared each; take area away");
-    const auto area = numbers.number(*said.sites->area, "area", "m2", 1e-10, 1);
+Result<Sites> sites_of(const SkinText& spec, std::span<const Channel> channels, const SaidNumbers& numbers) {
+    if (!spec.sites) return bad_input("the sites are missing: [sites]", {spec.file});
+    auto sites = requested_sites(spec, channels, numbers);
+    if (!sites || !spec.sites->area) return sites;
+    if (!spec.regions.empty()) return spec.sites->area->wrong("each site of a region represents pitch squared; remove area");
+    const auto area = numbers.number(*spec.sites->area, "area", "m2", 1e-10, 1);
     if (!area) return area.error();
     sites->area = *area;
     return sites;
 }
 
-Result<SkinPlan> plan_of(const SkinText& said, std::span<const Channel> channels) {
-    const auto numbers = numbers_of(said);
+Result<SkinPlan> plan_of(const SkinText& spec, std::span<const Channel> channels) {
+    const auto numbers = numbers_of(spec);
     if (!numbers) return numbers.error();
     SkinPlan plan;
-    plan.name = std::filesystem::path(said.file).stem().string(), plan.sentence = said.title ? said.title->text : "";
-    auto sites = sites_of(said, channels, *numbers);
+    plan.name = std::filesystem::path(spec.file).stem().string(), plan.sentence = spec.title ? spec.title->text : "";
+    auto sites = sites_of(spec, channels, *numbers);
     if (!sites) return sites.error();
     plan.sites = std::move(*sites);
-    const auto seed = numbers->whole(said.seed, "seed", 0, UINT64_MAX, 1);
+    const auto seed = numbers->whole(spec.seed, "seed", 0, UINT64_MAX, 1);
     if (!seed) return seed.error();
     plan.seed = *seed;
-    const auto felt = numbers->number(said.felt_area, "felt_area", "m2", 1e-10, 1, 0);
-    if (!felt) return felt.error();
-    if (said.felt_area && !(plan.sites.area > 0))
-        return said.felt_area->wrong("felt_area wants sites that stand for an area of skin: regions, or area = \"4 mm2\" in [sites]");
-    plan.felt_area = *felt;
-    if (!said.nerve.empty()) {
-        const auto nerve = place_of(said.nerve, "nerve", *numbers);
+    const auto felt_area = numbers->number(spec.felt_area, "felt_area", "m2", 1e-10, 1, 0);
+    if (!felt_area) return felt_area.error();
+    if (spec.felt_area && !(plan.sites.area > 0))
+        return spec.felt_area->wrong("felt_area needs sites that represent an area of skin: regions, or area = \"4 mm2\" in [sites]");
+    plan.felt_area = *felt_area;
+    if (!spec.nerve.empty()) {
+        const auto nerve = position_of(spec.nerve, "nerve", *numbers);
         if (!nerve) return nerve.error();
         plan.nerve = *nerve;
     }
-    auto classes = classes_of(said, plan.sites, *numbers);
+    auto classes = classes_of(spec, plan.sites, *numbers);
     if (!classes) return classes.error();
     plan.classes = std::move(*classes);
-    plan.sources = sources_of(said.source);
+    plan.sources = sources_of(spec.source);
     return plan;
 }
 
@@ -183,9 +184,9 @@ Result<SkinPlan> plan_of(const SkinText& said, std::span<const Channel> channels
 }  // namespace skins
 
 Result<SkinPlan> read_skin_plan(std::string_view text, const std::string& file, std::span<const Channel> channels) {
-    const auto said = skins::read_skin_text(text, file);
-    if (!said) return said.error();
-    return skins::plan_of(*said, channels);
+    const auto spec = skins::read_skin_text(text, file);
+    if (!spec) return spec.error();
+    return skins::plan_of(*spec, channels);
 }
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// Receptive fields: each hot spot a Gaussian over the sites, all of a unit's together a weighted mean.
+// Receptive fields: each hot spot is a Gaussian over the sites; the hot spots of an afferent together are a weighted mean.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -10,18 +10,18 @@
 namespace corpuscle {
 namespace {
 
-constexpr double cut = 3;  // standard deviations at which a hot spot ends
+constexpr double cut = 3;  // a hot spot ends after this many standard deviations
 
-/// To 1e-12: sites as far from their units have the same weight, whatever rounding made of their places. So fields that are alike are
-/// stored once where they are at work.
-double without_noise(double x) {
+/// Rounds to 1e-12, so that sites at equal distances have equal weights in spite of round-off in their positions. Equal fields can then be
+/// stored once.
+double rounded_to_picounits(double x) {
     constexpr double fine = 1099511627776.0;  // 2^40
     return std::floor(x * fine + 0.5) / fine;
 }
 
-/// What units feel, unit after unit.
-struct Felt {
-    std::vector<std::size_t> end;  ///< of each unit
+/// The receptive fields, afferent after afferent.
+struct FieldTable {
+    std::vector<std::size_t> end;  ///< of each afferent
     std::vector<std::uint32_t> site;
     std::vector<double> weight;
 };
@@ -33,28 +33,29 @@ class FieldsOfClass {
     const std::vector<char>& touching_;
     const double per_square_, scale_;
     const std::uint32_t stream_;
-    std::vector<double> felt_;                                 // of each site by the unit in hand
+    std::vector<double> weights_;                              // weight of each site for the current afferent
     std::vector<std::uint32_t> reached_;                       // the sites where it is not 0
     std::vector<std::pair<std::uint32_t, double>> near_spot_;  // sites within reach of a hot spot, and their weights
 
-    void add_spot(const SkinUnit& unit, double x, double y) {
-        const char* reaches = touching_.data() + unit.region * plan_.sites.regions.size();
+    void add_spot(const SkinUnit& afferent, double x, double y) {
+        const char* reaches = touching_.data() + afferent.region * plan_.sites.regions.size();
         near_spot_.clear();
         near_.within(x, y, cut * class_.sigma, [&](std::uint32_t site, double d2) {
             if (reaches[plan_.sites.region[site]]) near_spot_.emplace_back(site, d2);
         });
-        for (auto& s : near_spot_) s.second = num::exp(-without_noise(s.second * per_square_));  // by themselves: their chains overlap
+        // a loop of its own: the exponentials overlap in the pipeline
+        for (auto& s : near_spot_) s.second = num::exp(-rounded_to_picounits(s.second * per_square_));
         for (const auto& [site, w] : near_spot_) {
-            if (felt_[site] == 0) reached_.push_back(site);
-            felt_[site] += w;
+            if (weights_[site] == 0) reached_.push_back(site);
+            weights_[site] += w;
         }
     }
 
-    void add_spots(const SkinUnit& unit) {
-        if (class_.hot_spots <= 1) return add_spot(unit, unit.at.x, unit.at.y);
+    void add_spots(const SkinUnit& afferent) {
+        if (class_.hot_spots <= 1) return add_spot(afferent, afferent.at.x, afferent.at.y);
         for (std::uint32_t h = 0; h < class_.hot_spots; ++h) {
-            const auto by = normals(plan_.seed, unit.copy, stream_, h);
-            add_spot(unit, unit.at.x + class_.hot_spot_spread * by.first, unit.at.y + class_.hot_spot_spread * by.second);
+            const auto by = normals(plan_.seed, afferent.copy, stream_, h);
+            add_spot(afferent, afferent.at.x + class_.hot_spot_spread * by.first, afferent.at.y + class_.hot_spot_spread * by.second);
         }
     }
 
@@ -62,33 +63,33 @@ public:
     FieldsOfClass(const SkinPlan& plan, const SkinClass& c, const NearSites& near, const std::vector<char>& touching)
         : plan_(plan), class_(c), near_(near), touching_(touching), per_square_(c.sigma > 0 ? 0.5 / (c.sigma * c.sigma) : 0),
           scale_(plan.felt_area > 0 && plan.sites.area > 0 ? plan.felt_area / plan.sites.area : 1), stream_(class_stream(c, "hot spots")),
-          felt_(plan.sites.size()) {}
+          weights_(plan.sites.size()) {}
 
-    void add(const SkinUnit& unit, Felt& out) {
+    void add(const SkinUnit& afferent, FieldTable& out) {
         reached_.clear();
-        if (class_.sigma > 0) add_spots(unit);
-        if (reached_.empty()) reached_.push_back(near_.nearest(unit.at.x, unit.at.y)), felt_[reached_[0]] = 1;
+        if (class_.sigma > 0) add_spots(afferent);
+        if (reached_.empty()) reached_.push_back(near_.nearest(afferent.at.x, afferent.at.y)), weights_[reached_[0]] = 1;
         double sum = 0;
-        for (const auto s : reached_) sum += felt_[s];
+        for (const auto s : reached_) sum += weights_[s];
         for (const auto s : reached_) {
-            out.site.push_back(s), out.weight.push_back(felt_[s] * (scale_ / sum));
-            felt_[s] = 0;
+            out.site.push_back(s), out.weight.push_back(weights_[s] * (scale_ / sum));
+            weights_[s] = 0;
         }
         out.end.push_back(out.site.size());
     }
 };
 
-/// The same, site after site.
-ReceptiveFields by_site(const Felt& felt, std::size_t sites) {
+/// The same data, site after site.
+ReceptiveFields by_site(const FieldTable& felt, std::size_t sites) {
     ReceptiveFields out{std::vector<std::size_t>(sites + 1), std::vector<std::uint32_t>(felt.site.size()),
                         std::vector<double>(felt.site.size())};
     for (const auto s : felt.site) ++out.begin[s + 1];
     std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
     std::vector<std::size_t> next(out.begin.begin(), out.begin.end() - 1);
-    for (std::size_t unit = 0, k = 0; unit < felt.end.size(); ++unit)
-        for (; k < felt.end[unit]; ++k) {
+    for (std::size_t afferent = 0, k = 0; afferent < felt.end.size(); ++afferent)
+        for (; k < felt.end[afferent]; ++k) {
             const auto to = next[felt.site[k]]++;
-            out.unit[to] = static_cast<std::uint32_t>(unit), out.weight[to] = felt.weight[k];
+            out.unit[to] = static_cast<std::uint32_t>(afferent), out.weight[to] = felt.weight[k];
         }
     return out;
 }
@@ -101,25 +102,24 @@ std::vector<char> touching_regions(const Sites& sites, const NearSites& near) {
     std::vector<char> out(n * n, 0);
     for (std::size_t r = 0; r < n; ++r) out[r * n + r] = 1;
     if (n == 1) return out;
-    const double reach = 1.5 * num::sqrt(sites.area);  // neighbours, the diagonal ones too
+    const double reach = 1.5 * num::sqrt(sites.area);  // includes diagonal neighbours
     for (std::size_t s = 0; s < sites.size(); ++s)
         near.within(sites.at[s].x, sites.at[s].y, reach,
                     [&](std::uint32_t other, double) { out[sites.region[s] * n + sites.region[other]] = 1; });
     return out;
 }
 
-Result<ReceptiveFields> fields_of(const SkinPlan& plan, std::uint32_t of, std::span<const SkinUnit> units, const NearSites& near,
-                                  const std::vector<char>& touching) {
-    const auto& c = plan.classes[of];
+Result<ReceptiveFields> fields_of(const SkinPlan& plan, std::uint32_t class_index, std::span<const SkinUnit> afferents,
+                                  const NearSites& near, const std::vector<char>& touching) {
+    const auto& c = plan.classes[class_index];
     FieldsOfClass fields(plan, c, near, touching);
-    Felt felt;
-    felt.end.reserve(units.size());
-    for (const auto& u : units) {
+    FieldTable felt;
+    felt.end.reserve(afferents.size());
+    for (const auto& u : afferents) {
         fields.add(u, felt);
         if (felt.site.size() > most_weights)
-            return bad_input(
-                fmt::format("{}: its receptive fields together feel more than {} sites; a smaller sigma or fewer sites would do", c.name,
-                            most_weights));
+            return bad_input(fmt::format("{}: its receptive fields have more than {} weights in total; use a smaller sigma or fewer sites",
+                                         c.name, most_weights));
     }
     return by_site(felt, plan.sites.size());
 }

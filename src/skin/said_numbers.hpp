@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of a population file, with their units and their ranges.
+// Numbers of a population file, with their units and ranges.
 
 #include <cstdint>
 #include <string_view>
@@ -8,18 +8,18 @@
 
 namespace corpuscle::skins {
 
-/// Numbers as a population file writes them. A number whose unit matters says it; a length may leave that to the file's own unit.
+/// Numbers in a population file. A number with a physical unit must be given with it; only a length may use the file's own unit.
 class SaidNumbers {
     std::optional<double> metres_;
 
 public:
     SaidNumbers() = default;
     explicit SaidNumbers(double metres) : metres_(metres) {}
-    /// In SI, within [low, high].
+    /// Converted to SI, within [low, high].
     Result<double> number(const Said&, std::string_view name, std::string_view unit, double low, double high) const;
-    Result<double> number(const MaybeSaid&, std::string_view name, std::string_view unit, double low, double high, double otherwise) const;
+    Result<double> number(const MaybeSaid&, std::string_view name, std::string_view unit, double low, double high, double fallback) const;
     Result<std::uint64_t> whole(const MaybeSaid&, std::string_view name, std::uint64_t low, std::uint64_t high,
-                                std::uint64_t otherwise) const;
+                                std::uint64_t fallback) const;
 };
 
 }  // namespace corpuscle::skins

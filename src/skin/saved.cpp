@@ -1,4 +1,4 @@
-// A skin's state as bytes, and back.
+// Saves and restores the state of a skin as bytes.
 
 #include <fmt/format.h>
 #include <array>
@@ -10,12 +10,13 @@
 namespace corpuscle {
 namespace {
 
-/// "corpsk", the version and a line break. Version 2 ends with a checksum of all before it; version 1, which has none, is read.
+/// "corpsk", the version and a line break. Version 2 ends with a checksum of all bytes before it. Version 1, which has none, can still be
+/// read.
 constexpr std::array<char, 8> skin_magic = {'c', 'o', 'r', 'p', 's', 'k', '2', '\n'},
                               skin_magic_1 = {'c', 'o', 'r', 'p', 's', 'k', '1', '\n'};
 
-/// What a state belongs to, as a number: the units, what they feel and how they are run (FNV-1a).
-class Likeness {
+/// A hash of what a state belongs to: the afferents, their receptive fields and the simulation options (FNV-1a).
+class Fingerprint {
     std::uint64_t value_ = 0xcbf29ce484222325U;
 
 public:
@@ -32,8 +33,8 @@ public:
     std::uint64_t value() const { return value_; }
 };
 
-std::uint64_t likeness(const Skin::Held& held) {
-    Likeness all;
+std::uint64_t fingerprint(const Skin::Held& held) {
+    Fingerprint all;
     const auto& skin = *held.skin;
     all.add(held.run.dt), all.add(static_cast<int>(held.run.method)), all.add(held.run.sampled);
     all.add(held.share.part), all.add(held.share.of), all.add(skin.plan.seed), all.add(skin.plan.sites.size());
@@ -82,7 +83,7 @@ public:
     bool take(T& x) {
         return take(&x, 1);
     }
-    /// A list with its length before it.
+    /// A list preceded by its length.
     template <class T>
     bool take_list(std::vector<T>& list) {
         std::uint64_t count = 0;
@@ -93,14 +94,14 @@ public:
     bool ended() const { return in_.empty(); }
 };
 
-/// A spike without the bytes between its members.
+/// A spike without padding between its members.
 struct PackedSpike {
     std::int64_t step;
     double offset;
     std::uint64_t unit;
 };
 
-/// What stands between a state's magic and its checksum, which must be right.
+/// The bytes between a state's magic number and its checksum, which is verified.
 Result<std::span<const std::byte>> checked_body(std::span<const std::byte> saved) {
     const auto begins = [&](const std::array<char, 8>& magic, std::size_t length) {
         return saved.size() >= magic.size() && std::memcmp(saved.data(), magic.data(), length) == 0;
@@ -110,10 +111,10 @@ Result<std::span<const std::byte>> checked_body(std::span<const std::byte> saved
     if (begins(skin_magic_1, skin_magic_1.size())) return body;
     if (!begins(skin_magic, skin_magic.size()))
         return bad_input(
-            "a saved state of a skin of a later version than 2, the last that this program reads; start from the beginning, "
+            "a saved state of a skin has a later version than 2, the latest that this program can read; start from the beginning, "
             "or use the program that saved it");
     std::uint64_t sum = 0;
-    if (body.size() < sizeof sum) return bad_input("a saved state of a skin is cut short; start from the beginning");
+    if (body.size() < sizeof sum) return bad_input("a saved state of a skin is truncated; start from the beginning");
     std::memcpy(&sum, saved.data() + saved.size() - sizeof sum, sizeof sum);
     if (sum != checksum_of(saved.first(saved.size() - sizeof sum)))
         return bad_input("a saved state of a skin is damaged: its checksum is wrong; start from the beginning");
@@ -127,15 +128,15 @@ std::vector<std::byte> Skin::save() const {
     BytesOut to(out);
     const auto& h = *held_;
     to.put(skin_magic.data(), skin_magic.size());
-    to.put(likeness(h)), to.put(h.step);
+    to.put(fingerprint(h)), to.put(h.step);
     for (const auto w : {h.work.afferent_steps, h.work.at_rest, h.work.spikes, h.work.capped}) to.put(w);
     for (const auto& c : h.crowds) {
         const auto state = c.population->save();
         to.put(std::uint64_t{state.size()}), to.put(state.data(), state.size());
     }
-    const auto late = h.conduction.on_their_way();
-    to.put(std::uint64_t{late.size()});
-    for (const auto& s : late) to.put(PackedSpike{s.step, s.offset, s.unit});
+    const auto in_transit = h.conduction.on_their_way();
+    to.put(std::uint64_t{in_transit.size()});
+    for (const auto& s : in_transit) to.put(PackedSpike{s.step, s.offset, s.unit});
     to.put(checksum_of(out));
     return out;
 }
@@ -145,15 +146,15 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
     auto body = checked_body(saved);
     if (!body) return body.error();
     BytesIn from(*body);
-    std::uint64_t of = 0;
+    std::uint64_t saved_fingerprint = 0;
     std::int64_t step = 0;
     SkinWork work;
-    const auto damaged = bad_input("a saved state of a skin is damaged or cut short; start from the beginning");
-    if (!from.take(of) || !from.take(step)) return damaged;
-    if (of != likeness(h))
+    const auto damaged = bad_input("a saved state of a skin is damaged or truncated; start from the beginning");
+    if (!from.take(saved_fingerprint) || !from.take(step)) return damaged;
+    if (saved_fingerprint != fingerprint(h))
         return bad_input(
-            fmt::format("a saved state of another skin was handed to {}: population, parameters, seed, rate and method must be "
-                        "those it was saved with",
+            fmt::format("a saved state belongs to another skin than {}: population, parameters, seed, rate and method must be those "
+                        "it was saved with",
                         h.skin->plan.name));
     if (!from.take(work.afferent_steps) || !from.take(work.at_rest) || !from.take(work.spikes) || !from.take(work.capped) || step < 0)
         return damaged;
@@ -163,14 +164,14 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
         if (!from.take_list(s)) return damaged;
     std::vector<PackedSpike> packed;
     if (!from.take_list(packed) || !from.ended()) return damaged;
-    std::vector<Spike> late;
+    std::vector<Spike> in_transit;
     for (const auto& s : packed) {
-        late.push_back({s.step, s.offset, static_cast<std::uint32_t>(s.unit)});
-        if (s.unit >= h.skin->units.size() || !h.conduction.can_carry(late.back(), step - 1)) return damaged;
+        in_transit.push_back({s.step, s.offset, static_cast<std::uint32_t>(s.unit)});
+        if (s.unit >= h.skin->units.size() || !h.conduction.can_carry(in_transit.back(), step - 1)) return damaged;
     }
     for (std::size_t c = 0; c < states.size(); ++c)
         if (auto ok = h.crowds[c].population->resume(states[c]); !ok || h.crowds[c].population->step() != step) return damaged;
-    h.conduction.put_back(late, step - 1);
+    h.conduction.put_back(in_transit, step - 1);
     h.step = step, h.work = work;
     return {};
 }

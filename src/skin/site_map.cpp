@@ -18,27 +18,27 @@
 namespace corpuscle {
 namespace {
 
-using SitePlaces = std::unordered_map<std::string_view, std::uint32_t>;
+using SiteIndex = std::unordered_map<std::string_view, std::uint32_t>;
 
-SitePlaces places_of(const Sites& sites) {
-    SitePlaces places;
-    for (std::size_t s = 0; s < sites.size(); ++s) places.emplace(sites.names[s], static_cast<std::uint32_t>(s));
-    return places;
+SiteIndex index_sites(const Sites& sites) {
+    SiteIndex index;
+    for (std::size_t s = 0; s < sites.size(); ++s) index.emplace(sites.names[s], static_cast<std::uint32_t>(s));
+    return index;
 }
 
 std::string no_such_site(const Sites& sites, std::string_view name) {
     const std::vector<std::string_view> some(sites.names.begin(),
                                              sites.names.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(sites.size(), 1000)));
-    return fmt::format("no site is called '{}'{}; the first are {}; 'corpuscle list POPULATION --sites' prints all", name.substr(0, 64),
+    return fmt::format("there is no site '{}'{}; the first are {}; 'corpuscle list POPULATION --sites' prints all", name.substr(0, 64),
                        did_you_mean(name, some),
                        fmt::join(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(some.size(), 3)), ", "));
 }
 
-/// One row after another of a layout.
+/// Reads a layout row by row.
 class SiteMapReader {
     Lines lines_;
     const Sites& sites_;
-    SitePlaces places_;
+    SiteIndex index_;
     Dialect dialect_;
     Fields fields_;
     std::string_view line_;
@@ -46,9 +46,9 @@ class SiteMapReader {
     std::vector<std::optional<std::uint32_t>> map_;
     std::vector<char> taken_;
 
-    Error at(std::string sentence, std::size_t field) const {
+    Error error_at(std::string message, std::size_t field) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
-        return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
+        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
     }
 
     Result<bool> next_row() {
@@ -70,31 +70,32 @@ class SiteMapReader {
             if (word == "name") name_ = f;
         }
         if (channel_ && name_) return {};
-        return at("a layout of frames needs the columns channel and name: channel counts the numbers of a frame from 1, name is a site",
-                  fields_.size());
+        return error_at(
+            "a layout of frames needs the columns channel and name: channel is the number of a value in the frame, from 1; name is a site",
+            fields_.size());
     }
 
     Result<void> add_row() {
-        if (fields_.size() <= std::max(*channel_, *name_)) return at("this row has too few columns", fields_.size());
+        if (fields_.size() <= std::max(*channel_, *name_)) return error_at("this row has too few columns", fields_.size());
         const auto number = fields_[*channel_], name = fields_[*name_];
         std::size_t channel = 0;
         const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), channel);
         if (status != std::errc{} || end != number.data() + number.size() || channel < 1 || channel > sites_.size())
-            return at(
-                fmt::format("channel '{}': a number from 1 to {} is needed, the number of sites", number.substr(0, 64), sites_.size()),
+            return error_at(
+                fmt::format("channel '{}': must be a number from 1 to {}, the number of sites", number.substr(0, 64), sites_.size()),
                 *channel_);
-        const auto place = places_.find(name);
-        if (place == places_.end()) return at(no_such_site(sites_, name), *name_);
+        const auto entry = index_.find(name);
+        if (entry == index_.end()) return error_at(no_such_site(sites_, name), *name_);
         if (map_.size() < channel) map_.resize(channel);
-        if (std::exchange(taken_[place->second], 1)) return at(fmt::format("site '{}' has two channels", name), *name_);
-        if (map_[channel - 1]) return at(fmt::format("channel {} has two rows", channel), *channel_);
-        map_[channel - 1] = place->second;
+        if (std::exchange(taken_[entry->second], 1)) return error_at(fmt::format("site '{}' has two channels", name), *name_);
+        if (map_[channel - 1]) return error_at(fmt::format("channel {} has two rows", channel), *channel_);
+        map_[channel - 1] = entry->second;
         return {};
     }
 
 public:
     SiteMapReader(Lines lines, const Sites& sites)
-        : lines_(std::move(lines)), sites_(sites), places_(places_of(sites)), taken_(sites.size()) {}
+        : lines_(std::move(lines)), sites_(sites), index_(index_sites(sites)), taken_(sites.size()) {}
 
     Result<std::vector<std::uint32_t>> read() {
         if (auto ok = read_header(); !ok) return ok.error();
@@ -108,7 +109,7 @@ public:
         std::vector<std::uint32_t> out;
         for (const auto& site : map_) {
             if (!site)
-                return bad_input(fmt::format("channel {} has no row, and channel {} has one", out.size() + 1, map_.size()),
+                return bad_input(fmt::format("channel {} has no row, although channel {} has one", out.size() + 1, map_.size()),
                                  {lines_.path()});
             out.push_back(*site);
         }
@@ -120,29 +121,29 @@ public:
 }  // namespace
 
 Result<std::vector<std::uint32_t>> sites_named(const Sites& sites, std::span<const std::string> names) {
-    const auto places = places_of(sites);
+    const auto index = index_sites(sites);
     std::vector<char> taken(sites.size());
     std::vector<std::uint32_t> found;
     for (const auto& name : names) {
-        const auto at = places.find(name);
-        if (at == places.end()) return bad_input(no_such_site(sites, name));
-        if (std::exchange(taken[at->second], 1)) return bad_input(fmt::format("two channels are called '{}', which is one site", name));
+        const auto at = index.find(name);
+        if (at == index.end()) return bad_input(no_such_site(sites, name));
+        if (std::exchange(taken[at->second], 1)) return bad_input(fmt::format("two channels have the name '{}', which is one site", name));
         found.push_back(at->second);
     }
     return found;
 }
 
 Result<std::optional<std::vector<std::uint32_t>>> sites_if_named(const Sites& sites, std::span<const std::string> names) {
-    std::unordered_set<std::string> known;  // in small letters: 'R1C1' is meant as a name
+    std::unordered_set<std::string> known;  // in lower case: 'R1C1' also counts as a name
     for (const auto& name : sites.names) known.insert(lower(name));
     const auto is_site = [&](const std::string& name) { return known.contains(lower(name)); };
     std::vector<std::string> bare;
     for (const auto& name : names) bare.push_back(is_site(name) ? name : parse_heading(name).name);
     if (std::none_of(bare.begin(), bare.end(), is_site)) return std::optional<std::vector<std::uint32_t>>();
     for (const auto& name : bare) {
-        const auto first = name.substr(0, name.rfind(" ("));  // a recording's second channel of one name is "r1c1 (2)"
+        const auto first = name.substr(0, name.rfind(" ("));  // the second channel of a recording with the same name is "r1c1 (2)"
         if (!is_site(name) && name.ends_with(')') && is_site(first))
-            return bad_input(fmt::format("two channels are called '{}', which is one site", first));
+            return bad_input(fmt::format("two channels have the name '{}', which is one site", first));
     }
     auto found = sites_named(sites, bare);
     return found ? std::optional(std::move(*found)) : Result<std::optional<std::vector<std::uint32_t>>>(found.error());

@@ -24,9 +24,9 @@ class SiteTable {
     double metres_[2] = {};
     std::size_t columns_ = 0;
 
-    Error at(std::string sentence, std::size_t field = std::string::npos) const {
+    Error error_at(std::string message, std::size_t field = std::string::npos) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
-        return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
+        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
     }
 
     Result<bool> next_line() {
@@ -53,27 +53,28 @@ class SiteTable {
                 if (word != std::string(1, "xy"[axis])) continue;
                 const auto unit = parse_unit(heading.unit);
                 if (heading.unit.empty() || !unit || !unit->same_kind(*parse_unit("m")))
-                    return at(fmt::format("column '{0}' does not say its unit of length; write {1}_mm or {1}_m", fields_[f], word), f);
+                    return error_at(fmt::format("column '{0}' needs a unit of length; write {1}_mm or {1}_m", fields_[f], word), f);
                 axes_[axis] = f, metres_[axis] = unit->factor;
             }
         }
         if (!name_ || !axes_[0] || !axes_[1])
-            return at(
-                fmt::format("a table of sites needs the columns name, x and y (x_mm, y_mm); this one has: {}", fmt::join(fields_, ", ")));
+            return error_at(
+                fmt::format("a table of sites needs the columns name, x and y (x_mm, y_mm); this one has {}", fmt::join(fields_, ", ")));
         return {};
     }
 
     Result<void> add_site(Sites& out) const {
-        if (fields_.size() != columns_) return at(fmt::format("{} columns where {} should be", fields_.size(), columns_));
-        double place[2];
+        if (fields_.size() != columns_) return error_at(fmt::format("{} columns instead of {}", fields_.size(), columns_));
+        double position[2];
         for (std::size_t axis = 0; axis < 2; ++axis) {
-            if (!dialect_.number(fields_[*axes_[axis]], place[axis]))
-                return at(fmt::format("'{}' where a coordinate should be", fields_[*axes_[axis]].substr(0, 40)), *axes_[axis]);
-            place[axis] *= metres_[axis];
-            if (!(std::abs(place[axis]) <= 10)) return at(fmt::format("{:g} m is not on a skin", place[axis]), *axes_[axis]);
+            if (!dialect_.number(fields_[*axes_[axis]], position[axis]))
+                return error_at(fmt::format("'{}' is not a coordinate", fields_[*axes_[axis]].substr(0, 40)), *axes_[axis]);
+            position[axis] *= metres_[axis];
+            if (!(std::abs(position[axis]) <= 10))
+                return error_at(fmt::format("{:g} m is too far away: coordinates must be within 10 m", position[axis]), *axes_[axis]);
         }
-        if (out.size() == most_sites) return at(fmt::format("more than {} sites", most_sites));
-        out.at.push_back({place[0], place[1], 0}), out.names.emplace_back(fields_[*name_]);
+        if (out.size() == most_sites) return error_at(fmt::format("more than {} sites", most_sites));
+        out.at.push_back({position[0], position[1], 0}), out.names.emplace_back(fields_[*name_]);
         const std::string region(region_ ? fields_[*region_] : "skin");
         const auto found = std::find(out.regions.begin(), out.regions.end(), region);
         out.region.push_back(static_cast<std::uint32_t>(found - out.regions.begin()));

@@ -6,7 +6,7 @@ namespace corpuscle {
 
 Result<Sites> grid_sites(std::size_t rows, std::size_t columns, double pitch) {
     if (rows == 0 || columns == 0 || rows > most_sites || columns > most_sites || rows * columns > most_sites)
-        return bad_input(fmt::format("a grid of {} rows and {} columns; 1 to {} sites are wanted", rows, columns, most_sites));
+        return bad_input(fmt::format("a grid of {} rows and {} columns: it must have 1 to {} sites", rows, columns, most_sites));
     if (!(pitch > 0 && pitch <= 1)) return bad_input(fmt::format("a grid's pitch of {:g} m is outside (0, 1] m", pitch));
     Sites out;
     out.regions = {"grid"};
@@ -21,14 +21,14 @@ Result<Sites> grid_sites(std::size_t rows, std::size_t columns, double pitch) {
 
 Result<Sites> channel_sites(std::span<const Channel> channels) {
     if (channels.empty() || channels.size() > most_sites)
-        return bad_input(fmt::format("{} channels as sites of a skin; 1 to {} are wanted", channels.size(), most_sites));
+        return bad_input(fmt::format("{} channels as sites of a skin: there must be 1 to {}", channels.size(), most_sites));
     Sites out;
     out.regions = {"channels"};
     out.region.assign(channels.size(), 0);
     for (const auto& c : channels) {
         if (!c.position)
             return bad_input(
-                fmt::format("channel '{}' has no place on the skin; a layout file says where each one sits "
+                fmt::format("channel '{}' has no position on the skin; give a layout file with all positions "
                             "(--layout, columns channel, x_mm, y_mm)",
                             c.name));
         out.at.push_back(*c.position);

@@ -1,6 +1,6 @@
 #pragma once
-// Skin at work: force at the sites in, spikes of all its afferents out, block by block. Blocks of any size, threads and instruction
-// sets give the same spikes to the bit; so does a skin that was saved and resumed.
+// A skin in simulation: force at the sites in, spikes of all its afferents out, block by block. The spikes are the same bit for bit for all
+// block sizes, numbers of threads and instruction sets. This also holds for a skin that was saved and resumed.
 
 #include <cstddef>
 #include <memory>
@@ -18,43 +18,43 @@ namespace corpuscle {
 struct SiteForce {
     const double* of = nullptr;
     std::size_t stride = 0;
-    /// The sites that are not 0 all through the block, rising; the others are not read.
+    /// The sites that are not 0 during the whole block, rising; the others are not read.
     std::span<const std::uint32_t> touched = {};
-    bool all = true;  ///< no list of touched ones: look at all
+    bool all = true;  ///< no list is given: all sites are read
 };
 
-/// Which of a skin's afferents one process has: an equal range of each class.
+/// The afferents of a skin that one process simulates: part `part` of `of` equal ranges of each class.
 struct SkinShare {
     std::uint32_t part = 0, of = 1;
 };
 
-/// What was done.
+/// Statistics of a run.
 struct SkinWork {
     std::int64_t steps = 0;           ///< samples of each site
-    std::int64_t afferent_steps = 0;  ///< worked out
-    std::int64_t at_rest = 0;         ///< afferent-steps passed over: no force came, and nothing in them could change
-    std::int64_t spikes = 0;          ///< told
-    std::int64_t capped = 0;          ///< steps whose spikes were more than the cap allows
+    std::int64_t afferent_steps = 0;  ///< simulated
+    std::int64_t at_rest = 0;         ///< steps of afferents that were skipped: no force, and no state could change
+    std::int64_t spikes = 0;          ///< spikes that arrived
+    std::int64_t capped = 0;          ///< steps that reached the limit of spikes per step
 };
 
 class Skin {
 public:
-    /// Without noise, sensors and converters: see goes_on_lanes().
+    /// Sensors, converters and noise are not supported: see can_use_lanes().
     static Result<std::unique_ptr<Skin>> make(const std::shared_ptr<const Innervation>&, const Run&, InstructionSet, SkinShare = {});
     ~Skin();
 
     const Innervation& innervation() const;
     std::size_t sites() const;
-    std::int64_t step() const;  ///< samples answered so far
+    std::int64_t step() const;  ///< samples simulated so far
     const SkinWork& work() const;
 
-    /// Answers the next block; appends to `spikes` those that arrive in it, in order of time, then unit. After the first blocks of
-    /// its kind it allocates nothing with one thread, unless a step has more spikes than ever before.
+    /// Simulates the next block. Appends to `spikes` those that arrive in it, in order of time, then afferent. With one thread it allocates
+    /// nothing after the first blocks, unless a step has more spikes than any before.
     Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>& spikes, Pool&);
-    /// Those still on their way to where the nerve is listened to.
+    /// Returns the spikes that are still in transit to the recording point.
     void last(std::vector<Spike>& spikes);
 
-    /// All that it carries; packed by resume's own format. The same skin, made anew, goes on from there.
+    /// The complete state, in a format of its own. A new skin made with the same arguments can resume from it.
     std::vector<std::byte> save() const;
     Result<void> resume(std::span<const std::byte>);
 

@@ -1,4 +1,4 @@
-// A population file's TOML; the one place of the room that knows toml++.
+// Reads the TOML of a population file. Only this file of src/skin uses toml++.
 
 #include "skin/text.hpp"
 
@@ -21,13 +21,13 @@ const Names class_keys = {"name",      "afferent",        "set",      "spread", 
 const Names class_sources = {"afferent", "set",       "spread",          "density",  "per_site",
                              "sigma",    "hot_spots", "hot_spot_spread", "velocity", "velocity_spread"};
 
-/// What TOML of a population means.
+/// Reads the tables of a population file.
 class SkinReading : public TomlReading {
 public:
     using TomlReading::TomlReading;
 
     Said wanted(const toml::table& from, std::string_view name, std::string_view where, std::string_view example) {
-        if (auto said = scalar(from, name)) return *said;
+        if (auto value = scalar(from, name)) return *value;
         refuse(from.source(), fmt::format("{}: {} is missing: {} = {}", where, name, name, example));
         return {};
     }
@@ -35,37 +35,38 @@ public:
     Pair pair(const toml::node& node, std::string_view name) {
         const auto* array = node.as_array();
         if (array && array->size() == 2) return list(*array, name);
-        refuse(node.source(), fmt::format("{}: a place wants two numbers, [x, y]", name));
+        refuse(node.source(), fmt::format("{}: a position needs two numbers, [x, y]", name));
         return {};
     }
 
     std::vector<Pair> places(const toml::node& node, std::string_view name) {
         std::vector<Pair> out;
         const auto* array = node.as_array();
-        if (!array) return refuse(node.source(), fmt::format("{} wants places: [[x, y], [x, y] ...]", name)), out;
+        if (!array) return refuse(node.source(), fmt::format("{} needs positions: [[x, y], [x, y] ...]", name)), out;
         for (const auto& one : *array) out.push_back(pair(one, name));
         return out;
     }
 
     void shape(const toml::node& node, std::vector<SaidShape>& out) {
         const auto* table = node.as_table();
-        if (!table) return refuse(node.source(), "a shape wants a table, such as {capsule = [[0, 0], [0, 20]], width = 16}");
+        if (!table) return refuse(node.source(), "a shape must be a table, such as {capsule = [[0, 0], [0, 20]], width = 16}");
         only(*table, shape_keys, "a shape: ");
         SaidShape s;
         for (const auto kind : shape_kinds) {
             const auto* points = table->get(kind);
             if (!points) continue;
-            if (!s.kind.text.empty()) return refuse(points->source(), fmt::format("a shape is a {} or a {}, not both", s.kind.text, kind));
+            if (!s.kind.text.empty())
+                return refuse(points->source(), fmt::format("a shape must be a {} or a {}, not both", s.kind.text, kind));
             s.kind = {std::string(kind), place(node.source())};
             if (kind == "ellipse")
                 s.points.push_back(pair(*points, kind));
             else
                 s.points = places(*points, kind);
         }
-        if (s.kind.text.empty()) return refuse(node.source(), fmt::format("a shape is one of {}", fmt::join(shape_kinds, ", ")));
+        if (s.kind.text.empty()) return refuse(node.source(), fmt::format("a shape must be one of {}", fmt::join(shape_kinds, ", ")));
         if (const auto* width = table->get("width")) s.width = width->is_array() ? list(*width->as_array(), "width") : std::vector<Said>{};
         if (const auto* width = table->get("width"); width && !width->is_array())
-            if (auto said = scalar(*width, "width")) s.width.push_back(*said);
+            if (auto value = scalar(*width, "width")) s.width.push_back(*value);
         s.height = scalar(*table, "height"), s.angle = scalar(*table, "angle");
         out.push_back(std::move(s));
     }
@@ -75,14 +76,14 @@ public:
         SaidRegion r{wanted(from, "name", "[[region]]", "\"palm\""), {}};
         const auto* shapes = from.get("shapes");
         if (!shapes || !shapes->is_array())
-            return refuse(shapes ? shapes->source() : from.source(), "[[region]]: shapes wants a list: shapes = [{capsule = ...}]");
+            return refuse(shapes ? shapes->source() : from.source(), "[[region]]: shapes must be a list: shapes = [{capsule = ...}]");
         for (const auto& one : *shapes->as_array()) shape(one, r.shapes);
         out.push_back(std::move(r));
     }
 
     void site(const toml::node& node, std::vector<SaidSite>& out) {
         const auto* table = node.as_table();
-        if (!table) return refuse(node.source(), "a site wants a table, such as {name = \"tip\", x = 0, y = 2}");
+        if (!table) return refuse(node.source(), "a site must be a table, such as {name = \"tip\", x = 0, y = 2}");
         only(*table, site_keys, "a site: ");
         out.push_back({wanted(*table, "name", "a site", "\"tip\""), wanted(*table, "x", "a site", "0"), wanted(*table, "y", "a site", "2"),
                        scalar(*table, "region")});
@@ -92,7 +93,7 @@ public:
         SaidSites out{place(node.source()), {}, {}, {}, {}, {}, {}, {}};
         if (node.is_string()) return out.word = scalar(node, "sites"), out;
         const auto* table = node.as_table();
-        if (!table) return refuse(node.source(), "sites wants a table, [sites] on a line of its own, or sites = \"channels\""), out;
+        if (!table) return refuse(node.source(), "sites must be a table, [sites] on a line of its own, or sites = \"channels\""), out;
         only(*table, sites_keys, "[sites]: ");
         out.rows = scalar(*table, "rows"), out.columns = scalar(*table, "columns");
         out.pitch = scalar(*table, "pitch"), out.area = scalar(*table, "area");
@@ -102,12 +103,12 @@ public:
             out.listed = true;
             for (const auto& one : *array) site(one, out.list);
         } else if (list && !list->is_string()) {
-            refuse(list->source(), "list wants sites, list = [{name = \"tip\", x = 0, y = 2}], or the name of a table of them");
+            refuse(list->source(), "list must contain sites, list = [{name = \"tip\", x = 0, y = 2}], or be the name of a file with them");
         }
         return out;
     }
 
-    /// A table of texts under a name, each of them of a known one.
+    /// A table of texts; if `known` is not empty, only these keys are allowed.
     void named(const toml::table& from, std::string_view name, const Names& known, std::vector<SaidSetting>& out) {
         const auto* inner = table(from, name);
         if (!inner) return;

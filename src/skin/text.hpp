@@ -1,5 +1,5 @@
 #pragma once
-// What a population file says, word by word, before anybody knows what it means.
+// The contents of a population file as text, before interpretation.
 
 #include <string_view>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace corpuscle::skins {
 
-using Pair = std::vector<Said>;  ///< two, if it is right
+using Pair = std::vector<Said>;  ///< two elements in a valid file
 
 /// One shape of a region: { strip = [[x, y], [x, y]], width = [a, b] }.
 struct SaidShape {
-    Said kind;  ///< "strip"; its place is that of the whole
+    Said kind;  ///< "strip"; its location is that of the shape
     std::vector<Pair> points;
     std::vector<Said> width;
     MaybeSaid height, angle;
@@ -58,7 +58,7 @@ struct SkinText {
     std::vector<SaidSetting> source;
 };
 
-/// Reads TOML. Keys that nobody knows, and values of the wrong kind, are refused.
+/// Reads TOML. Refuses unknown keys, and values of the wrong type.
 Result<SkinText> read_skin_text(std::string_view text, const std::string& file);
 
 }  // namespace corpuscle::skins

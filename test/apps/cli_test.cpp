@@ -276,7 +276,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond none.csv", 1, "none.csv: cannot be opened: No such file or directory"},
         {"respond pres", 1, "unknown stimulus 'pres'; did you mean 'press'? (and there is no file 'pres')"},
         {"respond press -a sa9", 1,
-         "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')"},
+         "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
+         "'sa1b+lif-b')"},
         {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'"},
         {"respond press --set fa2.k=1", 2, "--set fa2.k=1: no afferent or stimulus 'fa2' takes part; did you mean 'fa1'?"},
         {"respond press --set f_B=1", 2, "'f_B=1' is no setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
@@ -371,7 +372,7 @@ TEST(Program, AStateThatIsNoLongerANumberIsToldNotHidden) {
     const auto ran =
         run(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
     EXPECT_EQ(ran.status, 3);
-    EXPECT_NE(ran.err.find("sa1b+adex on press: sa1b+adex: its state left the finite numbers"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("sa1b+adex on press: sa1b+adex: its state became NaN or infinite"), std::string::npos) << ran.err;
     EXPECT_TRUE(folder.names().empty());
 }
 

@@ -442,11 +442,11 @@ TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
     EXPECT_EQ(sure(map("# of a palm\nchannel,name,gain\n2,r1c2,1\n1,r2c2,1\n")), (std::vector<std::uint32_t>{4, 1}));
     EXPECT_EQ(sure(map("sensor;name\n1;r1c1\n")), (std::vector<std::uint32_t>{0}));
     for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
-             {"channel,name\n1,r3c1\n", "palm.csv:2:3: no site is called 'r3c1'; did you mean"},
-             {"channel,name\n1,r1c1\n3,r1c2\n", "channel 2 has no row, and channel 3 has one"},
+             {"channel,name\n1,r3c1\n", "palm.csv:2:3: there is no site 'r3c1'; did you mean"},
+             {"channel,name\n1,r1c1\n3,r1c2\n", "channel 2 has no row, although channel 3 has one"},
              {"channel,name\n1,r1c1\n1,r1c2\n", "palm.csv:3:1: channel 1 has two rows"},
              {"channel,name\n1,r1c1\n2,r1c1\n", "palm.csv:3:3: site 'r1c1' has two channels"},
-             {"channel,name\n0,r1c1\n", "palm.csv:2:1: channel '0': a number from 1 to 6 is needed"},
+             {"channel,name\n0,r1c1\n", "palm.csv:2:1: channel '0': must be a number from 1 to 6"},
              {"channel,x_mm\n1,2\n", "needs the columns channel and name"},
              {"channel,name\n", "no channels in this layout"},
              {"", "needs the columns channel and name"}}) {
@@ -464,10 +464,10 @@ TEST(SiteMap, NamesAreAllOfSitesOrNotOne) {
     EXPECT_EQ(*sure(found({"r2c1"})), std::vector<std::uint32_t>{2});
     EXPECT_FALSE(sure(found({"fx", "fy", "fz", "r3c3"})));
     for (const auto& [names, said] :
-         std::vector<std::pair<Names, std::string>>{{{"r1c1", "r2cl"}, "no site is called 'r2cl'; did you mean"},
-                                                    {{"R1C1", "R1C2"}, "no site is called 'R1C1'; did you mean 'r1c1'"},
-                                                    {{"r1c1", "r1c1"}, "two channels are called 'r1c1', which is one site"},
-                                                    {{"r1c1", "r1c1 (2)"}, "two channels are called 'r1c1', which is one site"}}) {
+         std::vector<std::pair<Names, std::string>>{{{"r1c1", "r2cl"}, "there is no site 'r2cl'; did you mean"},
+                                                    {{"R1C1", "R1C2"}, "there is no site 'R1C1'; did you mean 'r1c1'"},
+                                                    {{"r1c1", "r1c1"}, "two channels have the name 'r1c1', which is one site"},
+                                                    {{"r1c1", "r1c1 (2)"}, "two channels have the name 'r1c1', which is one site"}}) {
         const auto refused = found(names);
         ASSERT_FALSE(refused) << names[1];
         EXPECT_NE(refused.error().sentence.find(said), std::string::npos) << refused.error().sentence;
@@ -486,7 +486,7 @@ TEST(CHeader, TellsWhatIsWrongAndGoesOnFromWhatWasSaved) {
     std::vector<double> all, second;
     const double force = 2;
     EXPECT_EQ(corpuscle_push(one, &force, 2, list, &all), -1);
-    EXPECT_STREQ(corpuscle_error(one), "a frame of 2 forces for 1 sites");
+    EXPECT_STREQ(corpuscle_error(one), "a frame has 2 forces, but there are 1 sites");
     for (int k = 0; k < 1000; ++k) {
         if (k == 150) {
             std::vector<char> state(corpuscle_save(one, nullptr, 0));
@@ -526,7 +526,7 @@ TEST(CHeader, TakesSettingsOfAPopulationsClasses) {
         return count;
     };
     EXPECT_GT(spikes({"sa1.V_th=300mV"}), spikes({}));
-    for (const auto& [setting, said] : {std::pair{"sa9.V_th=1V", "no 'sa9' takes part; did you mean 'sa1'?"},
+    for (const auto& [setting, said] : {std::pair{"sa9.V_th=1V", "there is no 'sa9' here; did you mean 'sa1'?"},
                                         {"sa1.V=1V", "unknown parameter 'V'"},
                                         {"sa1", "write NAME.PARAMETER=VALUE"}}) {
         EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &setting, 1, error, sizeof error), nullptr);

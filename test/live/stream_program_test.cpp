@@ -214,7 +214,7 @@ TEST(StreamProgram, AReaderThatGoesIsToldAndEndsIt) {
     child.close_out();
     child.send(some_lines(1000));
     EXPECT_EQ(child.wait(), 1) << child.told();
-    EXPECT_NE(child.told().find("nobody reads standard output any more"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("the reader of standard output has closed it"), std::string::npos) << child.told();
 }
 
 TEST(StreamProgram, WhoListensMayGoAndComeBack) {
@@ -407,7 +407,7 @@ TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
     Child stamped(folder, with({"--channels", "2", "--stamp", "count"}));
     stamped.send("1,1,1\n2.5,1,1\n"), stamped.close_in();
     EXPECT_EQ(stamped.wait(), 0);
-    EXPECT_TRUE(stamped.said("frame 2 does not begin with its count, a whole number")) << stamped.told();
+    EXPECT_TRUE(stamped.said("frame 2 does not begin with its sequence number, an integer")) << stamped.told();
 }
 
 // --- names in the header
@@ -457,8 +457,8 @@ TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefu
         EXPECT_TRUE(child.said(said)) << child.told();
         EXPECT_EQ(child.told().find("could not be read"), std::string::npos) << child.told();
     };
-    refused("r1c1,r1c2,r2cl,r2c2", "header: no site is called 'r2cl'; did you mean 'r2c1'");
-    refused("r1c1,r1c2,r1c1,r2c2", "header: two channels are called 'r1c1', which is one site");
+    refused("r1c1,r1c2,r2cl,r2c2", "header: there is no site 'r2cl'; did you mean 'r2c1'");
+    refused("r1c1,r1c2,r1c1,r2c2", "header: two channels have the name 'r1c1', which is one site");
     refused("r1c1,r1c2,r2c1,r2c2", "number 1 is site 'r1c1' by name, and 'r2c1' by", {"--layout", folder / "turned.csv"});
 }
 
@@ -477,7 +477,7 @@ TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
     send(pressed("r1c1,r1c2,r2cl,r2c2", 0));
     send(pressed("r2c2,r2c1,r1c1,r1c2", 1));
     EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_TRUE(child.said("no site is called 'r2cl'; did you mean 'r2c1'")) << child.told();
+    EXPECT_TRUE(child.said("there is no site 'r2cl'; did you mean 'r2c1'")) << child.told();
     const auto spikes = test::read_file(folder / "x.csv");
     EXPECT_NE(spikes.find("sa1#3,"), std::string::npos) << spikes;
     EXPECT_EQ(spikes.find("sa1#1,"), std::string::npos) << spikes;
@@ -497,8 +497,8 @@ TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
     EXPECT_NE(turned.out.find("sa1#4,"), std::string::npos) << turned.err;
     EXPECT_EQ(free.out, in_order.out);
     for (const auto& [header, said] :
-         {std::pair{"r2c2,r2c1,r2c2,r1c2", "x: two channels are called 'r2c2', which is one site; --layout FILE"},
-          {"r2c2,r2cl,r1c1,r1c2", "x: no site is called 'r2cl'; did you mean 'r2c1'"}}) {
+         {std::pair{"r2c2,r2c1,r2c2,r1c2", "x: two channels have the name 'r2c2', which is one site; --layout FILE"},
+          {"r2c2,r2cl,r1c1,r1c2", "x: there is no site 'r2cl'; did you mean 'r2c1'"}}) {
         const auto refused = recorded(header);
         EXPECT_EQ(refused.status, 1);
         EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
@@ -683,7 +683,7 @@ TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
         {"--in pres --pace fast", "did you mean 'press'?"},
         {"--rate 1kHz --unit mmHg", "say --scale S"},
         {"--rate 1kHz --set sa9.f_B=25Hz", "did you mean 'sa1'?"},
-        {"--rate 1kHz --in serial:/dev/null", "this is no serial device"},
+        {"--rate 1kHz --in serial:/dev/null", "this is not a serial device"},
         {"--rate 1kHz --to 7000 -o x.csv", "spikes go to one of them"},
         {"--rate 1kHz --json", "--json prints on standard output"},
         {"--rate 1kHz --set sa1.nothing=1", "nothing"},

@@ -117,7 +117,7 @@ TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndImpossibleOne
     const auto refused = victor_purpura(a, b, 1e-4);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().sentence.substr(0, 83),
-              "at a cost of 0.0001 a second, 100000 and 100000 spikes are 10000000000 pairs within");
+              "at a cost of 0.0001 per second, 100000 and 100000 spikes have 10000000000 pairs within");
 }
 
 // 25 million pairs, of which choices are kept of 4 million at once.

@@ -316,12 +316,12 @@ TEST(Population, WhatCannotStandSideBySideIsRefused) {
         return sure(plan_afferent(name, test::wishes(settings)));
     };
     EXPECT_EQ(refused({plan("sa1"), plan("sa1", {"sa1.f_B=30"})}), "");
-    EXPECT_NE(refused({plan("sa1"), plan("fa1")}).find("cannot hold"), std::string::npos);
-    EXPECT_NE(refused({plan("sa1b+adex"), plan("sa1b+adex", {"sa1b+adex.substep=10us"})}).find("substep is one for all"),
+    EXPECT_NE(refused({plan("sa1"), plan("fa1")}).find("cannot contain"), std::string::npos);
+    EXPECT_NE(refused({plan("sa1b+adex"), plan("sa1b+adex", {"sa1b+adex.substep=10us"})}).find("substep must be the same"),
               std::string::npos);
-    EXPECT_NE(refused({plan("fsr+sa1")}).find("do not go on lanes"), std::string::npos);
-    EXPECT_NE(refused({plan("sa1")}, {.noise = 1e-9}).find("do not go on lanes"), std::string::npos);
-    EXPECT_NE(refused({}).find("0 units"), std::string::npos);
+    EXPECT_NE(refused({plan("fsr+sa1")}).find("cannot run on SIMD lanes"), std::string::npos);
+    EXPECT_NE(refused({plan("sa1")}, {.noise = 1e-9}).find("cannot run on SIMD lanes"), std::string::npos);
+    EXPECT_NE(refused({}).find("0 afferents"), std::string::npos);
 }
 
 TEST(Population, ItsForceKeepsToOneWay) {

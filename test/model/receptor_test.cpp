@@ -132,9 +132,9 @@ TEST(Afferent, TouchSimsNamesAndOtherSpellingsAreAccepted) {
 }
 
 TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
-    EXPECT_EQ(
-        plan_afferent("sa", {}).error().sentence,
-        "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a transduction and a neuron join as 'sa1b+lif-b')");
+    EXPECT_EQ(plan_afferent("sa", {}).error().sentence,
+              "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
+              "'sa1b+lif-b')");
     EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().sentence,
               "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
     EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.V_reset=600mV"})).error().sentence, "sa1: V_reset = 0.6 must be below V_th = 0.5");

@@ -175,18 +175,18 @@ TEST(Spread, OfWhatCannotDifferIsRefusedByName) {
     } cases[] = {
         {"sa1b+adex",
          {"sa1b+adex.substep=10%"},
-         "--spread sa1b+adex.substep=10%: substep is one number for all copies; --set sa1b+adex.substep changes it"},
-        {"sa1-kim", {"sa1-kim.word=1"}, "--spread sa1-kim.word=1: word is one number for all copies; --set sa1-kim.word changes it"},
+         "--spread sa1b+adex.substep=10%: substep has one value for all copies; --set sa1b+adex.substep changes it"},
+        {"sa1-kim", {"sa1-kim.word=1"}, "--spread sa1-kim.word=1: word has one value for all copies; --set sa1-kim.word changes it"},
         {"sa1",
          {"sa1.f_b=10%"},
          "sa1: unknown parameter 'f_b'; did you mean 'f_B'? (it has k_A, K_B, f_B, K_C, f_C, C_m, I_leak0, E_L, V_th, V_reset, t_ref)"},
-        {"sa1", {"sa1.E_L=10%"}, "--spread sa1.E_L=10%: a share of 0 V is nothing; write the deviation itself, in V"},
+        {"sa1", {"sa1.E_L=10%"}, "--spread sa1.E_L=10%: a percentage of 0 V is 0; write the deviation itself, in V"},
         {"fsr+sa1",
          {"fsr+sa1.hysteresis=10%"},
-         "--spread fsr+sa1.hysteresis=10%: a share of 0 is nothing; write the deviation itself, a plain number"},
-        {"sa1", {"sa1.f_B=-1Hz"}, "--spread sa1.f_B=-1Hz: a standard deviation is not below 0"},
+         "--spread fsr+sa1.hysteresis=10%: a percentage of 0 is 0; write the deviation itself, a plain number"},
+        {"sa1", {"sa1.f_B=-1Hz"}, "--spread sa1.f_B=-1Hz: a standard deviation must not be negative"},
         {"sa1", {"sa1.f_B=1ms"}, "--spread sa1.f_B=1ms: '1ms' is a time; Hz is wanted, such as '2 Hz'"},
-        {"sa1", {"sa1.f_B=some%"}, "--spread sa1.f_B=some%: 'some%' is no share; write a number and %, such as '10%'"},
+        {"sa1", {"sa1.f_B=some%"}, "--spread sa1.f_B=some%: 'some%' is not a percentage; write a number and %, such as '10%'"},
         {"sa1", {"sa1.f_B=1Hz", "SA-I.f_B=10%"}, "--spread SA-I.f_B=10%: sa1.f_B is given twice"},
     };
     for (const auto& c : cases) {
@@ -201,7 +201,7 @@ TEST(Spread, ThatNothingCanStandUnderIsAnErrorAfterAThousandDraws) {
     const auto wide = copies_of(plan, 2, sure(spreads_for(plan, "sa1", test::wishes({"sa1.V_th=1GV"}))), 1);
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
-              "sa1#1: 1000 draws of V_th about 500 mV with a standard deviation of 1 GV gave none that can stand; lower its --spread");
+              "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
     // Half of R_fb's draws leave V_Z above V_DD at F_cal, where the sensor could not be calibrated: those are drawn again.
     const auto edge = draw("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
     for (const auto& copy : edge) EXPECT_FALSE(refusal(copy));

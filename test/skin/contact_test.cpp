@@ -89,7 +89,7 @@ TEST(Contacts, OfSitesOnNoLatticeHaveAllOfTheForce) {
     for (std::size_t s = 0; s < sites.size(); ++s) sites.at[s].x += 0.3e-3 * static_cast<double>(s % 3);
     const auto contact = pressing("flat", {"radius=4mm", "x=6mm", "y=4mm"}, sites);
     EXPECT_NEAR(sum(map_at(*contact, sites, 3)), 3, 1e-12);
-    EXPECT_NE(contact->remarks()[1].find("no lattice"), std::string::npos);
+    EXPECT_NE(contact->remarks()[1].find("not on a lattice"), std::string::npos);
 }
 
 TEST(Contacts, AreAsEvenAsTheirIndenters) {
@@ -217,12 +217,13 @@ TEST(ContactWords, AreRefusedWithWhatWouldBeRight) {
         const auto made = make_contact(indenter, wishes, sites, *clock_of(1000));
         return made ? "nothing is wrong" : made.error().text();
     };
-    EXPECT_EQ(wrong("spere", {}), "no indenter is called 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
-    EXPECT_EQ(wrong("sphere", {"period=2mm"}),
-              "contact.period: sphere has none (it has radius, E_star, and its path x, y, x1, y1, t_start, t_move, speed)");
-    EXPECT_EQ(wrong("sphere", {"x1=2mm"}), "contact: how fast is it moved to x1, y1? Give contact.t_move or contact.speed");
-    EXPECT_EQ(wrong("flat", {"t_move=2s"}), "contact: where to is it moved? Give contact.x1 or contact.y1");
-    EXPECT_EQ(wrong("flat", {"x1=3mm", "t_move=2s", "speed=1m/s"}), "contact: t_move and speed say the same twice; give one of them");
+    EXPECT_EQ(wrong("spere", {}), "there is no indenter 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
+    EXPECT_EQ(
+        wrong("sphere", {"period=2mm"}),
+        "contact.period: sphere has no such parameter (it has radius, E_star, and for its path x, y, x1, y1, t_start, t_move, speed)");
+    EXPECT_EQ(wrong("sphere", {"x1=2mm"}), "contact: the speed of the movement to x1, y1 is missing; give contact.t_move or contact.speed");
+    EXPECT_EQ(wrong("flat", {"t_move=2s"}), "contact: the end of the movement is missing; give contact.x1 or contact.y1");
+    EXPECT_EQ(wrong("flat", {"x1=3mm", "t_move=2s", "speed=1m/s"}), "contact: t_move and speed are alternatives; give only one of them");
     EXPECT_EQ(wrong("grating", {"ridge=3mm"}), "contact: ridge = 0.003 m must not be wider than period = 0.002 m");
     EXPECT_EQ(wrong("flat", {"radius=5s"}), "contact.radius: '5s' is a time; m is wanted, such as '2 m'");
     EXPECT_EQ(make_contact("flat", std::vector<Wish>{*parse_wish("contact.radius=1m")}, sheet(1e-3, 1e-5), *clock_of(1000)).operator bool(),
@@ -230,7 +231,7 @@ TEST(ContactWords, AreRefusedWithWhatWouldBeRight) {
     double force = 1;
     const auto wide = pressing("flat", {"radius=1m"}, sites);
     EXPECT_EQ(wide->press({&force, 1}, 0).error().text(),
-              "contact: under 1 N it is 2 m by 2 m wide, more than a million cells of 1 mm of this skin");
+              "contact: with 1 N it is 2 m by 2 m wide, which is more than a million cells of 1 mm of this skin");
     force = std::nan("");
     EXPECT_EQ(wide->press({&force, 1}, 7).error().text(), "the force of sample 7 is nan, not a finite number");
 }

@@ -137,9 +137,9 @@ TEST(Grid, GoesRowAfterRowUpwardsWithTwoUnitsASite) {
 TEST(PopulationNames, AreKnownOrMeantOrRefused) {
     EXPECT_EQ(plan_skin("hnad").error().text(),
               "there is no population 'hnad'; did you mean 'hand'? (there are fingertip, hand, grid ROWSxCOLUMNS, and files: own.toml)");
-    EXPECT_EQ(plan_skin("grid 3").error().text(), "'grid 3' is no grid; write rows and columns, such as 'grid 8x8'");
+    EXPECT_EQ(plan_skin("grid 3").error().text(), "'grid 3' is not a grid; write rows and columns, such as 'grid 8x8'");
     EXPECT_EQ(plan_skin("no/such.toml").error().text(), "no/such.toml: cannot be read: there is no such file");
-    EXPECT_EQ(plan_skin("grid 0x9").error().text(), "a grid of 0 rows and 9 columns; 1 to 4194304 sites are wanted");
+    EXPECT_EQ(plan_skin("grid 0x9").error().text(), "a grid of 0 rows and 9 columns: it must have 1 to 4194304 sites");
     for (const auto& s : named_skins()) EXPECT_TRUE(plan_skin(s.name)) << s.name;
 }
 
@@ -181,27 +181,27 @@ TEST(PopulationFile, SaysWhereItIsWrongAndWhatWouldBeRight) {
               "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
               "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, source)");
     EXPECT_EQ(wrong_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
-    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: of which unit? Write density = \"70 /cm2\"");
+    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: the unit is missing; write density = \"70 /cm2\"");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),
               "pad.toml:9:19: density: there is no region 'paed'; did you mean 'pad'? (there are pad)");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"70 cm\""), "pad.toml:9:11: density: '70 cm' is a length; 1/m2 is wanted, such as '2 1/m2'");
     EXPECT_EQ(wrong_in(text, "unit = \"mm\"", ""),
-              "pad.toml:3:9: pitch = 1: of which unit? Write pitch = \"1 mm\", or unit = \"mm\" at the top for all lengths");
+              "pad.toml:3:9: pitch = 1: the unit is missing; write pitch = \"1 mm\", or unit = \"mm\" at the top for all lengths");
     EXPECT_EQ(wrong_in(text, "pitch = 1", "pitch = \"2 m\""), "pad.toml:3:9: pitch = 2 m is outside [10 um, 100 mm]");
     EXPECT_EQ(wrong_in(text, "pitch = 1", "pitch = 50"),
-              "pad.toml:2:1: region 'pad' has no site: it is smaller than the pitch, or regions before it hold all of it");
+              "pad.toml:2:1: region 'pad' has no site: it is smaller than the pitch, or earlier regions cover all of it");
     EXPECT_EQ(wrong_in(text, "pitch = 1", "rows = 2"),
-              "pad.toml:2:1: [sites] wants one of these: rows and columns; a list; pitch and regions ([[region]])");
+              "pad.toml:2:1: [sites] needs exactly one of these: rows and columns; a list; pitch and regions ([[region]])");
     EXPECT_EQ(wrong_in(text, "width = [10, 8]", "height = 3"), "pad.toml:6:11: a capsule has neither height nor angle");
-    EXPECT_EQ(wrong_in(text, "[0, 20]]", "[0, 20, 1]]"), "pad.toml:6:31: capsule: a place wants two numbers, [x, y]");
+    EXPECT_EQ(wrong_in(text, "[0, 20]]", "[0, 20, 1]]"), "pad.toml:6:31: capsule: a position needs two numbers, [x, y]");
     EXPECT_EQ(wrong_in(text, "density = \"70 /cm2\"", "density = \"70 /cm2\"\nspread = {f_B = \"5%\", f_X = \"5%\"}").substr(0, 65),
               "pad.toml:10:29: sa1: unknown parameter 'f_X'; did you mean 'f_B'?");
     EXPECT_EQ(wrong_in(text, "density = \"70 /cm2\"", "per_site = 1.5"),
-              "pad.toml:9:12: per_site = 1.5: a whole number from 1 to 1000 is wanted");
+              "pad.toml:9:12: per_site = 1.5: must be an integer from 1 to 1000");
     EXPECT_EQ(wrong_in(text, "[[class]]", "[[clas]]").substr(0, 55), "pad.toml:7:3: there is no 'clas'; did you mean 'class'?");
     EXPECT_EQ(wrong_in(text, "[sites]\npitch = 1", "sites = \"chanels\""),
-              "pad.toml:2:9: sites = 'chanels'; a word is known for it: \"channels\"");
-    EXPECT_EQ(wrong_in(text, "/cm2\"", "/cm2\"\nhot_spots = 3"), "pad.toml:10:13: several hot spots want a sigma and a hot_spot_spread");
+              "pad.toml:2:9: sites = 'chanels': the only word allowed is \"channels\"");
+    EXPECT_EQ(wrong_in(text, "/cm2\"", "/cm2\"\nhot_spots = 3"), "pad.toml:10:13: several hot spots need a sigma and a hot_spot_spread");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"1 /um2\"").substr(0, 20), "pad.toml:9:11: densi");
 }
 
@@ -225,7 +225,7 @@ TEST(PopulationFile, SensorsStandInAListATableOrWhereARecordingHasThem) {
     EXPECT_EQ(table->sites.names, listed->sites.names);
     EXPECT_EQ(table->sites.at[1].y, listed->sites.at[1].y);
     EXPECT_EQ(read_skin_plan("[sites]\nlist = \"bad.csv\"\n" + classes, folder + "t.toml").error().text(),
-              folder + "bad.csv:3:3: 'here' where a coordinate should be");
+              folder + "bad.csv:3:3: 'here' is not a coordinate");
 
     const Channel channels[] = {{0, "p1", Position{0, 0, 0}}, {1, "p2", Position{1e-3, 0, 0}}};
     const auto recorded = read_skin_plan("sites = \"channels\"\n" + classes, "c.toml", channels);

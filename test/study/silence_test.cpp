@@ -74,7 +74,8 @@ TEST(Silence, AGridUnderAnIndenterIsTakenForSkinAndSaysSo) {
     EXPECT_EQ(ran.status, 0);
     EXPECT_GT(spikes_of(ran), 200) << ran.err;
     EXPECT_NE(
-        ran.err.find("grid 8x8 is pressed with an indenter, so each site stands for 4 mm2 of skin and a unit feels the force on 1 cm2"),
+        ran.err.find("grid 8x8 is pressed with an indenter, so each site represents 4 mm2 of skin and an afferent responds to the force "
+                     "on 1 cm2"),
         std::string::npos)
         << ran.err;
 }
@@ -176,7 +177,7 @@ TEST(SkinMemory, AGridThatDoesNotFitIsRefusedWithTheMemoryItNeeds) {
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
     EXPECT_NE(read_file(said).find("grid 2048x2048: 4194304 sites and 8388608 afferents need about 2"), std::string::npos)
         << read_file(said);
-    EXPECT_NE(read_file(said).find("GB of memory, and there is room for 3.07 GB"), std::string::npos) << read_file(said);
+    EXPECT_NE(read_file(said).find("GB of memory, but only 3.07 GB are available"), std::string::npos) << read_file(said);
 }
 
 }  // namespace

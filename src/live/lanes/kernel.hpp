@@ -1,6 +1,6 @@
 #pragma once
-// Between frames, compiled for every machine, and their forces on SIMD lanes, compiled once for each instruction set: plain data and
-// pointers only.
+// The interface between frames, compiled for every machine, and the conversion of their forces on SIMD lanes, compiled once for each
+// instruction set. It consists of plain data and pointers only.
 
 #include <cstddef>
 
@@ -8,13 +8,13 @@
 
 namespace corpuscle::lanes {
 
-/// Forces out of what is read: (x - offset) * scale, unless that is no number or further from 0 than `limit`.
+/// Converts values to forces: (x - offset) * scale. A result that is NaN or larger than `limit` in magnitude is not valid.
 struct FrameForce {
     double offset, scale, limit;
 };
 
-/// What one instruction set offers: `count` values from `from`, in place of the forces that were, which stay where there is none.
-/// Returns how many of those there are.
+/// The functions of one instruction set. They read `count` values from `from` and overwrite the last forces, except where a value is not
+/// valid. They return the number of values that are not valid.
 struct FrameLanes {
     using Take = std::size_t (*)(const char* from, const FrameForce&, double* force, std::size_t count);
     Take f32, f64, i16;

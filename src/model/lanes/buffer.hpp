@@ -10,8 +10,8 @@
 
 namespace corpuscle::lanes {
 
-/// Memory of plain data, zero at first. It begins on a cache line; where it is large, on a page of 2 MB, and large pages are asked
-/// for: with small ones every 4 kB of force costs a look into the page table.
+/// A zero-initialised array of plain data, aligned to a cache line. Large arrays are aligned to 2 MB and request huge pages. With small
+/// pages every 4 kB of force costs a page table lookup.
 template <class V>
 class Buffer {
     V* data_ = nullptr;

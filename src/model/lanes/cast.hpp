@@ -1,5 +1,5 @@
 #pragma once
-// What stands together in a population: parts, models, names.
+// The layout of a population on lanes: kernels, models, afferent numbers.
 
 #include <memory>
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace corpuscle::lanes {
 
-/// What a crowd is made of, found and checked.
+/// Everything that a population is built from, already checked.
 template <class V>
 struct Cast {
     const ReceptorLanes<V>* receptor;
     const NeuronLanes<V>* neuron;
-    const JoinedLanes<V>* joined;  ///< both in one loop; or null
+    const JoinedLanes<V>* joined;  ///< both in one loop; null: not available
     int lanes;
     std::size_t units;
-    Buffer<std::byte> receptors, neurons;       ///< models: one, or a tile's after a tile's
-    std::unique_ptr<ProfileTransduction> once;  ///< if all share one transduction
+    Buffer<std::byte> receptors, neurons;       ///< models: one for all, or those of each tile in turn
+    std::unique_ptr<ProfileTransduction> once;  ///< set if all afferents share one receptor
     bool scales;
     std::vector<std::uint32_t> numbers;
     std::string name;

@@ -1,5 +1,5 @@
 #pragma once
-// From the firings of lanes to spikes in order: collected by each job, then put together.
+// Collects the firings of lanes in each job and merges them into an ordered list of spikes.
 
 #include <algorithm>
 #include <bit>
@@ -12,26 +12,26 @@
 
 namespace corpuscle::lanes {
 
-/// A spike of a block: in its step, of a unit.
+/// A spike of a block: its step and its afferent.
 struct Event {
     std::uint32_t step, unit;
     double offset;
 };
 
-/// What one job, some tiles over a block, found.
+/// Result of one job, which simulates some tiles over a block.
 struct Job {
     std::vector<Event> events;
     std::int64_t capped = 0, unmarked = 0, passed = 0;
-    std::int64_t fired = 0;  ///< how often any did
-    bool lost = false;       ///< some force or state is no number
+    std::int64_t fired = 0;  ///< number of firing masks
+    bool lost = false;       ///< some force or state is NaN or infinite
 };
 
-/// A list of firings that empties itself into a job, or into marks.
+/// A list of firing masks that flushes itself into a job or into spike bits.
 template <class V>
 struct Collector : FiringList<V> {
     Job& job;
-    std::uint64_t* marks;      ///< of this tile, from the chunk's first step on; or null
-    std::uint32_t unit, step;  ///< the tile's first, the chunk's first
+    std::uint64_t* marks;      ///< of this tile, from the chunk's first step on; null: spikes are listed
+    std::uint32_t unit, step;  ///< the tile's first afferent, the chunk's first step
     int lanes;
 
     void empty() {
@@ -57,9 +57,9 @@ private:
     }
 };
 
-/// Appends all jobs' events as spikes, in order of time, then unit: counted into their steps, then ordered inside each. `numbers`
-/// are what units are called, rising; none: their own numbers.
-/// `begin` and `at` are room to work in.
+/// Appends the events of all jobs as spikes, in order of time, then afferent: a counting sort by step, then a sort within each step.
+/// `numbers` are the afferent numbers in spikes, rising; empty: 0, 1, 2 ...
+/// `begin` and `at` are scratch arrays.
 inline void gather(std::span<const Job> jobs, std::size_t steps, std::int64_t first, std::span<const std::uint32_t> numbers,
                    std::vector<Spike>& spikes, std::vector<std::size_t>& begin, std::vector<std::size_t>& at) {
     begin.assign(steps + 1, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// A population of one precision: its models and states in tiles of 64 units, its blocks cut into chunks that stay in the cache.
+// A population of one precision. Models and states are in tiles of 64 afferents; blocks are split into chunks that fit the cache.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -18,23 +18,23 @@ namespace corpuscle::lanes {
 
 template <class V>
 class Crowd final : public Population {
-    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // long: where no currents of their own share the cache
-    static constexpr std::size_t tiles_a_job = 16;                        // 1024 units: a piece of work for one thread
+    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // long: used where no separate currents share the cache
+    static constexpr std::size_t tiles_a_job = 16;                        // 1,024 afferents: the work of one thread
 
-    /// What one thread needs for itself.
+    /// Scratch memory of one thread.
     struct Scratch {
         Buffer<V> from{most_outputs * current_rows<V> * tile_units}, to{most_outputs * current_rows<V> * tile_units},
             rows{long_chunk * tile_units}, gain{tile_units};
         Buffer<Firing> firings{record_room};
         Buffer<V> offsets{record_room * 16};
-        std::vector<V> before = {};  // a tile's states
+        std::vector<V> before = {};  // the state of a tile
     };
 
-    /// A block at work.
+    /// The block that is being simulated.
     struct Block {
         const PopulationForce& force;
         std::size_t steps;
-        bool once;  // its profile's currents are worked out
+        bool once;  // the currents of the profile are computed once for all
         std::uint64_t* marks;
     };
 
@@ -44,14 +44,14 @@ class Crowd final : public Population {
     std::size_t tiles_;
     TileStates<V> states_;
     std::int64_t step_ = 0;
-    std::optional<std::pair<std::size_t, bool>> kind_;  // how force came so far: which of its forms, and whether transduced once
+    std::optional<std::pair<std::size_t, bool>> kind_;  // layout of the force so far, and whether its currents are shared
     ProfileRows<V> profile_;
     std::vector<Scratch> scratch_;
     std::vector<Job> jobs_;
-    Buffer<V> nothing_{chunk_steps<V> * 2 * tile_units};  // rows of no force
+    Buffer<V> nothing_{chunk_steps<V> * 2 * tile_units};  // rows of zero force
     std::vector<std::size_t> begin_, at_;
 
-    /// A tile's models, and how far they are apart.
+    /// The models of a tile, and the stride between them in bytes.
     template <class L>
     std::pair<const std::byte*, std::size_t> models(const Buffer<std::byte>& all, const L& of, std::size_t tile) const {
         if (all.size() == of.model_bytes) return {all.data(), 0};
@@ -61,7 +61,7 @@ class Crowd final : public Population {
     int units_of(std::size_t tile) const { return static_cast<int>(std::min<std::size_t>(tile_units, cast_.units - tile * tile_units)); }
     std::uint64_t valid(std::size_t tile) const { return ~std::uint64_t{0} >> (tile_units - units_of(tile)); }
 
-    /// Columns of force become rows, a chunk at a time.
+    /// Transposes columns of force into rows, one chunk at a time.
     void rows_of(const ForceColumns& columns, std::size_t first, std::size_t step, int steps, V* rows) const {
         for (std::size_t u = 0; u < tile_units; ++u) {
             const double* column = columns.of[std::min(first + u, cast_.units - 1)] + step;
@@ -69,19 +69,20 @@ class Crowd final : public Population {
         }
     }
 
-    /// What the next chunk reads.
+    /// The memory that the next chunk reads.
     template <class E>
     static Ahead after(const E* rows, int steps) {
         const auto chunk_size = static_cast<std::size_t>(steps) * tile_units;
         return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E)};
     }
-    /// Half of it is asked for while the transductions work, half, which this returns, while the neurons do.
+    /// Prefetches half of it during the receptors; the other half, which is returned, during the neurons.
     static Ahead second_half(Ahead& all) {
         all.bytes /= 2;
         return {all.at + all.bytes, all.bytes};
     }
 
-    /// Where the ends of currents go. Of a continuous transduction they are the beginnings of the next step, one row on.
+    /// The destination of the currents at the ends of steps. For a continuous receptor they are also the beginnings of the next step, one
+    /// row on.
     V* to_of(Scratch& s) const { return cast_.receptor->continuous ? s.from.data() + tile_units : s.to.data(); }
 
     TransductionCall<V> transduction(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
@@ -124,8 +125,8 @@ class Crowd final : public Population {
         return c;
     }
 
-    /// Some steps of a tile. The first of all: the force before it was the same; backward Euler takes a step there, with its spikes
-    /// on the sample; exact has no time to cover yet.
+    /// Simulates some steps of a tile. For the first step of all, the force before it is taken to be the same. Backward Euler takes a step
+    /// there, with its spikes on the sample. The exact method has no interval to integrate yet.
     void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, Job& job) const {
         const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
         Collector<V> fired{{s.firings.data(), sampled_ || first ? nullptr : s.offsets.data(), 0, 0, valid(tile), 0,
@@ -162,7 +163,7 @@ class Crowd final : public Population {
         return tiles && tiles->without && tiles->without[tile];
     }
 
-    /// Lets go of what has faded in a tile.
+    /// Sets the decayed state of a tile to zero.
     void settle(std::size_t tile) const {
         TransductionCall<V> c{};
         std::tie(c.models, c.stride) = models(cast_.receptors, *cast_.receptor, tile);
@@ -176,8 +177,8 @@ class Crowd final : public Population {
         }
     }
 
-    /// One step without force: a tile that it leaves as it was, to the bit, and that did not fire, rests, and can be passed over until
-    /// force comes. What settles later settles now, so that resting it is the same.
+    /// Takes one step without force. If this changes no bit of the tile's state and no afferent fires, the tile is at rest. It is then
+    /// skipped until force comes. The state is flushed first, so that a later flush cannot change it.
     void look_for_rest(const Block& b, std::size_t tile, std::size_t step, Scratch& s, Job& job) {
         states_.copy(tile, s.before);
         const auto fired = job.fired;
@@ -188,31 +189,31 @@ class Crowd final : public Population {
         states_.put_back(tile, s.before);
     }
 
-    /// As many steps as go together: none beyond where states settle, and alone the one after which a tile may be found at rest.
-    /// Returns how many it took before it found rest.
+    /// Runs as many steps as possible at once. A run ends where states are flushed; the step after which a tile may be found at rest is run
+    /// alone. Returns the number of steps taken before the tile was found at rest.
     std::size_t run_tile(const Block& b, std::size_t tile, Scratch& s, Job& job) {
-        constexpr std::int64_t looking = 256;
+        constexpr std::int64_t rest_interval = 256;
         const bool without = without_force(b, tile);
         if (!without) states_.set_rest(tile, false);
-        const std::int64_t most = b.once ? 256 : cast_.joined ? long_chunk : chunk;
+        const std::int64_t max_steps = b.once ? 256 : cast_.joined ? long_chunk : chunk;
         std::size_t step = 0;
         while (step < b.steps && !states_.rests(tile)) {
             const std::int64_t now = step_ + static_cast<std::int64_t>(step);
             if (now % settling == 0 && now > 0) settle(tile);
-            const std::int64_t to_look = (looking + 1 - now % looking) % looking;
-            if (without && to_look == 0) {
+            const std::int64_t to_check = (rest_interval + 1 - now % rest_interval) % rest_interval;
+            if (without && to_check == 0) {
                 look_for_rest(b, tile, step++, s, job);
                 continue;
             }
-            std::int64_t steps = std::min({most, static_cast<std::int64_t>(b.steps - step), settling - now % settling});
-            if (without) steps = std::min(steps, to_look);
+            std::int64_t steps = std::min({max_steps, static_cast<std::int64_t>(b.steps - step), settling - now % settling});
+            if (without) steps = std::min(steps, to_check);
             run_chunk(b, tile, step, now == 0 ? 1 : static_cast<int>(steps), s, job);
             step += now == 0 ? 1 : static_cast<std::size_t>(steps);
         }
         return step;
     }
 
-    /// States that are no number stay so: of blocks of a step or two they are looked at now and then.
+    /// A state that becomes NaN stays NaN. For blocks of one or two steps it is therefore checked only every few steps.
     static constexpr std::int64_t between_looks = 64;
     bool looks(const Block& b) const { return step_ / between_looks != (step_ + static_cast<std::int64_t>(b.steps)) / between_looks; }
 
@@ -228,51 +229,51 @@ class Crowd final : public Population {
         }
     }
 
-    /// The force of a unit at a step of the block, as it was handed in.
-    double force_of(const Block& b, std::size_t unit, std::size_t step) const {
-        const std::size_t at = (unit / tile_units * b.steps + step) * tile_units + unit % tile_units;
-        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->of[unit][step];
-        if (without_force(b, unit / tile_units)) return 0;
+    /// The force of an afferent at a step of the block, as passed by the caller.
+    double force_of(const Block& b, std::size_t afferent, std::size_t step) const {
+        const std::size_t at = (afferent / tile_units * b.steps + step) * tile_units + afferent % tile_units;
+        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->of[afferent][step];
+        if (without_force(b, afferent / tile_units)) return 0;
         if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) return static_cast<double>(tiles->rows[at]);
         if (const auto* profile = std::get_if<ForceProfile>(&b.force)) return profile->force[step];
-        return 0;  // integers are always numbers
+        return 0;  // integers are always finite
     }
 
-    std::optional<Error> no_force(const Block& b, PopulationAnswer& answer) const {
-        for (std::size_t unit = 0; unit < cast_.units; ++unit)
+    std::optional<Error> no_force(const Block& b, PopulationAnswer& response) const {
+        for (std::size_t afferent = 0; afferent < cast_.units; ++afferent)
             for (std::size_t step = 0; step < b.steps; ++step)
-                if (const double f = force_of(b, unit, step); !std::isfinite(f)) {
-                    answer.failed = unit;
+                if (const double f = force_of(b, afferent, step); !std::isfinite(f)) {
+                    response.failed = afferent;
                     return bad_input(
                         fmt::format("{}: the force of sample {} is {}", cast_.name, step_ + static_cast<std::int64_t>(step), f));
                 }
         return {};
     }
 
-    /// The first unit whose state is no number; none if only padding's is.
+    /// The first afferent whose state is not finite; none if only the padding is affected.
     std::optional<std::size_t> first_lost() const {
-        for (std::size_t unit = 0; unit < cast_.units; ++unit)
-            if (states_.is_lost(unit)) return unit;
+        for (std::size_t afferent = 0; afferent < cast_.units; ++afferent)
+            if (states_.is_lost(afferent)) return afferent;
         return {};
     }
 
-    Error lost(std::size_t unit, const Block& b, PopulationAnswer& answer) const {
-        answer.failed = unit;
+    Error lost(std::size_t afferent, const Block& b, PopulationAnswer& response) const {
+        response.failed = afferent;
         return {Code::not_converged,
-                fmt::format("{}: its state left the finite numbers between samples {} and {}; the force or a gain is "
+                fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a gain is "
                             "far too large, or the substep too long",
                             cast_.name, step_ / between_looks * between_looks, step_ + static_cast<std::int64_t>(b.steps))};
     }
 
-    /// What jobs found that must not be.
-    std::optional<Error> wrong(const Block& b, PopulationAnswer& answer) const {
+    /// The error of the jobs, if there is one.
+    std::optional<Error> wrong(const Block& b, PopulationAnswer& response) const {
         if (std::none_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.lost; })) return {};
-        if (auto error = no_force(b, answer)) return error;
-        const auto unit = first_lost();
-        return unit ? std::optional(lost(*unit, b, answer)) : std::nullopt;
+        if (auto error = no_force(b, response)) return error;
+        const auto afferent = first_lost();
+        return afferent ? std::optional(lost(*afferent, b, response)) : std::nullopt;
     }
 
-    /// Whether a profile is transduced once for all.
+    /// True if the currents of a profile are computed once for all afferents.
     bool once(const PopulationForce& force) const {
         const auto* profile = std::get_if<ForceProfile>(&force);
         return profile && cast_.once && (profile->gain.empty() || cast_.scales);
@@ -280,15 +281,16 @@ class Crowd final : public Population {
 
     Result<void> check(const PopulationForce& force, std::size_t steps) {
         const std::pair kind(force.index(), once(force));
-        if (kind_ && *kind_ != kind) return bad_input(fmt::format("{}: its force came in another way before", cast_.name));
+        if (kind_ && *kind_ != kind)
+            return bad_input(fmt::format("{}: the layout of its force must not change between blocks", cast_.name));
         kind_ = kind;
-        if (auto wrong = unfit_force<V>(force, steps, cast_.units, cast_.name)) return *wrong;
+        if (auto error = unfit_force<V>(force, steps, cast_.units, cast_.name)) return *error;
         return {};
     }
 
 public:
-    Crowd(Cast<V> cast, const Run& run)
-        : cast_(std::move(cast)), method_(run.method), sampled_(run.sampled), tiles_((cast_.units + tile_units - 1) / tile_units),
+    Crowd(Cast<V> layout, const Run& run)
+        : cast_(std::move(layout)), method_(run.method), sampled_(run.sampled), tiles_((cast_.units + tile_units - 1) / tile_units),
           states_(tiles_, cast_.receptor->state_values, cast_.neuron->state_values * static_cast<std::size_t>(cast_.receptor->outputs)),
           jobs_((tiles_ + tiles_a_job - 1) / tiles_a_job) {}
 
@@ -308,32 +310,32 @@ public:
     Result<void> resume(std::span<const double> all) override {
         constexpr double last_step = 1LL << 53, kinds = 2 * std::variant_size_v<PopulationForce>;
         const std::size_t own = 2 + states_.size();
-        const auto whole = [](double x, double most) { return x >= 0 && x <= most && x == std::floor(x); };
-        const bool fits = all.size() >= own && whole(all[0], last_step) && whole(all[1], kinds) &&
+        const auto is_integer = [](double x, double max) { return x >= 0 && x <= max && x == std::floor(x); };
+        const bool fits = all.size() >= own && is_integer(all[0], last_step) && is_integer(all[1], kinds) &&
                           (cast_.once ? cast_.once->resume(all.subspan(own)) : all.size() == own) &&
                           states_.resume(all.subspan(2, states_.size()));
-        if (!fits) return bad_input(fmt::format("{}: {} numbers of a saved state are not of this population", cast_.name, all.size()));
+        if (!fits) return bad_input(fmt::format("{}: a saved state with {} values is not one of this population", cast_.name, all.size()));
         step_ = static_cast<std::int64_t>(all[0]);
         const auto kind = static_cast<std::size_t>(all[1]);
         kind_ = kind == 0 ? std::nullopt : std::optional(std::pair((kind - 1) / 2, (kind - 1) % 2 == 1));
         return {};
     }
 
-    Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationAnswer& answer, Pool& pool) override {
+    Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationAnswer& response, Pool& pool) override {
         if (auto ok = check(force, steps); !ok) return ok;
         if (steps == 0) return {};
         Block block{force, steps, once(force), nullptr};
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
-            if (const auto at = first_not_finite(profile->force.first(steps)); at < steps) return *no_force(block, answer);
+            if (const auto at = first_not_finite(profile->force.first(steps)); at < steps) return *no_force(block, response);
             const auto now = profile->force.first(steps);
             block.once ? profile_.transduce(*cast_.once, now, step_ == 0, cast_.receptor->outputs) : profile_.keep(now);
         }
-        if (answer.marks) answer.marks->assign(tiles_ * steps, 0), block.marks = answer.marks->data();
+        if (response.marks) response.marks->assign(tiles_ * steps, 0), block.marks = response.marks->data();
         while (scratch_.size() < pool.threads()) scratch_.emplace_back();
         pool.each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
-        for (const auto& job : jobs_) answer.capped += job.capped, answer.unmarked += job.unmarked, answer.passed += job.passed;
-        if (auto error = wrong(block, answer)) return *error;
-        if (answer.spikes) gather(jobs_, steps, step_, cast_.numbers, *answer.spikes, begin_, at_);
+        for (const auto& job : jobs_) response.capped += job.capped, response.unmarked += job.unmarked, response.passed += job.passed;
+        if (auto error = wrong(block, response)) return *error;
+        if (response.spikes) gather(jobs_, steps, step_, cast_.numbers, *response.spikes, begin_, at_);
         step_ += static_cast<std::int64_t>(steps);
         return {};
     }

@@ -1,5 +1,5 @@
 #pragma once
-// How force is handed to a population of one precision: what is refused, and one profile for all of it.
+// The force input of a population of one precision: its checks, and a profile shared by all afferents.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,34 +13,34 @@
 
 namespace corpuscle::lanes {
 
-/// Why a block of force does not fit `units` in V; `name`: what they are.
+/// Returns an error if a block of force does not fit `size` afferents of precision V. `name` is the population's name for messages.
 template <class V>
-std::optional<Error> unfit_force(const PopulationForce& force, std::size_t steps, std::size_t units, std::string_view name) {
-    if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->of.size() != units)
-        return bad_input(fmt::format("{}: {} columns of force for {} units", name, columns->of.size(), units));
+std::optional<Error> unfit_force(const PopulationForce& force, std::size_t steps, std::size_t size, std::string_view name) {
+    if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->of.size() != size)
+        return bad_input(fmt::format("{}: {} columns of force for {} afferents", name, columns->of.size(), size));
     if (!std::is_same_v<V, double> && std::holds_alternative<ForceTiles<double>>(force))
-        return bad_input(fmt::format("{}: tiles of double were handed to a population in float", name));
+        return bad_input(fmt::format("{}: a population in float needs tiles of float, not double", name));
     if (!std::is_same_v<V, float> && std::holds_alternative<ForceTiles<float>>(force))
-        return bad_input(fmt::format("{}: tiles of float were handed to a population in double", name));
+        return bad_input(fmt::format("{}: a population in double needs tiles of double, not float", name));
     const auto* profile = std::get_if<ForceProfile>(&force);
     if (!profile) return {};
     if (profile->force.size() < steps)
         return bad_input(fmt::format("{}: a profile of {} samples for {} steps", name, profile->force.size(), steps));
-    if (!profile->gain.empty() && profile->gain.size() != units)
-        return bad_input(fmt::format("{}: {} gains for {} units", name, profile->gain.size(), units));
+    if (!profile->gain.empty() && profile->gain.size() != size)
+        return bad_input(fmt::format("{}: {} gains for {} afferents", name, profile->gain.size(), size));
     for (const double g : profile->gain)
         if (!(g >= 0 && std::isfinite(g))) return bad_input(fmt::format("{}: a gain of {} is not in [0, inf)", name, g));
     return {};
 }
 
-/// The gains of a tile, whose first unit is `first`; 1 where none are given.
+/// The gains of a tile whose first afferent is `first`; 1 where no gains are given.
 template <class V>
 void profile_gains(const ForceProfile& profile, std::size_t first, V* out) {
     for (std::size_t u = 0; u < tile_units; ++u)
         out[u] = profile.gain.empty() ? V(1) : first + u < profile.gain.size() ? static_cast<V>(profile.gain[first + u]) : V(0);
 }
 
-/// The profile of a block, in V; or its currents, where they are worked out once.
+/// The profile of a block in V, or its currents if they are computed once for all.
 template <class V>
 class ProfileRows {
     std::array<ProfileCurrents, most_outputs> in_double_;

@@ -1,46 +1,47 @@
 #pragma once
-// Currents into spikes: the neurons of a tile over a chunk. Included by kernel.cpp alone.
+// Neurons of a tile over a chunk: currents in, spikes out. Included only by kernel.cpp.
 
 #include "model/lanes/vectors.hpp"
 
 namespace corpuscle::lanes {
 namespace {
 
-/// What the neurons of one vector, from `unit` of the tile on, call when they fire; rarely.
+/// Called when neurons of one vector fire, which is rare. The vector begins at afferent `first` of the tile.
 template <class V>
 struct Fired {
     FiringList<V>* list;
-    int unit;
+    int first;
 
-    std::uint64_t valid(num::Mask<Batch<V>> who) const { return num::bits(who) & (list->valid >> unit); }
-    [[gnu::noinline, gnu::cold]] void operator()(num::Mask<Batch<V>> who, Batch<V> offset) const {
-        const auto bits = valid(who);
+    std::uint64_t valid(num::Mask<Batch<V>> mask) const { return num::bits(mask) & (list->valid >> first); }
+    [[gnu::noinline, gnu::cold]] void operator()(num::Mask<Batch<V>> mask, Batch<V> offset) const {
+        const auto bits = valid(mask);
         if (bits == 0) return;
         if (list->count == record_room) list->full(*list);
         if (list->offsets) offset.store_aligned(list->offsets + list->count * width<V>);
-        list->firings[list->count++] = {list->step, unit, bits};
+        list->firings[list->count++] = {list->step, first, bits};
     }
-    [[gnu::noinline, gnu::cold]] void capped(num::Mask<Batch<V>> who) const { list->capped += __builtin_popcountll(valid(who)); }
+    [[gnu::noinline, gnu::cold]] void capped(num::Mask<Batch<V>> mask) const { list->capped += __builtin_popcountll(valid(mask)); }
 };
 
 template <class V, class N>
 void start(const NeuronCall<V>& c) {
-    for (int unit = 0; unit < tile_units; unit += width<V>) write(model<N>(c.models, c.stride, unit / width<V>).start(), c.state, unit);
+    for (int first = 0; first < tile_units; first += width<V>)
+        write(model<N>(c.models, c.stride, first / width<V>).start(), c.state, first);
 }
 
-/// One step of a vector under its current, whatever happens in it.
+/// One step of a vector under its current, with all events.
 template <class N, class S, class I, class F>
 [[gnu::always_inline]] inline void step_one(const N& n, S& s, const I& i, const F& fired) {
     const auto capped = n.step(s, i, fired);
     if (num::any(capped)) fired.capped(capped);
 }
 
-/// What flows into vector j, worked out where it is asked for, and so again.
+/// The current into vector j, recomputed at each access.
 template <class F>
 struct Flow : F {
     [[gnu::always_inline]] const Flow& again() const { return *this; }
 };
-/// The same of currents at hand. Only a copy is looked into by number: they can stay in registers.
+/// The same for stored currents. Only a copy is indexed at run time, so the originals can stay in registers.
 template <class T, int J>
 struct AtHand {
     const Current<T> (&i)[J];
@@ -56,8 +57,8 @@ struct AtHand {
     }
 };
 
-/// One step of J vectors; current(j) is what flows into vector j. Where a neuron can tell at a glance that nothing happens, all are
-/// asked first, and those where something may are looked into one after another.
+/// One step of J vectors; current(j) is the current into vector j. If the neuron has a quick test for steps without events, all vectors are
+/// tested first. Those in which something may happen are then simulated in full, one after another.
 template <bool waits, int J, class N, class S, class F, class I>
 [[gnu::always_inline]] inline void step_all(const N* const (&n)[J], S (&s)[J], const F (&fired)[J], const I& current) {
     if constexpr (requires(S next) { n[0]->template glance<waits>(s[0], current(0), next); }) {
@@ -87,24 +88,24 @@ template <bool waits, int J, class N, class S, class F, class I>
 }
 
 template <class V, class N, bool scaled, bool waits, bool shared, int J>
-void fire(const NeuronCall<V>& c, int unit, Asking& asked) {
+void fire(const NeuronCall<V>& c, int first, Asking& prefetch) {
     constexpr int w = width<V>;
     using T = Batch<V>;
     const N* n[J];
     typename N::State s[J];
     Fired<V> fired[J];
     each_of<J>([&](auto j) __attribute__((always_inline)) {
-        n[j] = shared ? &model<N>(c.models, 0, 0) : &model<N>(c.models, c.stride, unit / w + j);
-        s[j] = read<typename N::State>(c.state, unit + j * w);
-        fired[j] = {c.fired, unit + j * w};
+        n[j] = shared ? &model<N>(c.models, 0, 0) : &model<N>(c.models, c.stride, first / w + j);
+        s[j] = read<typename N::State>(c.state, first + j * w);
+        fired[j] = {c.fired, first + j * w};
     });
-    const V *from = c.from + (scaled ? 0 : unit), *to = c.to + (scaled ? 0 : unit), *gain = scaled ? c.gain + unit : nullptr;
+    const V *from = c.from + (scaled ? 0 : first), *to = c.to + (scaled ? 0 : first), *gain = scaled ? c.gain + first : nullptr;
     FiringList<V>& list = *c.fired;
-    Asking asking = asked;
+    Asking local = prefetch;
     const V* const both_ends = c.both;  // of a scaled current
     for (int t = 0, steps = c.steps; t < steps; ++t) {
         list.step = t;
-        if constexpr (!scaled) asking.some();
+        if constexpr (!scaled) local.some();
         if constexpr (scaled) {
             const T both(both_ends[t]);
             const auto current = [&]<bool rising>(std::bool_constant<rising>) __attribute__((always_inline)) {
@@ -121,32 +122,32 @@ void fire(const NeuronCall<V>& c, int unit, Asking& asked) {
                                }});
         }
     }
-    asked = asking;
-    each_of<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, unit + j * w); });
+    prefetch = local;
+    each_of<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, first + j * w); });
 }
 
-/// Whether one of J models of a tile, from `unit` on, may be in a refractory time.
+/// True if one of J models of a tile, from `first` on, may be refractory.
 template <class V, class N, int J>
-bool any_waits(const NeuronCall<V>& c, int unit) {
+bool any_waits(const NeuronCall<V>& c, int first) {
     bool any = false;
-    for (int j = 0; j < J; ++j) any |= model<N>(c.models, c.stride, unit / width<V> + j).may_wait();
+    for (int j = 0; j < J; ++j) any |= model<N>(c.models, c.stride, first / width<V> + j).may_wait();
     return any;
 }
 
 template <class V, class N>
 void fire_tile(const NeuronCall<V>& c) {
     constexpr int J = 4;
-    Asking asking(c.ahead, rounds<V, J>(c));
-    for (int unit = 0; unit < c.units; unit += J * width<V>) {
+    Asking local(c.ahead, rounds<V, J>(c));
+    for (int first = 0; first < c.units; first += J * width<V>) {
         if constexpr (requires(const N& n) { n.may_wait(); })
-            if (!any_waits<V, N, J>(c, unit)) {
+            if (!any_waits<V, N, J>(c, first)) {
                 if (c.gain)
-                    c.stride == 0 ? fire<V, N, true, false, true, J>(c, unit, asking) : fire<V, N, true, false, false, J>(c, unit, asking);
+                    c.stride == 0 ? fire<V, N, true, false, true, J>(c, first, local) : fire<V, N, true, false, false, J>(c, first, local);
                 else
-                    fire<V, N, false, false, false, J>(c, unit, asking);
+                    fire<V, N, false, false, false, J>(c, first, local);
                 continue;
             }
-        c.gain ? fire<V, N, true, true, false, J>(c, unit, asking) : fire<V, N, false, true, false, J>(c, unit, asking);
+        c.gain ? fire<V, N, true, true, false, J>(c, first, local) : fire<V, N, false, true, false, J>(c, first, local);
     }
 }
 

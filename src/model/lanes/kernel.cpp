@@ -1,5 +1,5 @@
-// The models on SIMD lanes. Compiled once for each instruction set, CORPUSCLE_ISA; what is made here must not leave this file
-// but for two tables: no standard container, no double model, nothing that another file could take for its own.
+// The models on SIMD lanes, compiled once for each instruction set, CORPUSCLE_ISA. Only two tables may be visible outside this file: no
+// standard container, no model in double, nothing that the linker could share with another file.
 
 #include <array>
 

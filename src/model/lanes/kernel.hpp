@@ -1,6 +1,7 @@
 #pragma once
-// Between the population, compiled for every machine, and the models on SIMD lanes, compiled once for each instruction set: plain
-// data and pointers only. 64 units pass a chunk of steps together: first their transductions, then their neurons.
+// The interface between the population, compiled for every machine, and the models on SIMD lanes, compiled once for each instruction set.
+// It consists of plain data and pointers only. 64 afferents are simulated together over a chunk of steps: first their receptors, then their
+// neurons.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,84 +12,84 @@
 
 namespace corpuscle::lanes {
 
-inline constexpr int tile_units = 64;    ///< of a tile; the same for every instruction set, so that nothing depends on it
-inline constexpr int most_outputs = 2;   ///< neurons of one unit
-inline constexpr int record_room = 256;  ///< of a list of firings
+inline constexpr int tile_units = 64;    ///< afferents of a tile; the same for every instruction set, so that results do not depend on it
+inline constexpr int most_outputs = 2;   ///< neurons of one afferent
+inline constexpr int record_room = 256;  ///< capacity of a list of firing masks
 
-/// Steps of a chunk: a row of force, and the currents it becomes, stay in the first-level cache.
+/// Steps of a chunk. Its rows of force, and the currents computed from them, stay in the first-level cache.
 template <class V>
 inline constexpr int chunk_steps = 128 / sizeof(V);
-/// Rows of currents of one output: a step's end is where the next one begins, so there may be one more.
+/// Rows of currents of one output. The end of a step is the beginning of the next, so one more row may be needed.
 template <class V>
 inline constexpr int current_rows = chunk_steps<V> + 1;
 
-/// Units of one vector that fired in a step: a bit each, from `unit` of the tile on.
+/// Afferents of one vector that fired in a step: one bit for each, from afferent `first` of the tile on.
 struct Firing {
     std::int32_t step, unit;
     std::uint64_t bits;
 };
 
-/// Where firings go; handed over whenever it is full.
+/// Buffer of firing masks; `full` is called whenever it is full.
 template <class V>
 struct FiringList {
-    Firing* firings;  ///< room for record_room
-    V* offsets;       ///< a vector for each firing; null: nobody asks where inside the step
+    Firing* firings;  ///< firing_list_capacity elements
+    V* offsets;       ///< one vector for each firing mask; null: the time within the step is not needed
     int count;
-    std::int32_t step;    ///< the one at work
-    std::uint64_t valid;  ///< a bit for each unit of the tile that is no padding
+    std::int32_t step;    ///< the current step
+    std::uint64_t valid;  ///< one bit for each afferent of the tile that is not padding
     std::int64_t capped;
     void (*full)(FiringList&);
 };
 
 enum class Feed { rows, words, profile };
 
-/// Memory to ask for on the way, evenly: what the next chunk reads. Arithmetic goes on while it comes.
+/// Memory to prefetch evenly while computing: the data of the next chunk.
 struct Ahead {
     const char* at;
     std::size_t bytes;
 };
 
-/// A tile's transductions over a chunk.
+/// Arguments for the receptors of a tile over a chunk.
 template <class V>
 struct TransductionCall {
     const std::byte* models;
-    std::size_t stride;  ///< from a vector's model to the next; 0: one for all
-    V* state;            ///< [value][tile_units]
-    int units, steps;    ///< of the tile's units, those that are no padding
+    std::size_t stride;  ///< bytes from a vector's model to the next; 0: one model for all
+    V* state;            ///< [value][tile_size]
+    int units, steps;    ///< afferents of the tile without padding; steps of the chunk
     Method method;
     Feed feed;
-    const V* rows;              ///< rows: force [step][tile_units], N
-    const std::int16_t* words;  ///< words: the same as numbers that are N when times `scale`
+    const V* rows;              ///< ForceInput::rows: force [step][tile_size], N
+    const std::int16_t* words;  ///< ForceInput::int16: the same as integers that are N when multiplied by `scale`
     V scale;
-    const V* profile;  ///< profile: one force a step, N, felt by each unit times its ...
-    const V* gain;     ///< [tile_units]
-    V* from;           ///< out: currents, [output][current_rows][tile_units], A; of a continuous transduction only the first row
+    const V* profile;  ///< ForceInput::profile: one force for each step, N, multiplied for each afferent by its ...
+    const V* gain;     ///< [tile_size]
+    V* from;           ///< out: currents, [output][current_rows][tile_size], A; for a continuous receptor only the first row
     V* to;
     Ahead ahead;
-    bool strange;  ///< out: some force may be no number
+    bool strange;  ///< out: some force may be NaN or infinite
 };
 
-/// A tile's neurons over a chunk, under one output of the transduction.
+/// Arguments for the neurons of a tile over a chunk, for one output of the receptor.
 template <class V>
 struct NeuronCall {
     const std::byte* models;
     std::size_t stride;
     V* state;
     int units, steps;
-    const V* from;  ///< [step][tile_units]; or, with gains, one value a step, and so
+    const V* from;  ///< [step][tile_size]; with gains one value for each step, as are the next two
     const V* to;
     const V* both;
-    const V* gain;  ///< [tile_units]; null: every unit has its own currents
+    const V* gain;  ///< [tile_size]; null: every afferent has its own currents
     FiringList<V>* fired;
     Ahead ahead;
 };
 
-/// A transduction and a neuron in one loop; null: these two are not.
+/// A receptor and a neuron in one loop. The pointers are null if this pair cannot be fused.
 template <class V>
 struct JoinedLanes {
-    bool (*suits)(const std::byte* neurons, std::size_t count);     ///< whether it may be used with these models
-    void (*settle)(const TransductionCall<V>&);                     ///< the receptors'
-    void (*run)(const TransductionCall<V>&, const NeuronCall<V>&);  ///< uses nothing of their currents
+    bool (*suits)(const std::byte* neurons, std::size_t count);     ///< true if it can be used with these models
+    void (*settle)(const TransductionCall<V>&);                     ///< for the receptors
+    void (*run)(const TransductionCall<V>&, const NeuronCall<V>&);  ///< ignores the current arrays of the calls
 };
 
 template <class V>
@@ -97,10 +98,10 @@ struct ReceptorLanes {
     int outputs;
     bool continuous;
     std::size_t model_bytes, state_values;
-    /// Makes the models of `count` units (a tile's), or one for all if it is 1, of an array of the receptor's Params.
+    /// Builds the models of `count` afferents (one tile), or one for all if `count` is 1, from an array of the receptor's Params.
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
-    void (*start)(const TransductionCall<V>&);   ///< the state before the first row of force
-    void (*settle)(const TransductionCall<V>&);  ///< lets go of what has faded; uses only models and state
+    void (*start)(const TransductionCall<V>&);   ///< sets the state before the first row of force
+    void (*settle)(const TransductionCall<V>&);  ///< sets decayed state to zero; reads only models and state
     void (*run)(TransductionCall<V>&);
     std::span<const JoinedLanes<V>> joined;  ///< with each neuron of the table
 };
@@ -115,7 +116,7 @@ struct NeuronLanes {
     void (*run)(const NeuronCall<V>&);
 };
 
-/// What one instruction set offers.
+/// The kernels of one instruction set.
 template <class V>
 struct LaneTable {
     int lanes;

@@ -47,12 +47,12 @@ public:
 }  // namespace
 
 std::unique_ptr<ProfileTransduction> profile_transduction(const AfferentPlan& plan, const Run& run) {
-    std::unique_ptr<ProfileTransduction> made;
+    std::unique_ptr<ProfileTransduction> receptor;
     with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
         const auto params = with<typename R<double>::Params>(R<double>::fields, settings_of(plan));
-        made = std::make_unique<Transduction<R<double>>>(R<double>(Same<typename R<double>::Params>{params}, run.dt, run.method));
+        receptor = std::make_unique<Transduction<R<double>>>(R<double>(Same<typename R<double>::Params>{params}, run.dt, run.method));
     });
-    return made;
+    return receptor;
 }
 
 bool scales(const AfferentPlan& plan) {

@@ -1,5 +1,5 @@
 #pragma once
-// The shortcut for one force felt by many: its transduction, worked out once.
+// A shortcut for one force shared by many afferents: the current of their common receptor is computed once.
 
 #include <array>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace corpuscle::lanes {
 
-/// A profile's currents, A: for each output, one value a step; those at its ends, and their sum.
+/// Currents of a profile, A: for each output and step the values at both ends, and their sum.
 struct ProfileCurrents {
     std::vector<double> from, to, both;
 };
@@ -20,15 +20,15 @@ class ProfileTransduction {
 public:
     virtual ~ProfileTransduction() = default;
     virtual std::vector<double> save() const = 0;
-    virtual bool resume(std::span<const double>) = 0;  ///< false: these are not its own
-    /// The next steps; `first`: they begin the profile.
+    virtual bool resume(std::span<const double>) = 0;  ///< false: not a state of this receptor
+    /// Simulates the next steps. `first`: they are the beginning of the profile.
     virtual void run(std::span<const double> force, bool first, std::array<ProfileCurrents, most_outputs>& out) = 0;
 };
 
-/// Of a plan's transduction.
+/// The shared receptor of a plan.
 std::unique_ptr<ProfileTransduction> profile_transduction(const AfferentPlan&, const Run&);
 
-/// Whether twice the force is twice the current.
+/// True if twice the force gives twice the current.
 bool scales(const AfferentPlan&);
 
 }  // namespace corpuscle::lanes

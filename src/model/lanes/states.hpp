@@ -1,5 +1,5 @@
 #pragma once
-// The states of a population, tile by tile: those of its transductions, those of its neurons, and which tiles rest.
+// The states of a population, tile by tile: receptors, neurons, and which tiles are at rest.
 
 #include <algorithm>
 #include <cmath>
@@ -15,15 +15,15 @@ namespace corpuscle::lanes {
 
 template <class V>
 class TileStates {
-    std::size_t felt_, own_;  // values of a tile: of transductions; of the neurons of all outputs, one after another
+    std::size_t felt_, own_;  // values of a tile: of the receptors; of the neurons of all outputs, one after another
     Buffer<V> receptors_, neurons_;
     std::vector<std::uint8_t> rests_;
 
-    /// Whether all are numbers; eight at a time, each with a sum of its own.
+    /// True if all values are finite. Eight sums at a time, which vectorises.
     static bool finite(const V* states, std::size_t count) {
         V sums[8] = {};
         for (std::size_t k = 0; k < count; k += 8)
-            for (std::size_t l = 0; l < 8; ++l) sums[l] += states[k + l] - states[k + l];  // 0, or no number
+            for (std::size_t l = 0; l < 8; ++l) sums[l] += states[k + l] - states[k + l];  // 0, or NaN
         return std::all_of(std::begin(sums), std::end(sums), [](V x) { return x == 0; });
     }
     static bool lost(const V* states, std::size_t count, std::size_t lane) {
@@ -39,7 +39,7 @@ public:
     V* receptor(std::size_t tile) const { return receptors_.data() + tile * felt_; }
     V* neuron(std::size_t tile) const { return neurons_.data() + tile * own_; }
 
-    /// Nothing in a tile can change without force.
+    /// True if the state of the tile cannot change without force.
     bool rests(std::size_t tile) const { return rests_[tile]; }
     void set_rest(std::size_t tile, bool rests) { rests_[tile] = rests; }
 
@@ -52,16 +52,16 @@ public:
         std::copy_n(from.data(), felt_, receptor(tile));
         std::copy_n(from.data() + felt_, own_, neuron(tile));
     }
-    /// To the bit.
+    /// Bitwise comparison.
     bool is(std::size_t tile, const std::vector<V>& as) const {
         return std::memcmp(receptor(tile), as.data(), felt_ * sizeof(V)) == 0 &&
                std::memcmp(neuron(tile), as.data() + felt_, own_ * sizeof(V)) == 0;
     }
 
     bool all_numbers(std::size_t tile) const { return finite(receptor(tile), felt_) && finite(neuron(tile), own_); }
-    /// Whether one unit's state is no number.
-    bool is_lost(std::size_t unit) const {
-        const std::size_t tile = unit / tile_units, lane = unit % tile_units;
+    /// True if the state of one afferent contains NaN or infinity.
+    bool is_lost(std::size_t afferent) const {
+        const std::size_t tile = afferent / tile_units, lane = afferent % tile_units;
         return lost(receptor(tile), felt_, lane) || lost(neuron(tile), own_, lane);
     }
 
@@ -71,14 +71,14 @@ public:
         to.insert(to.end(), neurons_.data(), neurons_.data() + neurons_.size());
         to.insert(to.end(), rests_.begin(), rests_.end());
     }
-    /// size() values; false, and nothing changed, if these can be no states.
-    bool resume(std::span<const double> from) {
-        const auto known = from.first(from.size() - rests_.size()), rests = from.last(rests_.size());
-        if (!std::all_of(known.begin(), known.end(), [](double x) { return std::isfinite(static_cast<V>(x)); })) return false;
+    /// Restores size() values. Returns false, and changes nothing, if they cannot be a saved state.
+    bool resume(std::span<const double> saved) {
+        const auto states = saved.first(saved.size() - rests_.size()), rests = saved.last(rests_.size());
+        if (!std::all_of(states.begin(), states.end(), [](double x) { return std::isfinite(static_cast<V>(x)); })) return false;
         if (!std::all_of(rests.begin(), rests.end(), [](double x) { return x == 0 || x == 1; })) return false;
-        std::transform(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(receptors_.size()), receptors_.data(),
+        std::transform(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(receptors_.size()), receptors_.data(),
                        [](double x) { return static_cast<V>(x); });
-        std::transform(known.begin() + static_cast<std::ptrdiff_t>(receptors_.size()), known.end(), neurons_.data(),
+        std::transform(states.begin() + static_cast<std::ptrdiff_t>(receptors_.size()), states.end(), neurons_.data(),
                        [](double x) { return static_cast<V>(x); });
         std::transform(rests.begin(), rests.end(), rests_.begin(), [](double x) { return static_cast<std::uint8_t>(x); });
         return true;

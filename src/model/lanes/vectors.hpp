@@ -1,6 +1,5 @@
 #pragma once
-// What the loops over a tile's vectors share: models and states in memory, unrolling, asking for memory ahead. Included by kernel.cpp
-// alone.
+// Helpers of the loops over a tile's vectors: models and states in memory, unrolling, prefetching. Included only by kernel.cpp.
 
 #include <new>
 #include <type_traits>
@@ -16,7 +15,7 @@ using Batch = num::Lanes<V>;
 template <class V>
 inline constexpr int width = static_cast<int>(Batch<V>::size);
 
-/// f(0), f(1) ... f(J - 1), each with its number as a constant: unrolled, so that arrays of states are registers.
+/// Calls f(0), f(1) ... f(J - 1) with constant arguments: unrolled, so that arrays of states stay in registers.
 template <int J, class F>
 [[gnu::always_inline]] inline void each_of(F&& f) {
     [&]<int... j>(std::integer_sequence<int, j...>)
@@ -28,11 +27,11 @@ Batch<V> load(const V* at) {
     return Batch<V>::load_aligned(at);
 }
 
-/// Hands a model the values of its parameters: of one unit for all lanes, or of as many units as there are lanes.
+/// Gives a model the values of its parameters: one afferent for all lanes, or one afferent for each lane.
 template <class V, class P>
 struct PerLane {
     const P* params;
-    int count;  ///< 1: one for all; the last stands in for lanes beyond
+    int count;  ///< 1: one for all; the last afferent fills the lanes beyond the count
     Batch<V> operator()(double P::* at) const {
         alignas(64) V lanes[width<V>];
         for (int l = 0; l < width<V>; ++l) lanes[l] = static_cast<V>(params[l < count ? l : count - 1].*at);
@@ -56,25 +55,25 @@ const M& model(const std::byte* models, std::size_t stride, int vector) {
     return *reinterpret_cast<const M*>(models + stride * static_cast<std::size_t>(vector));
 }
 
-/// How many values a state has.
+/// Number of values of a state.
 template <class S, class V>
 inline constexpr std::size_t values_of = sizeof(S) / sizeof(Batch<V>);
 
-/// A state among those of its tile, value by value, or only its first ones, and 0 for the others. Through a copy: what a loop works on
-/// has no address, so it can be registers.
+/// Loads a state from its tile, value by value; only the first `kept` values, the others are 0. It works through a copy: a loop variable
+/// without an address can stay in registers.
 template <class S, class V, std::size_t kept = values_of<S, V>>
-[[gnu::always_inline]] inline S read(const V* state, int unit) {
+[[gnu::always_inline]] inline S read(const V* state, int first) {
     return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
-        return S{(k < kept ? load(state + k * tile_units + unit) : Batch<V>(V(0)))...};
+        return S{(k < kept ? load(state + k * tile_units + first) : Batch<V>(V(0)))...};
     }(std::make_index_sequence<values_of<S, V>>{});
 }
-/// Back to where it was; of `kept` only the first.
+/// Stores a state into its tile; only the first `kept` values.
 template <class S, class V, std::size_t kept = values_of<S, V>>
-[[gnu::always_inline]] inline void write(const S& s, V* state, int unit) {
+[[gnu::always_inline]] inline void write(const S& s, V* state, int first) {
     constexpr auto values = values_of<S, V>;
     const auto put = [&](const auto&... value) __attribute__((always_inline)) {
         std::size_t k = 0;
-        ((k < kept ? value.store_aligned(state + k * tile_units + unit) : void(), ++k), ...);
+        ((k < kept ? value.store_aligned(state + k * tile_units + first) : void(), ++k), ...);
     };
     static_assert(values <= 5);
     if constexpr (values == 1) {
@@ -95,18 +94,18 @@ template <class S, class V, std::size_t kept = values_of<S, V>>
     }
 }
 
-/// Lets go of what has faded in a tile's states of one part, of which `kept` values are used.
+/// Sets the decayed states of one model in a tile to zero; `kept` values of each state are stored.
 template <class V, class M, class Call, std::size_t kept = values_of<typename M::State, V>>
 void settle(const Call& c) {
     if constexpr (requires(const M& m, typename M::State& s) { m.settle(s); })
-        for (int unit = 0; unit < tile_units; unit += width<V>) {
-            auto s = read<typename M::State, V, kept>(c.state, unit);
-            model<M>(c.models, c.stride, unit / width<V>).settle(s);
-            write<typename M::State, V, kept>(s, c.state, unit);
+        for (int first = 0; first < tile_units; first += width<V>) {
+            auto s = read<typename M::State, V, kept>(c.state, first);
+            model<M>(c.models, c.stride, first / width<V>).settle(s);
+            write<typename M::State, V, kept>(s, c.state, first);
         }
 }
 
-/// Asks for memory ahead, some lines each time, so that all of it is asked for in `times`.
+/// Prefetches a range of memory, some cache lines in each call, so that all of it is requested in `times` calls.
 class Asking {
     const char *at_, *end_;
     std::size_t step_;
@@ -120,7 +119,7 @@ public:
     }
 };
 
-/// How often a loop over J vectors at once goes round for a tile.
+/// Iterations of a loop over a tile with J vectors at once.
 template <class V, int J, class Call>
 int rounds(const Call& c) {
     return (c.units + J * width<V> - 1) / (J * width<V>)*c.steps;

@@ -7,25 +7,26 @@
 
 namespace corpuscle {
 
-/// No leak, and a threshold that jumps with each spike and falls back:
+/// No leak; the threshold jumps at each spike and decays:
 ///     C_m du/dt = I, not below E_L;   theta = V_th + a,  tau_th da/dt = -a
 ///     u > theta while I > 0  =>  spike, then u = V_reset for t_ref and a = a + dV_th
-/// (A threshold that sinks onto a resting membrane does not fire: without leak that would answer a touch long gone.)
-/// Lee et al. 2016 as the thesis tells it (3.1: no leak, "an adaptive threshold potential"); no equation and no value is
-/// printed, so the equations above and all defaults are our choice. Both methods integrate it exactly under the current they give.
+/// (A threshold that decays below a resting membrane potential does not cause a spike. Without a leak, such a spike would respond to a
+/// touch long past.) After Lee et al. 2016 as described in the thesis (3.1: no leak, "an adaptive threshold potential"). The thesis gives
+/// no equation and no value, so the equations above and all defaults are our choice. Both methods integrate them exactly for the current
+/// that they are given.
 struct AdaptiveFacts {
     struct Params {
         double C_m = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, dV_th = 0.1, tau_th = 50e-3, t_ref = 0;
     };
     static constexpr std::string_view name = "adaptive", sentence = "no leak, and a threshold that rises with each spike and decays";
-    static constexpr std::string_view source = "choice, after Lee et al. 2016 as told in thesis 3.1";
+    static constexpr std::string_view source = "choice, after Lee et al. 2016 as described in thesis 3.1";
     static constexpr Field<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
-        {"E_L", &Params::E_L, "V", -10, 10, "resting potential, the lowest"},
+        {"E_L", &Params::E_L, "V", -10, 10, "resting potential, the lower limit"},
         {"V_th", &Params::V_th, "V", -10, 10, "threshold at rest"},
         {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike"},
         {"dV_th", &Params::dV_th, "V", 0, 10, "rise of the threshold at a spike"},
-        {"tau_th", &Params::tau_th, "s", 1e-6, 1e3, "time constant of the threshold's return"},
+        {"tau_th", &Params::tau_th, "s", 1e-6, 1e3, "time constant of the threshold's decay"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time"},
     };
     static constexpr Below<Params> orders[] = {
@@ -38,7 +39,7 @@ struct AdaptiveFacts {
 template <class T>
 struct Adaptive : AdaptiveFacts {
     struct State {
-        T u, a, wait;  // membrane; threshold above V_th; what is left of t_ref, in steps
+        T u, a, wait;  // membrane; threshold above V_th; rest of t_ref, in steps
     };
 
     template <class Values>
@@ -49,10 +50,11 @@ struct Adaptive : AdaptiveFacts {
     State start() const { return {E_L, T(0.0), T(0.0)}; }
     void show(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = V_th + s.a; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.
+    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes where the limit of spikes truncated the
+    /// step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        T x = num::min(s.wait, T(1.0)), a = s.a;  // a: the threshold's excess at x
+        T x = num::min(s.wait, T(1.0)), a = s.a;  // a: the excess of the threshold at x
         s.wait = s.wait - x;
         const auto late = x > T(0.0);
         if (num::any(late)) a = num::select(late, a * num::exp(-fall * x), a);
@@ -61,29 +63,29 @@ struct Adaptive : AdaptiveFacts {
         s.u = base + rise.at(T(1.0));
         s.a = a * decay;
         if (num::any(late)) s.a = num::select(late, a * num::exp(-fall * (T(1.0) - x)), s.a);
-        // Where the current drives: all of the step, or up to or from its zero.
-        const num::Mask<T> starts = i.from > T(0.0), ends = i.to > T(0.0), turns = starts ^ ends;
-        const T zero = num::select(turns, i.from / num::select(turns, i.from - i.to, T(1.0)), T(0.0));
+        // The interval in which the current is positive: all of the step, or up to or from its zero.
+        const num::Mask<T> starts = i.from > T(0.0), ends = i.to > T(0.0), changes_sign = starts ^ ends;
+        const T zero = num::select(changes_sign, i.from / num::select(changes_sign, i.from - i.to, T(1.0)), T(0.0));
         const T first = num::select(starts, T(0.0), num::select(ends, zero, T(1.0))), last = num::select(ends, T(1.0), zero);
         const auto excess = [&](T y) { return a * num::exp(-fall * (y - x)); };
         const auto passes = [&] {
-            T height = s.u - s.a;  // above the threshold at rest, where the drive ends
-            if (num::any(turns)) height = num::select(turns & starts, base + rise.at(last) - excess(last), height);
+            T height = s.u - s.a;  // above the resting threshold, at the end of the interval
+            if (num::any(changes_sign)) height = num::select(changes_sign & starts, base + rise.at(last) - excess(last), height);
             return (height > V_th) & (starts | ends) & (last > x);
         };
         num::Mask<T> over = passes();
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
-            const auto gap = [&](T y) {
+            const auto margin = [&](T y) {
                 const T above = excess(y);
                 struct {
                     T v, slope;
                 } here{base + rise.at(y) - V_th - above, rise.a + rise.b * y + fall * above};
                 return here;
             };
-            const T at = offset_from(rising_root(gap, num::max(x, first), last), num::max(x, first));
+            const T at = offset_from(rising_root(margin, num::max(x, first), last), num::max(x, first));
             fired(over, at);
-            const T free = at + ref, from = num::min(free, T(1.0));
-            s.wait = num::select(over, free - from, s.wait);
+            const T end = at + ref, from = num::min(end, T(1.0));
+            s.wait = num::select(over, end - from, s.wait);
             base = num::select(over, V_reset - rise.at(from), base);
             a = num::select(over, (a * num::exp(-fall * (at - x)) + dV_th) * num::exp(-fall * (from - at)), a);
             x = num::select(over, from, x);

@@ -10,7 +10,7 @@ namespace corpuscle {
 /// Adaptive exponential integrate-and-fire, Brette and Gerstner 2005:
 ///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
 ///     v > V_peak  =>  spike, then v = V_reset and w = w + b
-/// The exponential is not followed above V_peak. Both methods use the same substeps. No refractory time: adaptation is w's part.
+/// The exponential is limited to its value at V_peak. Both methods use the same substeps. No refractory time: adaptation takes its role.
 struct AdexFacts {
     struct Params {
         double C_m = 281e-12, g_L = 30e-9, E_L = -70.6e-3, V_T = -50.4e-3, Delta_T = 2e-3, a = 4e-9, b = 80.5e-12, tau_w = 144e-3;
@@ -22,16 +22,16 @@ struct AdexFacts {
         {"C_m", &Params::C_m, "F", 1e-15, 1, "membrane capacitance"},
         {"g_L", &Params::g_L, "S", 1e-15, 1, "leak conductance"},
         {"E_L", &Params::E_L, "V", -0.2, 0.1, "resting potential"},
-        {"V_T", &Params::V_T, "V", -0.2, 0.1, "where the exponential takes over"},
+        {"V_T", &Params::V_T, "V", -0.2, 0.1, "threshold of the exponential"},
         {"Delta_T", &Params::Delta_T, "V", 1e-4, 0.1, "width of the exponential"},
-        {"a", &Params::a, "S", -1e-3, 1e-3, "adaptation per membrane potential"},
+        {"a", &Params::a, "S", -1e-3, 1e-3, "adaptation conductance"},
         {"b", &Params::b, "A", 0, 1, "jump of adaptation at a spike"},
         {"tau_w", &Params::tau_w, "s", 1e-4, 1e3, "time constant of adaptation"},
         {"V_peak", &Params::V_peak, "V", -0.2, 0.1, "top of a spike",
          "choice: V_T + 5 Delta_T; from there to the paper's 20 mV takes under 0.1 ms"},
         {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "membrane after a spike"},
-        {"gain", &Params::gain, "", 0, 1e6, "from the transduction's current to the membrane's", "choice: tens of hertz at microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice", true},
+        {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane's", "choice: tens of hertz at microamperes"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
     static constexpr Below<Params> orders[] = {
         {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
@@ -53,20 +53,20 @@ struct Adex : AdexFacts {
           V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)), gain(value(&Params::gain)), dt(dt),
           count(substeps_of(dt, value.one(&Params::substep))) {}
 
-    State start() const {  // the exponential lifts the rest a little above E_L: Newton from there
+    State start() const {  // the exponential raises the rest slightly above E_L; solved by Newton's method
         T v = E_L, step = T(0.0);
         for (int pass = 0; pass < 12; ++pass) {
             const T e = num::exp((v - V_T) / Delta_T);
             step = (-(g_L + a) * (v - E_L) + g_L * Delta_T * e) / (g_L + a - g_L * e);
             v = v + step;
         }
-        // Where there is no rest, it starts at E_L.
+        // Without a resting state it starts at E_L.
         v = num::select((num::abs(step) < T(1e-9)) & (v >= E_L) & (v < V_T), v, E_L);
         return {v, a * (v - E_L)};
     }
     void show(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike in it.
+    /// One sample under current i. Calls fired(mask, offset) for each spike.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         Pair<T> y{s.v, s.w};

@@ -9,8 +9,8 @@ namespace corpuscle {
 
 /// Izhikevich 2003, in SI:   dv/dt = 4e4 v^2 + 5e3 v + 140 - w + gain I,   dw/dt = a (b v - w)      (v in V, w in V/s)
 ///     v > V_peak  =>  spike, then v = c and w = w + d
-/// The paper's 0.04, 5, 140 in mV and ms are these; its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
-/// Both methods use the same substeps. No refractory time: recovery is w's part. Named in thesis 3.2 for adaptation.
+/// These are the paper's 0.04, 5 and 140 in mV and ms. Its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
+/// Both methods use the same substeps. No refractory time: recovery takes its role. Named in thesis 3.2 for adaptation.
 struct IzhikevichFacts {
     struct Params {
         double a = 20, b = 200, c = -65e-3, d = 8, V_peak = 30e-3, gain = 2.5e6, substep = 20e-6;
@@ -23,8 +23,8 @@ struct IzhikevichFacts {
         {"c", &Params::c, "V", -0.2, 0.02, "membrane after a spike"},
         {"d", &Params::d, "V/s", -1e3, 1e3, "jump of recovery at a spike"},
         {"V_peak", &Params::V_peak, "V", -0.03, 0.2, "top of a spike"},
-        {"gain", &Params::gain, "V/s/A", 0, 1e15, "from the transduction's current to dv/dt", "choice: tens of hertz at microamperes"},
-        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (but no more than a million a sample)", "choice", true},
+        {"gain", &Params::gain, "V/s/A", 0, 1e15, "gain from the receptor's current to dv/dt", "choice: tens of hertz at microamperes"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
     static constexpr Below<Params> orders[] = {
         {"c", &Params::c, "V_peak", &Params::V_peak},
@@ -43,20 +43,20 @@ struct Izhikevich : IzhikevichFacts {
         : a(value(&Params::a)), b(value(&Params::b)), c(value(&Params::c)), d(value(&Params::d)), V_peak(value(&Params::V_peak)),
           gain(value(&Params::gain)), dt(dt), count(substeps_of(dt, value.one(&Params::substep))) {}
 
-    /// At its stable rest, dv/dt = dw/dt = 0; where there is none, at c.
+    /// The stable resting state, dv/dt = dw/dt = 0; c if there is none.
     State start() const {
-        const T p = T(5e3) - b, inside = p * p - T(4 * 4e4 * 140);
-        const T v = num::select(inside > T(0.0), (-p - num::sqrt(num::positive(inside))) / T(8e4), c);
+        const T p = T(5e3) - b, discriminant = p * p - T(4 * 4e4 * 140);
+        const T v = num::select(discriminant > T(0.0), (-p - num::sqrt(num::positive(discriminant))) / T(8e4), c);
         return {v, b * v};
     }
     void show(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike in it.
+    /// One sample under current i. Calls fired(mask, offset) for each spike.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         Pair<T> y{s.v, s.w};
         const auto slopes = [this](Pair<T> at, T current) {
-            const T v = num::min(at.v, V_peak);  // the parabola is not followed above it
+            const T v = num::min(at.v, V_peak);  // the parabola is limited to its value at V_peak
             return Pair<T>{v * (T(4e4) * v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * v - at.w)};
         };
         advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{c, at.w + d}; }, fired);

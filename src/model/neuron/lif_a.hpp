@@ -7,11 +7,11 @@
 
 namespace corpuscle {
 
-/// LIF-A, the leaky integrate-and-fire neuron with a resistor, integrated exactly under a straight-line current:
+/// LIF-A, the leaky integrate-and-fire neuron with a resistor, integrated exactly for a straight-line current:
 ///     R_m C_m du/dt = -(u - E_L) + R_m I;   u > V_th  =>  spike, then u = V_reset for t_ref
-/// (thesis eq. 5, Alg. 3.) Backward Euler is the algorithm itself, u[n] = k_a I[n] + k_b u[n-1] + k_c with the errata's
-/// k_a = R/(1 + RC/T), k_b = (RC/T)/(1 + RC/T), k_c = E_L/(1 + RC/T); a spike then subtracts V_th - V_reset; with a t_ref,
-/// which ends on a sample, it sets V_reset. A peak of u inside a step that has fallen below V_th again at its end is not seen.
+/// (thesis eq. 5, Alg. 3.) Backward Euler is the published algorithm, u[n] = k_a I[n] + k_b u[n-1] + k_c, with constants as in the errata:
+/// k_a = R/(1 + RC/T), k_b = (RC/T)/(1 + RC/T), k_c = E_L/(1 + RC/T). A spike then subtracts V_th - V_reset; with a t_ref, which ends on a
+/// sample, it sets V_reset. Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
 struct LifAFacts {
     struct Params {
         double C_m = 500e-9, R_m = 1e6, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
@@ -36,7 +36,7 @@ struct LifAFacts {
 template <class T>
 struct LifA : LifAFacts {
     struct State {
-        T u, wait;  // membrane; what is left of t_ref, in steps
+        T u, wait;  // membrane; rest of t_ref, in steps
     };
 
     template <class Values>
@@ -49,7 +49,8 @@ struct LifA : LifAFacts {
     void settle(State& s) const { s.u = settled(s.u, faded_voltage, E_L); }
     void show(const State& s, T (&out)[1]) const { out[0] = s.u; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.
+    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes where the limit of spikes truncated the
+    /// step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         return exact ? step_exact(s, i, fired) : step_sampled(s, i.to, fired);
@@ -83,8 +84,8 @@ private:
             };
             x = num::select(over, offset_from(x + rising_root(rise, T(0.0), T(1.0) - x), x), x);
             fired(over, x);
-            const T free = x + ref, from = num::min(free, T(1.0));
-            s.wait = num::select(over, free - from, s.wait);
+            const T end = x + ref, from = num::min(end, T(1.0));
+            s.wait = num::select(over, end - from, s.wait);
             x = num::select(over, from, x);
             u = num::select(over, V_reset, u);
             s.u = num::select(over, after(u, i.from + g * x, g, T(1.0) - x), s.u);
@@ -95,11 +96,11 @@ private:
 
     template <class Fired>
     num::Mask<T> step_sampled(State& s, T i, Fired& fired) const {
-        const auto held = s.wait > T(0.0);
+        const auto refractory = s.wait > T(0.0);
         s.wait = num::positive(s.wait - T(1.0));
-        const T before = s.u, end = num::select(held, before, (before + theta * (E_L + R_m * i)) / (T(1.0) + theta));
+        const T before = s.u, end = num::select(refractory, before, (before + theta * (E_L + R_m * i)) / (T(1.0) + theta));
         const T drop = V_th - V_reset;
-        T level = V_th;  // of the unbroken straight line from `before` to `end`
+        T level = V_th;  // of the straight line from `before` to `end`, continued without resets
         s.u = end;
         auto over = s.u > V_th;
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {

@@ -7,10 +7,10 @@
 
 namespace corpuscle {
 
-/// LIF-B, the thesis's leaky integrate-and-fire with a constant leak, integrated exactly under a straight-line current:
+/// LIF-B, the thesis's leaky integrate-and-fire neuron with a constant leak, integrated exactly for a straight-line current:
 ///     C_m du/dt = I - I_leak0 above E_L, u held at E_L when I < I_leak0;   u > V_th  =>  spike, then u = V_reset for t_ref
-/// (thesis eq. 6, 7, Alg. 4; errata: u[n-1], not u_rest, is what the algorithm adds to. C, theta, u_rst, u_rest there.)
-/// A peak of u inside a step that has fallen below V_th again at its end is not seen.
+/// (thesis eq. 6, 7, Alg. 4; errata: the algorithm adds to u[n-1], not to u_rest. The thesis writes C, theta, u_rst, u_rest.)
+/// Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
 struct LifBFacts {
     struct Params {
         double C_m = 500e-9, I_leak0 = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
@@ -21,8 +21,8 @@ struct LifBFacts {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "thesis 3.3"},
         {"I_leak0", &Params::I_leak0, "A", 0, 1, "leak above E_L; the rheobase", "thesis 3.3"},
         {"E_L", &Params::E_L, "V", -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
-        {"V_th", &Params::V_th, "V", -10, 10, "threshold (theta)", "choice: the thesis leaves it open"},
-        {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: the thesis leaves it open"},
+        {"V_th", &Params::V_th, "V", -10, 10, "threshold (theta)", "choice: not given in the thesis"},
+        {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: not given in the thesis"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time", "thesis: none"},
     };
     static constexpr Below<Params> orders[] = {
@@ -32,14 +32,14 @@ struct LifBFacts {
     static constexpr Probe parts[] = {{"u", "V"}};
 };
 
-/// The membrane is kept as its charge, told by the current that brings it in half a step: q = 2 C_m u / T, in A. Then a whole
-/// step under a straight-line current adds the sum of its ends, less twice the leak.
+/// The membrane is stored as a charge, expressed as the current that delivers it in half a step: q = 2 C_m u / T, in A. A whole step under
+/// a straight-line current then adds the sum of the currents at its ends minus twice the leak.
 template <class T>
 struct LifB : LifBFacts {
     struct State {
-        T q, wait;  // charge; what is left of t_ref, in steps
+        T q, wait;  // charge; rest of t_ref, in steps
     };
-    static constexpr std::size_t values_of_waiting = 1;  ///< at its end: 0 where may_wait() is false
+    static constexpr std::size_t values_of_waiting = 1;  ///< last in State; 0 where may_be_refractory() is false
 
     template <class Values>
     LifB(const Values& value, double dt, Method)
@@ -50,19 +50,20 @@ struct LifB : LifBFacts {
     State start() const { return {least, T(0.0)}; }
     void show(const State& s, T (&out)[1]) const { out[0] = s.q / C; }
 
-    /// A step in which nothing happens: no spike, no turn up through the leak, no refractory time (which need not be looked for
-    /// where may_wait() is false). Says where something may.
-    template <bool look_for_wait, class I>
+    /// Computes a step without events: no spike, no current that rises through the leak, no refractory time. The last is not tested unless
+    /// `check_wait` is set. Returns the lanes in which an event is possible.
+    template <bool check_wait, class I>
     [[gnu::always_inline]] num::Mask<T> glance(const State& s, const I& i, State& next) const {
         next = {num::max(least, s.q + (i.sum() - leak)), s.wait};
-        num::Mask<T> something = next.q > theta;
-        if (i.may_rise()) something = something | i.rises_through(I_leak0);
-        if (look_for_wait) something = something | (s.wait > T(0.0));
-        return something;
+        num::Mask<T> events = next.q > theta;
+        if (i.may_rise()) events = events | i.rises_through(I_leak0);
+        if (check_wait) events = events | (s.wait > T(0.0));
+        return events;
     }
     bool may_wait() const { return refractory; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike in it; returns where the cap cut it short.
+    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes where the limit of spikes truncated the
+    /// step.
     template <class I, class Fired>
     [[gnu::always_inline]] num::Mask<T> step(State& s, const I& i, Fired&& fired) const {
         State next;
@@ -76,7 +77,7 @@ struct LifB : LifBFacts {
     }
 
 private:
-    T C, I_leak0, leak, least, theta, reset, drop, ref;  // leak: of a step; then charges as q is, of E_L, V_th, V_reset
+    T C, I_leak0, leak, least, theta, reset, drop, ref;  // leak: of a step; then E_L, V_th, V_reset as charges like q
     bool refractory;
 
     struct Stepped {
@@ -84,28 +85,28 @@ private:
         num::Mask<T> over;
     };
 
-    /// The same step looked into: q(x) = base + rise.at(x), never below E_L's; from where it is no longer held, and between spikes.
+    /// The same step with its events: q(x) = base + rise.at(x), not below E_L, from the end of the refractory time and between spikes.
     template <class Fired>
-    [[gnu::noinline, gnu::cold]] Stepped inside(State s, T whole, Current<T> i, Fired& fired) const {
+    [[gnu::noinline, gnu::cold]] Stepped inside(State s, T increment, Current<T> i, Fired& fired) const {
         const Parabola<T> rise{T(2.0) * (i.from - I_leak0), T(2.0) * (i.to - i.from)};
         T x = num::min(s.wait, T(1.0)), base = s.q;
         s.wait = s.wait - x;
-        s.q = num::max(least, base + whole);
+        s.q = num::max(least, base + increment);
         const num::Mask<T> bends = i.rises_through(I_leak0) | (x > T(0.0));
         base = num::select(bends, num::max(base - rise.at(x), least - rise.least_after(x)), base);
-        s.q = num::select(bends, num::max(least, base + whole), s.q);
+        s.q = num::select(bends, num::max(least, base + increment), s.q);
         num::Mask<T> over = s.q > theta;
         for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
             x = num::select(over, offset_from(rise.rises_through(theta - base), x), x);
             fired(over, x);
             T next = base - drop;
             if (refractory) {
-                const T free = x + ref, from = num::min(free, T(1.0));
-                s.wait = num::select(over, free - from, s.wait);
+                const T end = x + ref, from = num::min(end, T(1.0));
+                s.wait = num::select(over, end - from, s.wait);
                 next = num::select(ref > T(0.0), reset - rise.at(from), next);
             }
             base = num::select(over, next, base);
-            s.q = num::select(over, num::max(least, base + whole), s.q);
+            s.q = num::select(over, num::max(least, base + increment), s.q);
             over = over & (s.q > theta);
         }
         return {s, over};

@@ -1,26 +1,26 @@
 #pragma once
-// What the integrate-and-fire neurons share: the inside of one step, x from 0 at the last sample to 1 at this one.
+// Helpers of the integrate-and-fire neurons for events within one step. x is 0 at the last sample and 1 at this one.
 
 #include "signal/elementary.hpp"
 
 namespace corpuscle {
 
-/// Spikes of one neuron in one step at the most; a step cut short by it is told and counted.
+/// Limit of spikes of one neuron in one step. Steps that it truncates are counted and reported.
 inline constexpr int spikes_a_step = 64;
 
-/// A path with straight slope, q(x) = a x + b x^2 / 2, up to its own constant.
+/// A function with a straight slope, up to its own constant: q(x) = a x + b x^2 / 2.
 template <class T>
 struct Parabola {
     T a, b;
     T at(T x) const { return x * (a + T(0.5) * b * x); }
-    /// The least of q on [x0, 1].
+    /// The minimum of q on [x0, 1].
     T least_after(T x0) const {
         T least = num::min(at(x0), at(T(1.0)));
-        const num::Mask<T> turns = (a + b * x0 < T(0.0)) & (a + b > T(0.0));
-        if (num::any(turns)) least = num::select(turns, T(-0.5) * a * a / num::select(turns, b, T(1.0)), least);
+        const num::Mask<T> has_minimum = (a + b * x0 < T(0.0)) & (a + b > T(0.0));
+        if (num::any(has_minimum)) least = num::select(has_minimum, T(-0.5) * a * a / num::select(has_minimum, b, T(1.0)), least);
         return least;
     }
-    /// Where q rises through c, the discriminant kept from rounding below 0.
+    /// The x at which q rises through c. The discriminant is kept from becoming negative by rounding.
     T rises_through(T c) const {
         const T root = num::sqrt(num::positive(a * a + T(2.0) * b * c));
         const auto straight = a > T(0.0);
@@ -29,14 +29,14 @@ struct Parabola {
     }
 };
 
-/// An offset as a spike carries it: in (0, 1], not before x0.
+/// The time of a spike within its step: in (0, 1], not before x0.
 template <class T>
 T offset_from(T x, T x0) {
     return num::min(num::max(x, num::max(x0, T(0x1p-52))), T(1.0));
 }
 
-/// The root of a function that rises through 0 between low and high: Newton's steps, halving where they would leave the
-/// bracket; always the same number of passes, so that lanes and scalars do the same. f(x) gives {value, slope}.
+/// The root of a function that rises through 0 between low and high, by Newton's method, with bisection where a step would leave the
+/// bracket. The number of passes is fixed, so that lanes and scalars compute the same. f(x) returns {value, slope}.
 template <class T, class F>
 T rising_root(F f, T low, T high) {
     T x = T(0.5) * (low + high);

@@ -1,7 +1,7 @@
 #pragma once
-// Neurons without a closed form: two variables, a membrane v and a recovery w, advanced in equal substeps by the classical
-// Runge-Kutta rule, the current a straight line over the step. Where v passes V_peak in a substep the crossing is put on the
-// straight line between its ends, v and w jump there, and what remains of the substep is taken as one more.
+// Neurons without a closed form: two variables, a membrane potential v and a recovery w. They are advanced in equal substeps by the
+// classical Runge-Kutta method; the current is a straight line over the step. If v exceeds V_peak in a substep, the crossing is found by
+// linear interpolation. v and w are reset there, and the rest of the substep is integrated as another one.
 
 #include "model/current.hpp"
 #include "model/neuron/step.hpp"
@@ -15,7 +15,7 @@ struct Pair {
     friend Pair operator*(T s, Pair a) { return {s * a.v, s * a.w}; }
 };
 
-/// slopes(Pair, T current) gives d/dt; h in seconds, current changing by g over it.
+/// One Runge-Kutta step. slopes(y, current) returns dy/dt; h in seconds; the current changes by g over the step.
 template <class T, class Slopes>
 Pair<T> runge_kutta(const Slopes& slopes, Pair<T> y, T i, T g, T h) {
     const T half = T(0.5) * h, middle = i + T(0.5) * g;
@@ -23,13 +23,13 @@ Pair<T> runge_kutta(const Slopes& slopes, Pair<T> y, T i, T g, T h) {
     return y + (h * T(1.0 / 6)) * (k1 + T(2.0) * (k2 + k3) + k4);
 }
 
-/// Substeps of at most `longest` in a step of dt, but no more than a million.
+/// Number of substeps of at most `longest` in a step of dt, limited to a million.
 inline int substeps_of(double dt, double longest) {
     const double n = dt / longest;
     return n <= 1 ? 1 : n > 1e6 ? 1'000'000 : static_cast<int>(n) + (static_cast<int>(n) < n);
 }
 
-/// One step in `count` substeps; jump(Pair) is what a spike does to the state.
+/// One step in `count` substeps; jump(y) returns the state after a spike.
 template <class T, class Slopes, class Jump, class Fired>
 void advance(Pair<T>& y, Current<T> i, double dt, int count, T V_peak, const Slopes& slopes, const Jump& jump, Fired& fired) {
     const T h = T(dt / count), g = (i.to - i.from) * T(1.0 / count);
@@ -43,7 +43,7 @@ void advance(Pair<T>& y, Current<T> i, double dt, int count, T V_peak, const Slo
         fired(over, (T(static_cast<double>(k)) + x) * T(1.0 / count));
         const Pair<T> after = jump(Pair<T>{V_peak, before.w + x * (y.w - before.w)});
         const Pair<T> end = runge_kutta(slopes, after, at + g * x, g * left, h * left);
-        y.v = num::select(over, num::min(end.v, V_peak), y.v);  // one spike a substep at the most
+        y.v = num::select(over, num::min(end.v, V_peak), y.v);  // at most one spike per substep
         y.w = num::select(over, end.w, y.w);
     }
 }

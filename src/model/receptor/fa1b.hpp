@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 /// FA-IB, the thesis's proposal:   I = k_A max{I_0, 0} + k_B max{-I_0, 0},   I_0' + 2 pi f I_0 = F'
-/// (thesis 3.4, Alg. 6; errata: falling force excites too, the printed sign would silence it. I_0 is in newtons.)
+/// (thesis 3.4, Alg. 6; errata: falling force excites too, although the printed sign would suppress it. I_0 is in newtons.)
 struct Fa1bFacts {
     struct Params {
         double k_A = 3.5e-6, k_B = 2.75e-6, f = 2;
@@ -20,9 +20,11 @@ struct Fa1bFacts {
         {"f", &Params::f, "Hz", 1e-6, 1e6, "corner of the high-pass"},
     };
     static constexpr int outputs = 1;
-    static constexpr bool continuous = true;  ///< exact: the current begins a step where it ended the one before; else it is constant in it
-    static constexpr bool keeps_strays = true;  ///< after a force that is no number its state is none
-    static constexpr bool scales = true;        ///< twice the force is twice the current
+    /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
+    /// step.
+    static constexpr bool continuous = true;
+    static constexpr bool keeps_strays = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales = true;        ///< twice the force gives twice the current
     static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}};
 };
 

@@ -7,12 +7,12 @@
 namespace corpuscle {
 
 /// SA-IA, Kim et al. 2012:   I = beta + k_s F + k_d |F'|      (thesis eq. 1, Alg. 1; errata: differences divided by T)
-/// A slope is known only over a step, so the dynamic part is constant in it.
+/// The slope of the force is known only as a difference over a step, so the dynamic part is constant within a step.
 struct Sa1aFacts {
     struct Params {
         double beta = 0, k_s = 1e-6, k_d = 100e-9;
     };
-    static constexpr std::string_view name = "sa1a", sentence = "SA-IA: static part plus the size of the force's slope";
+    static constexpr std::string_view name = "sa1a", sentence = "SA-IA: static part plus the absolute slope of the force";
     static constexpr std::string_view source = "Kim et al. 2012, doi 10.1186/1743-0003-9-45; thesis eq. 1, Alg. 1; values are a choice";
     static constexpr Field<Params> fields[] = {
         {"beta", &Params::beta, "A", -1e-3, 1e-3, "current without force"},

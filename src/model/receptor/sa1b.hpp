@@ -7,27 +7,29 @@
 namespace corpuscle {
 
 /// SA-IB, the thesis's proposal:   I = k_A F + max{I_B, 0} + max{I_C, 0},   I_x' + 2 pi f_x I_x = K_x F'
-/// (thesis eq. 8 to 12, Alg. 5; the signs and names of Alg. 5 as its errata give them: I_x[n] = k_x2 (K_x dF + I_x[n-1]).)
-/// Between samples the current is taken as a straight line: the error of a spike time falls with T^2.
+/// (thesis eq. 8 to 12, Alg. 5; signs and names of Alg. 5 follow its errata: I_x[n] = k_x2 (K_x dF + I_x[n-1]).)
+/// Between samples the current is approximated by a straight line: the error of a spike time decreases with T^2.
 struct Sa1bFacts {
     struct Params {
         double k_A = 1e-6, K_B = 8e-6, f_B = 20, K_C = 2e-6, f_C = 2;
     };
-    static constexpr std::string_view name = "sa1b", sentence = "SA-IB: static part plus two rectified high-passes, one quick, one slow";
+    static constexpr std::string_view name = "sa1b", sentence = "SA-IB: static part plus two rectified high-passes, one fast, one slow";
     static constexpr std::string_view source = "thesis 3.3, eq. 8 to 12, Alg. 5";
     static constexpr Field<Params> fields[] = {
         {"k_A", &Params::k_A, "A/N", 0, 1, "gain of the static part I_A"},
-        {"K_B", &Params::K_B, "A/N", 0, 1, "gain of the quick part I_B, felt in protraction",
+        {"K_B", &Params::K_B, "A/N", 0, 1, "gain of the fast part I_B, active in protraction",
          "thesis 3.3, printed 8 A/A; applied to the force"},
-        {"f_B", &Params::f_B, "Hz", 1e-6, 1e6, "corner of the quick part"},
-        {"K_C", &Params::K_C, "A/N", 0, 1, "gain of the slow part I_C, whose decay is the plateau's",
+        {"f_B", &Params::f_B, "Hz", 1e-6, 1e6, "cutoff frequency of the fast part"},
+        {"K_C", &Params::K_C, "A/N", 0, 1, "gain of the slow part I_C, whose decay sets that of the plateau",
          "thesis 3.3, printed 2 A/A; applied to the force"},
-        {"f_C", &Params::f_C, "Hz", 1e-6, 1e6, "corner of the slow part"},
+        {"f_C", &Params::f_C, "Hz", 1e-6, 1e6, "cutoff frequency of the slow part"},
     };
     static constexpr int outputs = 1;
-    static constexpr bool continuous = true;  ///< exact: the current begins a step where it ended the one before; else it is constant in it
-    static constexpr bool keeps_strays = true;  ///< after a force that is no number its state is none
-    static constexpr bool scales = true;        ///< twice the force is twice the current
+    /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
+    /// step.
+    static constexpr bool continuous = true;
+    static constexpr bool keeps_strays = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales = true;        ///< twice the force gives twice the current
     static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
 };
 

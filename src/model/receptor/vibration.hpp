@@ -7,25 +7,28 @@
 namespace corpuscle {
 
 /// A band of vibration, for FA-II:   I = k max{x, 0},   x = F through two high-passes at f_hp and a low-pass at f_lp
-///     |x / F| = f^2 / (f^2 + f_hp^2) * f_lp / sqrt(f^2 + f_lp^2), greatest at sqrt(2) f_hp for f_lp = f_hp
-/// Our choice, for a class the thesis names but does not model; it gives the tuning of Pacinian corpuscles (best at 200 to
-/// 300 Hz, deaf to slow force), not their mechanics. Each section sees the one before as straight lines between samples.
+///     |x / F| = f^2 / (f^2 + f_hp^2) * f_lp / sqrt(f^2 + f_lp^2), with its maximum at sqrt(2) f_hp for f_lp = f_hp
+/// Our choice, for a class that the thesis names but does not model. It reproduces the tuning of Pacinian corpuscles (best at 200 to
+/// 300 Hz, no response to slow force), not their mechanics. Each section treats the output of the one before as a straight line between
+/// samples.
 struct VibrationFacts {
     struct Params {
         double k = 400e-6, f_hp = 180, f_lp = 180;
     };
     static constexpr std::string_view name = "vibration", sentence = "a band of vibration: two high-passes and a low-pass, rectified";
     static constexpr std::string_view source = "choice, to the tuning of PC afferents in PMC2657072, table 1";
-    static constexpr double least_rate = 1000;  ///< Hz; below it the band is not in the samples
+    static constexpr double least_rate = 1000;  ///< Hz; below this sampling rate the samples do not contain the band
     static constexpr Field<Params> fields[] = {
         {"k", &Params::k, "A/N", 0, 1, "gain"},
-        {"f_hp", &Params::f_hp, "Hz", 1e-6, 1e6, "corner of the two high-passes"},
-        {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "corner of the low-pass"},
+        {"f_hp", &Params::f_hp, "Hz", 1e-6, 1e6, "cutoff frequency of the two high-passes"},
+        {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "cutoff frequency of the low-pass"},
     };
     static constexpr int outputs = 1;
-    static constexpr bool continuous = true;  ///< exact: the current begins a step where it ended the one before; else it is constant in it
-    static constexpr bool keeps_strays = true;  ///< after a force that is no number its state is none
-    static constexpr bool scales = true;        ///< twice the force is twice the current
+    /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
+    /// step.
+    static constexpr bool continuous = true;
+    static constexpr bool keeps_strays = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales = true;        ///< twice the force gives twice the current
 };
 
 template <class T>
@@ -45,7 +48,7 @@ struct Vibration : VibrationFacts {
         s.F = F, s.x_1 = x_1, s.x_2 = x_2, s.x_3 = x_3, s.I = current(s);
         i[0] = {hold ? before : s.I, s.I};
     }
-    T current(const State& s) const { return k * num::positive(s.x_2 - s.x_3); }  // a low-pass is what a high-pass leaves
+    T current(const State& s) const { return k * num::positive(s.x_2 - s.x_3); }  // a low-pass is its input minus a high-pass
     void settle(State& s) const {
         s.x_1 = settled(s.x_1, faded_force), s.x_2 = settled(s.x_2, faded_force), s.x_3 = settled(s.x_3, faded_force);
         s.I = current(s);

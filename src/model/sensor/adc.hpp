@@ -8,19 +8,19 @@
 
 namespace corpuscle {
 
-/// An analog-to-digital converter, and the words of the algorithms behind it (doc/fixed-point.md):
+/// An analog-to-digital converter, and the word format of the fixed-point algorithms behind it (doc/fixed-point.md):
 ///     code = floor((y - y_low) / D + 1/2) within [0, 2^bits - 1],   D = (y_high - y_low) / (2^bits - 1)
-/// y is what the front measures, y_low and y_high what it measures at F_low and F_high; so the range is said in newtons whatever
-/// the transducer gives. The converter is ideal: no noise, no aperture, no settling. All values are a choice.
+/// y is the value measured by the front end; y_low and y_high are its values at F_low and F_high, so the range is given in newtons for
+/// every transducer. The converter is ideal: no noise, no aperture, no settling. All values are a choice.
 struct Adc {
     struct Params {
         double bits = 12, f_s = 1e3, F_low = 0, F_high = 5, shared = 0, linearise = 1, word = 32, frac = 20;
     };
-    static constexpr std::string_view name = "adc", sentence = "analog-to-digital converter; behind it the algorithms run in fixed point";
+    static constexpr std::string_view name = "adc", sentence = "analog-to-digital converter; the algorithms behind it run in fixed point";
     static constexpr std::string_view source = "thesis 1.3, fig. 6a; all values are a choice";
     static constexpr Field<Params> fields[] = {
         {"bits", &Params::bits, "", 1, 16, "bits of a code", {}, true},
-        {"f_s", &Params::f_s, "Hz", 0.1, 1e6, "conversions a second, and steps of the algorithms", {}, true},
+        {"f_s", &Params::f_s, "Hz", 0.1, 1e6, "conversions per second, and steps of the algorithms", {}, true},
         {"F_low", &Params::F_low, "N", -1e6, 1e6, "force of the lowest code"},
         {"F_high", &Params::F_high, "N", -1e6, 1e6, "force of the highest code"},
         {"shared",
@@ -28,12 +28,12 @@ struct Adc {
          "",
          0,
          1,
-         "1: one converter takes all channels in turn, channel c of N late by c/(N f_s); 0: one a channel",
+         "1: one converter samples all channels in turn, channel c of N delayed by c/(N f_s); 0: one converter per channel",
          {},
          true},
-        {"linearise", &Params::linearise, "", 0, 1, "1: a table undoes the curve of sensor and transducer; 0: a straight line", {}, true},
-        {"word", &Params::word, "", 8, 32, "bits of a word of the algorithms", {}, true},
-        {"frac", &Params::frac, "", 0, 31, "bits of it behind the point: steps of 2^-frac N, uA, V", {}, true},
+        {"linearise", &Params::linearise, "", 0, 1, "1: a table inverts the curve of sensor and transducer; 0: a straight line", {}, true},
+        {"word", &Params::word, "", 8, 32, "bits of a word in the algorithms", {}, true},
+        {"frac", &Params::frac, "", 0, 31, "fraction bits of a word: steps of 2^-frac N, uA, V", {}, true},
     };
     static constexpr Below<Params> orders[] = {
         {"F_low", &Params::F_low, "F_high", &Params::F_high},
@@ -42,7 +42,7 @@ struct Adc {
     static constexpr double Params::* whole[] = {&Params::bits, &Params::shared, &Params::linearise, &Params::word, &Params::frac};
 };
 
-/// From measured values to codes, and from codes to the force they stand for.
+/// Converts measured values to codes, and codes back to force.
 class Converter {
     Front front_;
     Adc::Params p_;
@@ -61,20 +61,20 @@ public:
     const Front& front() const { return front_; }
     std::int64_t most() const { return static_cast<std::int64_t>(most_); }
 
-    Code convert(double felt) const {
-        const auto reading = front_.read(felt);
+    Code convert(double sensed) const {
+        const auto reading = front_.read(sensed);
         const double level = std::floor((reading.value - low_) / (high_ - low_) * most_ + 0.5);
         if (level < 0) return {0, true};
         if (level > most_) return {most(), true};
         return {static_cast<std::int64_t>(level), reading.clipped};
     }
 
-    /// The force that a code stands for: by the curve's inverse, or by the calibration's straight line; N.
+    /// The force that a code represents, N: by the inverse of the curve, or by the straight line of the calibration.
     double force(std::int64_t code) const {
-        const double share = static_cast<double>(code) / most_;
-        if (p_.linearise == 0) return front_.believed(low_ + share * (high_ - low_));
-        if (front_.stages().empty() || code == 0 || code == most()) return p_.F_low + share * (p_.F_high - p_.F_low);
-        return front_.inverse(low_ + share * (high_ - low_), p_.F_low, p_.F_high);
+        const double fraction = static_cast<double>(code) / most_;
+        if (p_.linearise == 0) return front_.believed(low_ + fraction * (high_ - low_));
+        if (front_.stages().empty() || code == 0 || code == most()) return p_.F_low + fraction * (p_.F_high - p_.F_low);
+        return front_.inverse(low_ + fraction * (high_ - low_), p_.F_low, p_.F_high);
     }
 };
 

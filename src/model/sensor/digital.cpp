@@ -5,17 +5,17 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t values_before_words = 7;  // see Digital::keep
-constexpr double last = 0x1p53;                 // beyond it a double no longer counts
+constexpr std::size_t values_before_words = 7;  // see DigitalAfferent::pack_state
+constexpr double max_count = 0x1p53;            // the largest count that a double holds exactly
 
 }  // namespace
 
 struct Digital::Held {
-    Turn turn;
+    Turn slot;
     Instants instants;
-    Instants::Place next;         ///< conversion
-    double before = 0, felt = 0;  ///< the last sample's force, and what the sensor felt; N
-    std::int64_t code = -1;       ///< of the last conversion; -1: there was none
+    Instants::Place next;           ///< the next conversion
+    double before = 0, sensed = 0;  ///< force of the last sample, and after the sensor's hysteresis; N
+    std::int64_t code = -1;         ///< of the last conversion; -1: none yet
     std::array<Word, FixedChain::most_words> state = {};
     std::array<Word, FixedChain::most_shown> shown = {};
 };
@@ -31,16 +31,16 @@ Digital::Digital(std::string name, Converter converter, std::unique_ptr<const Fi
     for (const auto& [shown, unit] : chain_->shown()) probes_.push_back({shown, unit});
 }
 
-Instants Digital::instants_of(std::uint32_t turns) const { return {source_rate_, f_s_, turns}; }
+Instants Digital::instants_of(std::uint32_t channels) const { return {source_rate_, f_s_, channels}; }
 
-State Digital::start(Turn turn) const {
-    if (!shared_ || turn.of == 0) turn = {};
-    Held h{turn, instants_of(turn.of), {}};
-    h.next = h.instants.first(turn.channel);
+State Digital::start(Turn slot) const {
+    if (!shared_ || slot.of == 0) slot = {};
+    Held h{slot, instants_of(slot.of), {}};
+    h.next = h.instants.first(slot.channel);
     Arithmetic a{chain_->constants().format()};
     chain_->start(0, h.state);
-    auto rehearsal = h.state;  // only to show the membrane's rest until the first conversion
-    chain_->step(rehearsal, 0, h.shown, a);
+    auto trial = h.state;  // only gives the resting membrane for the probes until the first conversion
+    chain_->step(trial, 0, h.shown, a);
     State state{format_, 0, std::vector<double>(values_before_words + chain_->words() + chain_->shown().size())};
     keep(h, state);
     return state;
@@ -48,44 +48,45 @@ State Digital::start(Turn turn) const {
 
 void Digital::keep(const Held& h, State& state) const {
     auto to = state.values.begin();
-    for (const double x : {static_cast<double>(h.turn.channel), static_cast<double>(h.turn.of), static_cast<double>(h.next.step),
-                           static_cast<double>(h.next.rest), h.before, h.felt, static_cast<double>(h.code)})
+    for (const double x : {static_cast<double>(h.slot.channel), static_cast<double>(h.slot.of), static_cast<double>(h.next.step),
+                           static_cast<double>(h.next.rest), h.before, h.sensed, static_cast<double>(h.code)})
         *to++ = x;
     for (std::size_t w = 0; w < chain_->words(); ++w) *to++ = static_cast<double>(h.state[w]);
     for (std::size_t w = 0; w < chain_->shown().size(); ++w) *to++ = static_cast<double>(h.shown[w]);
 }
 
-/// Nothing, if a number is not what keep() could have written.
+/// Returns nothing if a value cannot have been written by pack_state().
 std::optional<Digital::Held> Digital::held_of(const State& state) const {
     const auto& v = state.values;
-    const auto counts = [](double x, double low, double high) { return x >= low && x <= high && x == std::floor(x); };
-    if (!counts(v[1], 1, 0x1p20) || !counts(v[0], 0, v[1] - 1) || !counts(v[2], 0, last) || !counts(v[3], 0, last)) return {};
-    if (!std::isfinite(v[4]) || !std::isfinite(v[5]) || !counts(v[6], -1, static_cast<double>(converter_.most()))) return {};
-    const Turn turn{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
-    Held h{turn, instants_of(turn.of),           {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
+    const auto is_count = [](double x, double low, double high) { return x >= low && x <= high && x == std::floor(x); };
+    if (!is_count(v[1], 1, 0x1p20) || !is_count(v[0], 0, v[1] - 1) || !is_count(v[2], 0, max_count) || !is_count(v[3], 0, max_count))
+        return {};
+    if (!std::isfinite(v[4]) || !std::isfinite(v[5]) || !is_count(v[6], -1, static_cast<double>(converter_.most()))) return {};
+    const Turn slot{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
+    Held h{slot, instants_of(slot.of),           {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
            v[5], static_cast<std::int64_t>(v[6])};
     if (h.next.rest >= h.instants.parts()) return {};
-    const auto most = static_cast<double>(chain_->constants().format().most());
+    const auto max_word = static_cast<double>(chain_->constants().format().most());
     for (std::size_t w = 0; w < v.size() - values_before_words; ++w) {
         const double word = v[values_before_words + w];
-        if (!counts(word, -most - 1, std::max(most, 1e7))) return {};  // a word, or steps left of t_ref
+        if (!is_count(word, -max_word - 1, std::max(max_word, 1e7))) return {};  // a word, or the remaining steps of t_ref
         (w < chain_->words() ? h.state[w] : h.shown[w - chain_->words()]) = static_cast<Word>(word);
     }
     return h;
 }
 
-Result<void> Digital::respond(std::span<const double> force, State& state, Answer& answer) const {
-    return convert(force, state, answer, [](const Conversion&) {});
+Result<void> Digital::respond(std::span<const double> force, State& state, Answer& response) const {
+    return convert(force, state, response, [](const Conversion&) {});
 }
 
-Result<void> Digital::convert(std::span<const double> force, State& state, Answer& answer, const Seen& seen) const {
+Result<void> Digital::convert(std::span<const double> force, State& state, Answer& response, const Seen& seen) const {
     const auto size = values_before_words + chain_->words() + chain_->shown().size();
     if (auto ok = check_block(name_, format_, size, state, force); !ok) return ok;
-    auto held = held_of(state);
-    if (!held) return bad_input(name_ + ": a saved state is damaged: it holds what no word and no count can be");
+    auto unpacked = held_of(state);
+    if (!unpacked) return bad_input(name_ + ": a saved state is damaged: it contains values that are neither words nor counts");
     if (force.empty()) return {};
-    auto& h = *held;
-    if (state.step == 0) h.before = h.felt = force[0];
+    auto& h = *unpacked;
+    if (state.step == 0) h.before = h.sensed = force[0];
     const auto& front = converter_.front();
     for (std::size_t k = 0; k < force.size(); ++k) {
         const std::int64_t sample = state.step + static_cast<std::int64_t>(k);
@@ -93,42 +94,42 @@ Result<void> Digital::convert(std::span<const double> force, State& state, Answe
             const bool on_sample = h.next.rest == 0;
             const double x = on_sample ? 1 : static_cast<double>(h.next.rest) / static_cast<double>(h.instants.parts());
             const double F = on_sample ? force[k] : h.before + x * (force[k] - h.before);
-            one(h, front.played(h.felt, F), {h.next.step + !on_sample, x, answer.unit}, answer, seen);
+            one(h, front.played(h.sensed, F), {h.next.step + !on_sample, x, response.unit}, response, seen);
         }
-        h.felt = front.played(h.felt, force[k]);
+        h.sensed = front.played(h.sensed, force[k]);
         h.before = force[k];
-        if (!answer.probes.empty()) show(h, h.felt, k, answer);
+        if (!response.probes.empty()) show(h, h.sensed, k, response);
     }
     keep(h, state);
     state.step += static_cast<std::int64_t>(force.size());
     return {};
 }
 
-/// One conversion of a felt force and one step of the algorithms.
-void Digital::one(Held& h, double felt, Spike at, Answer& answer, const Seen& seen) const {
-    const auto [code, clipped] = converter_.convert(felt);
+/// One conversion of a force (after hysteresis) and one step of the algorithms.
+void Digital::one(Held& h, double sensed, Spike at, Answer& response, const Seen& seen) const {
+    const auto [code, clipped] = converter_.convert(sensed);
     const Word F = rom_[static_cast<std::size_t>(code)];
     if (h.code < 0) chain_->start(F, h.state);
     h.code = code;
     Arithmetic a{chain_->constants().format()};
     const auto stepped = chain_->step(h.state, F, h.shown, a);
     for (const bool spike : stepped.fired)
-        if (spike) answer.spikes.push_back(at);
-    answer.capped += stepped.capped, answer.clipped += clipped, answer.overflowed += a.overflowed;
+        if (spike) response.spikes.push_back(at);
+    response.capped += stepped.capped, response.clipped += clipped, response.overflowed += a.overflowed;
     seen({code, F, std::span(h.shown).first(chain_->shown().size()),
           std::span(stepped.fired).first(static_cast<std::size_t>(chain_->outputs()))});
 }
 
-/// What stands after sample k: the front at it, the words of the last conversion.
-void Digital::show(const Held& h, double felt, std::size_t k, Answer& answer) const {
+/// Records sample k: the front end at this sample, and the words of the last conversion.
+void Digital::show(const Held& h, double sensed, std::size_t k, Answer& response) const {
     const auto format = chain_->constants().format();
     std::vector<double> shown(converter_.front().stages().size());
-    (void)converter_.front().read(felt, shown.data());
+    (void)converter_.front().read(sensed, shown.data());
     shown.push_back(static_cast<double>(std::max<std::int64_t>(h.code, 0)));
     shown.push_back(h.code < 0 ? 0 : format.value(rom_[static_cast<std::size_t>(h.code)]));
     for (std::size_t w = 0; w < chain_->shown().size(); ++w)
         shown.push_back(format.value(h.shown[w]) * (chain_->shown()[w].second == "A" ? 1e-6 : 1));
-    for (std::size_t p = 0; p < shown.size(); ++p) answer.probes[p][k] = shown[p];
+    for (std::size_t p = 0; p < shown.size(); ++p) response.probes[p][k] = shown[p];
 }
 
 }  // namespace corpuscle

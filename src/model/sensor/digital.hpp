@@ -1,5 +1,5 @@
 #pragma once
-// An afferent behind a converter: everything after it happens in words, at the converter's own rate.
+// An afferent behind a converter. Everything after the converter is computed in words, at the converter's own rate.
 
 #include "model/sensor/adc.hpp"
 #include "model/sensor/fixed_chain.hpp"
@@ -7,15 +7,15 @@
 
 namespace corpuscle {
 
-/// Between two samples of the source the force is a straight line; the converter takes it at its own instants, and spikes come there.
+/// Between two samples of the source the force is a straight line. The converter samples it at its own times, and spikes occur there.
 class Digital final : public Afferent {
 public:
-    /// One conversion, and what came of it.
+    /// One conversion and its result.
     struct Conversion {
         std::int64_t code;
         Word force;
-        std::span<const Word> shown;  ///< in the order of chain().shown()
-        std::span<const bool> fired;  ///< a bit for each neuron
+        std::span<const Word> shown;  ///< in the order of chain().recordables()
+        std::span<const bool> fired;  ///< a bit for each neuron: true if it fired
     };
     using Seen = std::function<void(const Conversion&)>;
 
@@ -27,16 +27,16 @@ public:
     std::span<const Probe> probes() const override { return probes_; }
     State start(Turn) const override;
     Result<void> respond(std::span<const double> force, State&, Answer&) const override;
-    /// The same, telling each conversion.
+    /// The same as respond(), with a call for each conversion.
     Result<void> convert(std::span<const double> force, State&, Answer&, const Seen&) const;
 
 private:
-    struct Held;  // a State, as numbers of their kind
-    Instants instants_of(std::uint32_t turns) const;
+    struct Held;  // the values of a State, as numbers of their types
+    Instants instants_of(std::uint32_t channels) const;
     std::optional<Held> held_of(const State&) const;
     void keep(const Held&, State&) const;
-    void one(Held&, double felt, Spike at, Answer&, const Seen&) const;
-    void show(const Held&, double felt, std::size_t k, Answer&) const;
+    void one(Held&, double sensed, Spike at, Answer&, const Seen&) const;
+    void show(const Held&, double sensed, std::size_t k, Answer&) const;
 
     std::string name_, format_;
     Converter converter_;

@@ -5,20 +5,20 @@
 
 namespace corpuscle {
 
-/// Force to current: the sensor's current under V_FSR, of which two transistors of shared gates split off a part.
+/// Force to current: the sensor's current under V_FSR; two transistors with a common gate split off a part of it.
 ///     I_F = V_FSR G_FSR S_1 / (S_1 + S_2),   not above I_max
-/// (thesis eq. 15, fig. 22; errata: of the current that is split, the smaller array carries S_1/(S_1 + S_2), here 1/17.)
+/// (thesis eq. 15, fig. 22; errata: the smaller array carries S_1/(S_1 + S_2) of the split current, here 1/17.)
 struct F2i {
     struct Params {
         double V_FSR = 0.1, S_1 = 1, S_2 = 16, I_max = 5e-6;
     };
-    static constexpr std::string_view name = "f2i", sentence = "force to current: a share of the sensor's current";
+    static constexpr std::string_view name = "f2i", sentence = "force to current: a fraction of the sensor's current";
     static constexpr std::string_view source = "thesis 4.2, figs. 21 and 22, eq. 15, table 1";
     static constexpr Field<Params> fields[] = {
         {"V_FSR", &Params::V_FSR, "V", 1e-6, 100, "voltage across the sensor (V_Y - V_SS)", "inferred from the gain of thesis fig. 24b"},
-        {"S_1", &Params::S_1, "", 1e-6, 1e6, "aspect ratio of the array that gives I_F"},
-        {"S_2", &Params::S_2, "", 0, 1e6, "aspect ratio of the array that takes the rest; 0: no split"},
-        {"I_max", &Params::I_max, "A", 1e-15, 1e3, "the most the amplifier can give, where I_F is clipped", "choice: met at about 10 N"},
+        {"S_1", &Params::S_1, "", 1e-6, 1e6, "aspect ratio of the array that carries I_F"},
+        {"S_2", &Params::S_2, "", 0, 1e6, "aspect ratio of the array that carries the rest; 0: no split"},
+        {"I_max", &Params::I_max, "A", 1e-15, 1e3, "limit of the amplifier, where I_F saturates", "choice: reached at about 10 N"},
     };
 
     static Stage stage(const Params& p) {

@@ -7,7 +7,7 @@ namespace corpuscle {
 
 /// Force to voltage: a transimpedance amplifier that keeps V_FSR across the sensor.
 ///     V_Z = V_X + V_FSR G_FSR R_fb,   V_X = V_SS + V_FSR,   not above V_DD
-/// (thesis eq. 14; errata: its second line drops 1/R_0.) The amplifier is ideal but for its supply.
+/// (thesis eq. 14; errata: its second line omits 1/R_0.) The amplifier is ideal except for its supply.
 struct F2v {
     struct Params {
         double V_FSR = 0.1, R_fb = 10e3, V_SS = 0, V_DD = 0.7;
@@ -18,7 +18,7 @@ struct F2v {
         {"V_FSR", &Params::V_FSR, "V", 1e-6, 100, "voltage across the sensor (V_Y - V_SS)", "inferred from the gain of thesis fig. 24b"},
         {"R_fb", &Params::R_fb, "ohm", 1e-3, 1e12, "feedback resistor (R_F)", "choice: 0.55 V at 4 N"},
         {"V_SS", &Params::V_SS, "V", -100, 100, "lower supply", "thesis 4.2"},
-        {"V_DD", &Params::V_DD, "V", -100, 100, "upper supply, where V_Z is clipped", "thesis 4.2"},
+        {"V_DD", &Params::V_DD, "V", -100, 100, "upper supply, where V_Z saturates", "thesis 4.2"},
     };
     static constexpr Below<Params> orders[] = {{"V_SS", &Params::V_SS, "V_DD", &Params::V_DD}};
 

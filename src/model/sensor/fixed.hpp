@@ -1,9 +1,9 @@
 #pragma once
-// Arithmetic in words of two's complement, as small hardware does it. The rules are in doc/fixed-point.md.
+// Arithmetic in two's complement words, as in small hardware. The rules are in doc/fixed-point.md.
 //
-// No intermediate can overflow its 64 bits. A word has at most 32 bits, so |n| <= 2^31; a factor's mantissa is in [0, 2^31) and its
-// shift in [0, 62]. So |n M| < 2^62, and with the half of the rounding, at most 2^61, it stays below 2^63. A sum has at most four
-// words: below 2^34.
+// No intermediate can overflow its 64 bits. A word has at most 32 bits, so |n| <= 2^31. The mantissa of a factor is in [0, 2^31), its shift
+// in [0, 62]. So |n M| < 2^62, and with the rounding term, at most 2^61, it stays below 2^63. A sum has at most four words and is below
+// 2^34.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -16,45 +16,45 @@
 
 namespace corpuscle {
 
-/// A word, or a sum of a few words not yet brought back to one.
+/// A word, or a sum of a few words that is not yet saturated to one.
 using Word = std::int64_t;
 
 inline constexpr double micro = 1e6;  // uA in an A
 
-/// Nearest whole number, halves up; exact, as x + 0.5 would not be.
+/// Nearest integer, halves up. It is exact, which x + 0.5 would not be.
 inline double rounded(double x) {
     const double down = std::floor(x);
     return x - down >= 0.5 ? down + 1 : down;
 }
 
-/// Words of `word` bits, of which `frac` stand behind the point.
+/// Words of `word` bits, `frac` of them after the binary point.
 struct WordFormat {
     int word = 32, frac = 20;
     Word most() const { return (Word{1} << (word - 1)) - 1; }
     Word least() const { return -(Word{1} << (word - 1)); }
-    /// The nearest word to a value that one can hold.
+    /// The nearest word to a value that fits.
     Word nearest(double x) const { return static_cast<Word>(rounded(std::ldexp(x, frac))); }
     double value(Word n) const { return std::ldexp(static_cast<double>(n), -frac); }
 };
 
-/// A constant that multiplies, mantissa * 2^-shift: as many digits as a word has, whatever its size.
+/// A constant factor, mantissa * 2^-shift. It has as many significant digits as a word, whatever its size.
 struct Factor {
     Word mantissa = 0;
     int shift = 0;
 };
 
-/// The operations; counts every result that did not fit a word and was kept at its largest or least.
+/// The operations. They saturate results that do not fit a word, and count them.
 struct Arithmetic {
     WordFormat format;
     std::int64_t overflowed = 0;
 
-    /// A sum, brought back to a word.
+    /// A sum, saturated to a word.
     Word held(Word sum) {
         if (sum > format.most()) return ++overflowed, format.most();
         if (sum < format.least()) return ++overflowed, format.least();
         return sum;
     }
-    /// A product, rounded half up to a word. (>> of a negative number rounds down: C++20.)
+    /// A product, rounded half up to a word. (>> of a negative number rounds down in C++20.)
     Word times(Factor c, Word n) {
         const Word half = c.shift > 0 ? Word{1} << (c.shift - 1) : 0;
         return held((n * c.mantissa + half) >> c.shift);
@@ -62,14 +62,14 @@ struct Arithmetic {
     Word magnitude(Word n) { return n < 0 ? held(-n) : n; }
 };
 
-/// The constants of a chain, worked out once, and told to those who would build it again.
+/// The constants of a chain, computed once. Tools that rebuild the chain, such as hardware export, can list them.
 class Constants {
 public:
     struct Said {
         std::string name;
         double value;
         Word word;
-        int shift = -1;  ///< of a factor; -1: a level or a count
+        int shift = -1;  ///< of a factor; -1: for a level or a count
     };
 
     Constants(WordFormat format) : format_(format) {}
@@ -77,18 +77,18 @@ public:
     const std::vector<Said>& all() const { return all_; }
     const std::optional<Error>& misfit() const { return misfit_; }
 
-    /// A factor c >= 0: the mantissa is in [2^(word-2), 2^(word-1)), but for a c so small that its shift would pass 62.
+    /// A factor c >= 0. Its mantissa is in [2^(word-2), 2^(word-1)), unless c is so small that the shift would exceed 62.
     Factor factor(std::string_view name, double c) {
         Factor f;
         if (c > 0) f.shift = std::min(format_.word - 2 - std::ilogb(c), 62);
         double mantissa = rounded(std::ldexp(c, f.shift));
-        if (mantissa > static_cast<double>(format_.most())) mantissa /= 2, --f.shift;  // it was rounded up to 2^(word-1)
+        if (mantissa > static_cast<double>(format_.most())) mantissa /= 2, --f.shift;  // rounding made it 2^(word-1)
         if (f.shift < 0) return refuse(name, c), Factor{};
         f.mantissa = static_cast<Word>(mantissa);
         all_.push_back({std::string(name), c, f.mantissa, f.shift});
         return f;
     }
-    /// A signal's value as a word.
+    /// The value of a signal as a word.
     Word level(std::string_view name, double x) {
         const double n = rounded(std::ldexp(x, format_.frac));
         if (n > static_cast<double>(format_.most()) || n < static_cast<double>(format_.least())) return refuse(name, x), 0;
@@ -105,8 +105,8 @@ private:
     void refuse(std::string_view name, double x) {
         if (!misfit_)
             misfit_ =
-                bad_input(fmt::format("{} = {:g} (in N, uA, V and steps) does not fit a word of {} bits, {} of them behind the "
-                                      "point; raise word, or lower frac",
+                bad_input(fmt::format("{} = {:g} (in N, uA, V and steps) does not fit a word of {} bits with {} fraction "
+                                      "bits; raise word, or lower frac",
                                       name, x, format_.word, format_.frac));
     }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A transduction and its neurons in words, as one thing that steps. State and outputs are rows of words, each named.
+// A receptor and its neurons in words, stepped as one. State and outputs are rows of words, each with a name.
 
 #include <array>
 #include <cstring>
@@ -13,7 +13,7 @@ namespace corpuscle {
 
 class FixedChain {
 public:
-    /// What one step gave: a spike bit for each neuron, and how many neurons were cut short.
+    /// Result of one step: a spike bit for each neuron, and the number of neurons that reached the spike limit.
     struct Stepped {
         std::array<bool, 2> fired = {};
         int capped = 0;
@@ -23,11 +23,11 @@ public:
     FixedChain(Constants constants) : constants_(std::move(constants)) {}
     virtual ~FixedChain() = default;
     const Constants& constants() const { return constants_; }
-    /// The words shown after a step: "I" or "I_+", "I_-", then each neuron's own.
+    /// The words recorded after a step: "I" or "I_+", "I_-", then those of each neuron.
     const std::vector<std::pair<std::string, std::string_view>>& shown() const { return shown_; }
     virtual int outputs() const = 0;
     virtual std::size_t words() const = 0;
-    /// The state before the first step; the force before it was the same.
+    /// The state before the first step; the force before it is taken to be the same.
     virtual void start(Word F, std::span<Word> state) const = 0;
     virtual Stepped step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic&) const = 0;
 

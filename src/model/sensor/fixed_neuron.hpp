@@ -1,7 +1,7 @@
 #pragma once
-// The thesis's neurons, Algorithms 3 and 4 as corrected, and the adaptive one, in words: currents in uA, membranes in V. At most one
-// spike a step, as in the algorithms; one that is still above its threshold after it is told as cut short.
-// doc/fixed-point.md has them line by line.
+// The thesis's neurons, Algorithms 3 and 4 as corrected, and the adaptive neuron, in words: currents in uA, membranes in V. At most one
+// spike per step, as in the algorithms. A neuron that is still above its threshold afterwards is reported as truncated. doc/fixed-point.md
+// lists them line by line.
 
 #include "model/neuron/adaptive.hpp"
 #include "model/neuron/lif_a.hpp"
@@ -10,19 +10,19 @@
 
 namespace corpuscle {
 
-/// What a neuron did in a step.
+/// Result of a neuron's step.
 struct Fired {
     bool spike = false, capped = false;
 };
 
-/// What the three share: the spike itself, and the steps they are held at V_reset after it.
+/// Common to the three neurons: the spike itself, and the refractory steps at V_reset after it.
 struct FixedReset {
     Word V_reset, ref;
 
     template <class P>
     FixedReset(const P& p, double f_s, Constants& c) : V_reset(c.level("V_reset", p.V_reset)), ref(c.count("ref", p.t_ref * f_s)) {}
 
-    /// A step in which the membrane is held; false if it is free.
+    /// Counts down one refractory step; false if the neuron is not refractory.
     static bool hold(Word& wait) {
         if (wait == 0) return false;
         --wait;

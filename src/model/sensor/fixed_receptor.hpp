@@ -1,6 +1,6 @@
 #pragma once
-// The thesis's transductions, Algorithms 1, 2, 5, 6 as corrected, in words: force in N, currents in uA. One step a conversion.
-// doc/fixed-point.md has them line by line.
+// The thesis's receptors, Algorithms 1, 2, 5 and 6 as corrected, in words: force in N, currents in uA. One step per conversion.
+// doc/fixed-point.md lists them line by line.
 
 #include "model/receptor/fa1a.hpp"
 #include "model/receptor/fa1b.hpp"
@@ -47,7 +47,7 @@ struct FixedFa1a {
     }
 };
 
-/// The share that a high-pass keeps in a step of backward Euler.
+/// The decay factor of a high-pass in a step of backward Euler.
 inline double kept(double f, double f_s) { return 1 / (1 + 6.283185307179586 * f / f_s); }
 
 /// Alg. 5, SA-IB.

@@ -10,13 +10,13 @@ Front::Front(std::vector<Stage> stages, double F_cal) : stages_(std::move(stages
     at_cal_ = read(F_cal_).value;
 }
 
-double Front::played(double held, double F) const {
+double Front::played(double last, double F) const {
     const double h = stages_.empty() ? 0 : stages_.front().hysteresis;
-    return F > 0 ? std::min(std::max(held, F), (1 + h) * F) : F;
+    return F > 0 ? std::min(std::max(last, F), (1 + h) * F) : F;
 }
 
-Front::Reading Front::read(double felt, double* shown) const {
-    Reading r{felt};
+Front::Reading Front::read(double sensed, double* shown) const {
+    Reading r{sensed};
     for (const auto& stage : stages_) {
         r.value = stage.curve(r.value);
         if (r.value > stage.limit) r.value = stage.limit, r.clipped = true;
@@ -26,23 +26,24 @@ Front::Reading Front::read(double felt, double* shown) const {
 }
 
 double Front::inverse(double value, double low, double high) const {
-    for (int halving = 0; halving < 64; ++halving) {  // always as many: the same bits everywhere
+    for (int halving = 0; halving < 64; ++halving) {  // a fixed number: the same bits on every machine
         const double middle = 0.5 * (low + high);
         (read(middle).value < value ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
 
-std::optional<Error> Front::unreadable(std::string_view of, double low, std::string_view name, double high) const {
+std::optional<Error> Front::unreadable(std::string_view name, double low, std::string_view parameter, double high) const {
     double x = high;
     for (const auto& s : stages_) {
         x = s.curve(x);
         if (x > s.limit)
-            return bad_input(fmt::format("{}: at {} = {:g} N {} would be {:.4g} {}, above {} = {:g} {}; lower {} or {}", of, name, high,
-                                         s.shows.name, x, s.shows.unit, s.limit_name, s.limit, s.shows.unit, s.gain_name, name));
+            return bad_input(fmt::format("{}: at {} = {:g} N {} would be {:.4g} {}, above {} = {:g} {}; lower {} or {}", name, parameter,
+                                         high, s.shows.name, x, s.shows.unit, s.limit_name, s.limit, s.shows.unit, s.gain_name, parameter));
     }
     if (read(high).value > read(low).value) return {};
-    return bad_input(fmt::format("{}: {} = {:g} N cannot be told from {:g} N behind this sensor; raise {}", of, name, high, low, name));
+    return bad_input(
+        fmt::format("{}: {} = {:g} N gives the same reading as {:g} N with this sensor; raise {}", name, parameter, high, low, parameter));
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Sensor and transducer together: from force to what is measured, and back to newtons as a calibration would have it.
+// The front end, sensor and transducer together: from force to the measured value, and back to newtons by a calibration.
 
 #include <vector>
 
@@ -8,13 +8,13 @@
 
 namespace corpuscle {
 
-/// The calibration: a straight line through no force and F_cal.
+/// The calibration: a straight line through zero force and F_cal.
 struct Calibration {
     struct Params {
         double F_cal = 4;
     };
     static constexpr Field<Params> fields[] = {
-        {"F_cal", &Params::F_cal, "N", 1e-6, 1e6, "force at which the chain is calibrated: a straight line through it and no force",
+        {"F_cal", &Params::F_cal, "N", 1e-6, 1e6, "force at which the chain is calibrated: a straight line through it and zero force",
          "choice: the top of the press", true},
     };
 };
@@ -25,23 +25,24 @@ class Front {
 
 public:
     struct Reading {
-        double value = 0;  ///< of the last stage; newtons if there is none
+        double value = 0;  ///< output of the last stage; newtons if there is none
         bool clipped = false;
     };
 
     Front(std::vector<Stage> stages, double F_cal);
     const std::vector<Stage>& stages() const { return stages_; }
 
-    /// The force as the sensor feels it, after it last felt `held`: a relative play, hysteresis h between F and (1 + h) F.
-    double played(double held, double F) const;
-    /// What a felt force is measured as; if `shown` is given, what left each stage is put there.
-    Reading read(double felt, double* shown = nullptr) const;
-    /// A measured value as the calibration reads it; N.
+    /// The force that the sensor responds to, given its last value `last`: a relative play operator with hysteresis h between F and (1 + h)
+    /// F.
+    double played(double last, double F) const;
+    /// The measured value for a force after hysteresis. If `shown` is given, the output of each stage is written there.
+    Reading read(double sensed, double* shown = nullptr) const;
+    /// The force that the calibration assigns to a measured value; N.
     double believed(double value) const { return stages_.empty() ? value : F_cal_ * ((value - at_zero_) / (at_cal_ - at_zero_)); }
-    /// The force in [low, high] that is measured as this; N.
+    /// The force in [low, high] with this measured value; N.
     double inverse(double value, double low, double high) const;
-    /// Refuses a range of forces that the chain must measure and cannot: its top is clipped, or not told from its bottom.
-    std::optional<Error> unreadable(std::string_view of, double low, std::string_view name, double high) const;
+    /// Returns an error for a range of force that the chain cannot measure: its upper end saturates, or both ends give the same value.
+    std::optional<Error> unreadable(std::string_view name, double low, std::string_view parameter, double high) const;
 };
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// An afferent behind a sensor: it answers not the force but what the sensor's calibration makes of it. Any afferent, unchanged.
+// An afferent behind a sensor. Its input is not the force, but the calibrated reading of the sensor. The afferent can be any, unchanged.
 
 #include <memory>
 
@@ -11,7 +11,7 @@ class Fronted final : public Afferent {
     Front front_;
     std::unique_ptr<Afferent> inner_;
     std::string name_, inner_format_, format_;
-    std::vector<Probe> probes_;  // the front's, the force as believed, the inner afferent's
+    std::vector<Probe> probes_;  // of the front end, the calibrated force, of the inner afferent
     std::size_t inner_values_;
 
     std::vector<double> believed(std::span<const double> force, State&, Answer&) const;

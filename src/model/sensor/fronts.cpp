@@ -40,22 +40,22 @@ Result<std::unique_ptr<const FixedChain>> fixed_chain_of(const AfferentPlan& pla
     const auto settings = settings_of(plan);
     const auto adc = adc_of(plan);
     const WordFormat format{static_cast<int>(adc.word), static_cast<int>(adc.frac)};
-    std::unique_ptr<const FixedChain> made;
+    std::unique_ptr<const FixedChain> chain;
     with_fixed(FixedReceptors{}, plan.receptor, [&]<class R>(Part<R>) {
         with_fixed(FixedNeurons{}, plan.neuron, [&]<class N>(Part<N>) {
             const auto r = with<typename R::Facts::Params>(R::Facts::fields, settings);
             const auto n = with<typename N::Facts::Params>(N::Facts::fields, settings);
-            made = std::make_unique<FixedChainOf<R, N>>(r, n, adc.f_s, format);
+            chain = std::make_unique<FixedChainOf<R, N>>(r, n, adc.f_s, format);
         });
     });
-    if (!made)
-        return bad_input(fmt::format("{}: {}+{} has no fixed point; behind adc stand {} with {}", plan.name, plan.receptor, plan.neuron,
-                                     names_in(FixedReceptors{}), names_in(FixedNeurons{})));
+    if (!chain)
+        return bad_input(fmt::format("{}: {}+{} has no fixed-point version; adc can be followed by {} with {}", plan.name, plan.receptor,
+                                     plan.neuron, names_in(FixedReceptors{}), names_in(FixedNeurons{})));
     const Converter converter(front_of(plan), adc);
-    Constants ends = made->constants();  // the force at both ends must fit, too
-    for (const auto code : {std::int64_t{0}, converter.most()}) (void)ends.level("the force of a code", converter.force(code));
-    if (const auto& misfit = ends.misfit()) return bad_input(plan.name + ": " + misfit->sentence);
-    return made;
+    Constants constants = chain->constants();  // the force at both ends must fit as well
+    for (const auto code : {std::int64_t{0}, converter.most()}) (void)constants.level("the force of a code", converter.force(code));
+    if (const auto& misfit = constants.misfit()) return bad_input(plan.name + ": " + misfit->sentence);
+    return chain;
 }
 
 std::unique_ptr<Digital> make_digital(const AfferentPlan& plan, const Run& run) {

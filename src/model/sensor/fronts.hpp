@@ -1,5 +1,5 @@
 #pragma once
-// From a plan to what stands before its neurons, or, behind a converter, to all of it.
+// Builds from a plan the front end of an afferent or, with a converter, the complete digital afferent.
 
 #include "model/catalog.hpp"
 #include "model/sensor/digital.hpp"
@@ -8,7 +8,8 @@ namespace corpuscle {
 
 Front front_of(const AfferentPlan&);
 
-/// The algorithms behind a plan's converter; refuses a model that has none in fixed point, and constants that fit no word.
+/// The fixed-point algorithms behind a plan's converter. Refuses models without a fixed-point version, and constants that do not fit a
+/// word.
 Result<std::unique_ptr<const FixedChain>> fixed_chain_of(const AfferentPlan&);
 
 /// The afferent of a plan with a converter.

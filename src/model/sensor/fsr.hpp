@@ -7,10 +7,10 @@
 namespace corpuscle {
 
 /// A force sensing resistor, Interlink's FSR 400:   G_FSR = 1/R_0 + F^m / a,   F in gram-force, at F <= 0 only 1/R_0
-/// (thesis eq. 13; errata: R_F = a F^-m with a = 170 kohm gf^m.) Fitted from 50 gf to 4 kgf; the press begins below that, at 20 gf.
-/// Hysteresis is a relative play, a choice: what is read stays where it is while it lies between F and (1 + hysteresis) F, and
-/// moves with the end that meets it; so falling force is read up to that share too high, rising force as it is. Creep and
-/// drift are left out; the spread from part to part is --spread's.
+/// (thesis eq. 13; errata: R_F = a F^-m with a = 170 kohm gf^m.) Fitted from 50 gf to 4 kgf; the press stimulus begins below that, at 20
+/// gf. Hysteresis is a relative play operator, a choice. The reading does not change while it is between F and (1 + hysteresis) F; outside,
+/// it follows the nearer end. So falling force is read too high by up to this fraction, and rising force correctly. Creep and drift are not
+/// modelled; variation between parts is set by --spread.
 struct Fsr {
     struct Params {
         double R_0 = 10e6, R_1gf = 170e3, m = 0.72, hysteresis = 0;
@@ -22,7 +22,7 @@ struct Fsr {
         {"R_1gf", &Params::R_1gf, "ohm", 1, 1e12, "resistance of the film alone at 1 gf (a, in ohm gf^m)",
          "thesis 4.1, printed 170 ohm gf; the data sheet's curve needs kilohms"},
         {"m", &Params::m, "", 0.1, 2, "exponent of the film's conductance"},
-        {"hysteresis", &Params::hysteresis, "", 0, 1, "share by which falling force is read too high", "choice: none"},
+        {"hysteresis", &Params::hysteresis, "", 0, 1, "fraction by which falling force is read too high", "choice: none"},
     };
 
     static Stage stage(const Params& p) {
@@ -30,7 +30,7 @@ struct Fsr {
     }
 
     static double conductance(const Params& p, double F) {
-        constexpr double newtons_a_gf = 9.80665e-3, least = 1e-300;  // below it a logarithm has no normal number to work on
+        constexpr double newtons_a_gf = 9.80665e-3, least = 1e-300;  // below this the logarithm has no normal number as its argument
         const double gf = F / newtons_a_gf;
         return 1 / p.R_0 + (gf > least ? num::exp(p.m * num::log(num::min(gf, 1e300))) / p.R_1gf : 0);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// When a converter converts, counted in the samples of a source of any other rate. Whole numbers only, so that no error grows.
+// The times of conversions, counted in samples of a source of any other rate. Integers only, so that no error accumulates.
 
 #include <cmath>
 #include <cstdint>
@@ -9,27 +9,28 @@
 
 namespace corpuscle {
 
-/// Source samples a conversion, as the fraction A / B: conversion j of channel c of N stands (j + c/N) A / B samples after sample 0.
+/// Source samples per conversion, as the fraction A / B. Conversion j of channel c of N takes place (j + c/N) A / B samples after sample 0.
 class Instants {
     std::int64_t whole_, part_, base_, turns_;  // A / B and A mod B; B; N
 
 public:
-    /// A place between samples: `rest` base N-ths of the way from sample `step` to the next.
+    /// A position between samples: `rest` / (B N) of the way from sample `step` to the next.
     struct Place {
         std::int64_t step = 0, rest = 0;
         bool after(std::int64_t sample) const { return step > sample || (step == sample && rest > 0); }
     };
 
-    /// The ratio of the rates is taken as the simplest fraction within 1e-12 of it.
-    Instants(double source_rate, double f_s, std::uint32_t turns) : turns_(turns) {
+    /// The ratio of the rates is replaced by the simplest fraction within 1e-12 of it.
+    Instants(double source_rate, double f_s, std::uint32_t channels) : turns_(channels) {
         const double ratio = source_rate / f_s, above_one = ratio >= 1 ? ratio : 1 / ratio;
-        const auto fraction = clock_of(above_one);  // refuses what is above 1e12, whose nearest whole number is as near as asked
-        const std::int64_t more = fraction ? fraction->per : static_cast<std::int64_t>(above_one), less = fraction ? fraction->seconds : 1;
-        const std::int64_t a = ratio >= 1 ? more : less, b = ratio >= 1 ? less : more;
+        const auto fraction = clock_of(above_one);  // fails above 1e12, where the nearest integer is accurate enough
+        const std::int64_t numerator = fraction ? fraction->per : static_cast<std::int64_t>(above_one),
+                           denominator = fraction ? fraction->seconds : 1;
+        const std::int64_t a = ratio >= 1 ? numerator : denominator, b = ratio >= 1 ? denominator : numerator;
         whole_ = a / b, part_ = a % b, base_ = b;
     }
 
-    /// How many parts a step is divided into.
+    /// The number of parts that a sample interval is divided into.
     std::int64_t parts() const { return base_ * turns_; }
     Place first(std::uint32_t channel) const {
         const std::int64_t c = channel, ahead = c * whole_;

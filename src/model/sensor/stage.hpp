@@ -1,5 +1,5 @@
 #pragma once
-// A front is a row of stages: what a sensor makes of force, and a transducer of that. Each part's file gives its stage.
+// A front end is a series of stages: a sensor, then a transducer. The file of each component defines its stage.
 
 #include <functional>
 #include <limits>
@@ -10,12 +10,12 @@ namespace corpuscle {
 
 struct Stage {
     std::string_view part;                                   ///< "f2v"
-    Probe shows;                                             ///< what leaves it
-    std::function<double(double)> curve;                     ///< never falling; finite for every finite input
-    double limit = std::numeric_limits<double>::infinity();  ///< the most that can leave it
+    Probe shows;                                             ///< its output
+    std::function<double(double)> curve;                     ///< never decreasing; finite for every finite input
+    double limit = std::numeric_limits<double>::infinity();  ///< upper limit of the output
     std::string_view limit_name = {};                        ///< the parameter that sets the limit
-    std::string_view gain_name = {};                         ///< ... and the one to lower if it is too low
-    double hysteresis = 0;                                   ///< of a sensor: see Front::played
+    std::string_view gain_name = {};                         ///< ... and the parameter to lower if it is exceeded
+    double hysteresis = 0;                                   ///< of a sensor: see FrontEnd::apply_hysteresis
 };
 
 }  // namespace corpuscle

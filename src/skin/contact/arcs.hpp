@@ -1,11 +1,11 @@
 #pragma once
-// Integrals of a circle's arc, without the C library: the same bytes on every machine.
+// Integrals of a circular arc, without the C library: the same bits on every machine.
 
 #include "signal/number.hpp"
 
 namespace corpuscle {
 
-/// arcsin u for |u| <= 1/2, z = u^2; within 1e-9. Its series, from both ends at once.
+/// arcsin u for |u| <= 1/2, with z = u^2; error below 1e-9. Taylor series, evaluated from both ends at once.
 inline double small_arcsine(double u, double z) {
     const double z2 = z * z, z4 = z2 * z2;
     const double low = (1 + z * (1.0 / 6)) + z2 * (3.0 / 40 + z * (15.0 / 336));
@@ -14,7 +14,7 @@ inline double small_arcsine(double u, double z) {
     return u * (low + z4 * (middle + z4 * high));
 }
 
-/// arcsin u; beyond +-1 as there.
+/// arcsin u; outside [-1, 1] the value at the nearer end.
 inline double arcsine(double u) {
     constexpr double quarter = 1.5707963267948966;
     const double size = num::abs(u);
@@ -24,7 +24,7 @@ inline double arcsine(double u) {
     return u > 0 ? of : -of;
 }
 
-/// Twice the area under the half circle sqrt(1 - u^2) from 0 to u.
+/// Twice the area below the half circle sqrt(1 - u^2) from 0 to u.
 inline double arc_area(double u) {
     const double square = 1 - u * u;
     return arcsine(u) + (square > 0 ? u * num::sqrt(square) : 0);

@@ -7,9 +7,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr double lone_side = 2e-3;  // m, of a site that has no neighbour; choice
+constexpr double lone_side = 2e-3;  // m, for a site without a neighbour; choice
 
-/// How far sites commonly are apart: the median of the distances to the nearest other.
+/// The typical distance between sites: the median distance to the nearest neighbour.
 double common_distance(const Sites& sites, const NearSites& near) {
     std::vector<double> distances;
     for (std::uint32_t s = 0; s < sites.size(); ++s) {
@@ -34,18 +34,18 @@ SkinCells::SkinCells(const Sites& sites) : sites_(sites), near_(std::make_unique
 }
 
 bool SkinCells::lay_out() {
-    constexpr double most_cells = 1 << 24, off = 1e-3;  // off: of a side, that a site may be from its cell's middle
+    constexpr double max_cells = 1 << 24, tolerance = 1e-3;  // tolerance: of a site's distance to the centre of its cell, in sides
     double left = sites_.at[0].x, low = sites_.at[0].y, right = left, high = low;
     for (const auto& p : sites_.at)
         left = std::min(left, p.x), low = std::min(low, p.y), right = std::max(right, p.x), high = std::max(high, p.y);
     const double columns = std::round((right - left) / side_) + 1, rows = std::round((high - low) / side_) + 1;
-    if (!(columns * rows <= most_cells)) return false;
+    if (!(columns * rows <= max_cells)) return false;
     columns_ = static_cast<std::size_t>(columns), rows_ = static_cast<std::size_t>(rows);
     left_ = left - 0.5 * side_, low_ = low - 0.5 * side_;
     lattice_.assign(columns_ * rows_, no_site);
     for (std::uint32_t s = 0; s < sites_.size(); ++s) {
         const double c = (sites_.at[s].x - left) / side_, r = (sites_.at[s].y - low) / side_;
-        if (std::abs(c - std::round(c)) > off || std::abs(r - std::round(r)) > off) return false;
+        if (std::abs(c - std::round(c)) > tolerance || std::abs(r - std::round(r)) > tolerance) return false;
         auto& cell = lattice_[static_cast<std::size_t>(std::round(c)) * rows_ + static_cast<std::size_t>(std::round(r))];
         if (cell != no_site) return false;
         cell = s;

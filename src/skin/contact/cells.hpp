@@ -1,5 +1,5 @@
 #pragma once
-// Sites as the squares of skin that they stand for, looked up by where a contact is.
+// Sites as the squares of skin that they represent, searched by the position of a contact.
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace corpuscle {
 
-/// Where sites stand on a lattice their cells tile the skin, and cells without a site are known to be none of it. Where they do not, each
-/// is a square about itself, as wide as sites commonly are apart.
+/// If the sites are on a lattice, their cells tile the skin, and cells without a site are not skin. Otherwise each site is the centre of a
+/// square; its side is the typical distance between sites.
 class SkinCells {
 public:
     explicit SkinCells(const Sites&);
@@ -19,7 +19,8 @@ public:
     double side() const { return side_; }  ///< m
     bool tile() const { return !lattice_.empty(); }
 
-    /// Columns of cells about (x, y) within half a box: calls f(x0, y edges from below, sites of the cells between them; no_site: none).
+    /// Visits the columns of cells around (x, y) within half a box: calls f(x0, y edges from below, sites of the cells between them;
+    /// no_site: none).
     template <class F>
     void columns(double x, double y, double half_width, double half_height, F&& f);
 
@@ -52,9 +53,9 @@ void SkinCells::columns(double x, double y, double half_width, double half_heigh
         }
         return;
     }
-    constexpr double most = 1e6;  // cells that a contact may be away from the skin, or wide
+    constexpr double max_cells = 1e6;  // limit of a contact's distance from the skin and of its width, in cells
     const auto cell = [&](double at, double from) {
-        return static_cast<std::int64_t>(std::max(-most, std::min(most, std::floor((at - from) / side_))));
+        return static_cast<std::int64_t>(std::max(-max_cells, std::min(max_cells, std::floor((at - from) / side_))));
     };
     const auto low = cell(y - half_height, low_), high = cell(y + half_height, low_);
     const auto count = static_cast<std::size_t>(high - low + 1);

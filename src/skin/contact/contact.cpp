@@ -12,15 +12,15 @@
 namespace corpuscle {
 namespace {
 
-/// A part of the force at one site.
-struct SitePart {
+/// The fraction of the force on one site.
+struct SiteFraction {
     std::uint32_t site;
-    double part;
+    double fraction;
 };
 
 std::string in_mm(double x, double y) { return fmt::format("({:.4g}, {:.4g}) mm", x * 1e3, y * 1e3); }
 
-class Pressing final : public Contact {
+class IndenterContact final : public Contact {
     const Indenter& indenter_;
     ContactParams p_;
     Clock clock_;
@@ -29,28 +29,28 @@ class Pressing final : public Contact {
     ContactPath path_;
     std::unique_ptr<Pressure> pressure_;
 
-    // What the last sample's contact was; one that stands under a force that stays costs nothing.
+    // The contact of the last sample. It is kept, so a constant force on a resting contact costs nothing.
     Position last_;
     double last_size_ = -1, last_shift_ = 0;
-    std::vector<SitePart> parts_;
-    double on_skin_ = 0;  // part of the force
+    std::vector<SiteFraction> fractions_;
+    double on_skin_ = 0;  // fraction of the force
     std::vector<double> column_;
 
-    // The block.
+    // Data of the current block.
     std::size_t stride_ = 0;
     std::vector<double> force_;
     std::vector<char> in_block_;
     std::vector<std::uint32_t> touched_;
 
-    // What there is to say of it all; N summed over samples.
+    // Data for the notes; in N, summed over samples.
     double pressed_ = 0, off_skin_ = 0, largest_ = 0;
-    std::int64_t lifted_ = 0;
+    std::int64_t negative_samples_ = 0;
 
-    /// The parts of all sites under a contact of a size at a place.
-    void share_out(const Position& at, double size, double shift) {
+    /// Distributes the force of a contact, given its position and size, over the sites.
+    void distribute(const Position& at, double size, double shift) {
         if (size == last_size_ && shift == last_shift_ && at.x == last_.x && at.y == last_.y) return;
         last_ = at, last_size_ = size, last_shift_ = shift;
-        parts_.clear();
+        fractions_.clear();
         double all = 0, on = 0;
         const auto half = pressure_->box(size);
         cells_.columns(at.x, at.y, half.width, half.height,
@@ -62,11 +62,11 @@ class Pressing final : public Contact {
                            for (std::size_t k = 0; k < sites.size(); ++k) {
                                all += column_[k];
                                if (!(column_[k] > 0) || sites[k] == SkinCells::no_site) continue;
-                               on += column_[k], parts_.push_back({sites[k], column_[k]});
+                               on += column_[k], fractions_.push_back({sites[k], column_[k]});
                            }
                        });
         on_skin_ = all > 0 ? on / all : 0;
-        for (auto& s : parts_) s.part /= all;
+        for (auto& s : fractions_) s.fraction /= all;
     }
 
     void touch(std::uint32_t site, std::size_t steps) {
@@ -76,46 +76,46 @@ class Pressing final : public Contact {
         std::fill_n(force_.begin() + static_cast<std::ptrdiff_t>(site * stride_), steps, 0.0);
     }
 
-    /// Refuses a contact that is out of all proportion to the skin's cells.
+    /// Refuses a contact that is too large for the cells of the skin.
     Result<void> check(double size, double force) const {
-        constexpr double most = 1e6;  // cells
+        constexpr double max_cells = 1e6;  // cells
         const auto half = pressure_->box(size);
-        if (half.width * half.height * 4 <= most * cells_.side() * cells_.side()) return {};
-        return bad_input(fmt::format("contact: under {} it is {} by {} wide, more than a million cells of {} of this skin",
+        if (half.width * half.height * 4 <= max_cells * cells_.side() * cells_.side()) return {};
+        return bad_input(fmt::format("contact: with {} it is {} by {} wide, which is more than a million cells of {} of this skin",
                                      format_quantity(force, "N"), format_quantity(2 * half.width, "m"),
                                      format_quantity(2 * half.height, "m"), format_quantity(cells_.side(), "m")));
     }
 
     Result<void> press_once(double force, std::int64_t sample, std::size_t k, std::size_t steps) {
         if (!(force > 0)) {
-            lifted_ += force < 0;
+            negative_samples_ += force < 0;
             return {};
         }
         const double t = clock_.time(sample), size = pressure_->size(force);
         if (auto ok = check(size, force); !ok) return ok;
-        share_out(path_.at(t), size, path_.passed(t));
+        distribute(path_.at(t), size, path_.passed(t));
         pressed_ += force, off_skin_ += force * (1 - on_skin_), largest_ = std::max(largest_, size);
-        for (const auto& s : parts_) {
+        for (const auto& s : fractions_) {
             touch(s.site, steps);
-            force_[s.site * stride_ + k] = force * s.part;
+            force_[s.site * stride_ + k] = force * s.fraction;
         }
         return {};
     }
 
 public:
-    Pressing(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock)
+    IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock)
         : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), path_(p),
           pressure_(make_pressure(indenter, p, cells_.side())), in_block_(sites.size(), 0) {}
 
     std::string sentence() const override {
         const auto length = [](double m) { return format_quantity(m, "m"); };
-        std::string what = indenter_.name == "sphere" ? fmt::format("a sphere of {}", length(p_.radius))
+        std::string text = indenter_.name == "sphere" ? fmt::format("a sphere of {}", length(p_.radius))
                            : indenter_.name == "flat" ? fmt::format("a flat punch of {}", length(p_.radius))
                            : indenter_.name == "edge" ? fmt::format("an edge {} long", length(p_.length))
                                                       : fmt::format("a grating with a ridge every {}", length(p_.period));
-        if (!moves(p_) && p_.speed > 0) what += fmt::format(" that passes at {}", format_quantity(p_.speed, "m/s"));
-        if (!moves(p_)) return what + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
-        return what +
+        if (!moves(p_) && p_.speed > 0) text += fmt::format(" moving past at {}", format_quantity(p_.speed, "m/s"));
+        if (!moves(p_)) return text + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
+        return text +
                fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(path_.seconds(), "s"));
     }
 
@@ -133,19 +133,21 @@ public:
 
     std::vector<std::string> remarks() const override {
         std::vector<std::string> out = {
-            "the contact is that of a rigid indenter on flat, elastic, frictionless skin without end: nothing of viscoelasticity, shear "
-            "and slip, "
-            "strain below the surface, the finger's curvature and its edges"};
+            "the contact model is a rigid indenter on flat, elastic, frictionless and unbounded skin, without viscoelasticity, shear, "
+            "slip, "
+            "strain below the surface, or the curvature and edges of the finger"};
         if (!cells_.tile())
-            out.push_back(
-                fmt::format("the sites stand on no lattice: each was taken as a square of {}, and together they have all of the force",
-                            format_quantity(cells_.side(), "m")));
+            out.push_back(fmt::format(
+                "the sites are not on a lattice: each was treated as a square of {}, and together they receive all of the force",
+                format_quantity(cells_.side(), "m")));
         if (pressed_ > 0 && off_skin_ > 1e-9 * pressed_)
-            out.push_back(fmt::format("{:.3g} % of the force, over time, was off the skin and felt by nobody", 100 * off_skin_ / pressed_));
+            out.push_back(
+                fmt::format("{:.3g} % of the force, over time, was off the skin and reached no afferent", 100 * off_skin_ / pressed_));
         if (indenter_.name == "sphere" && largest_ > 0.5 * p_.radius)
-            out.push_back(fmt::format("the contact's radius came to {}, more than half of the sphere's: Hertz's theory is for small ones",
-                                      format_quantity(largest_, "m")));
-        if (lifted_ > 0) out.push_back(fmt::format("{} samples of force below 0 N pressed nothing", lifted_));
+            out.push_back(fmt::format(
+                "the contact radius reached {}, more than half of the sphere's radius; Hertz's theory is only valid for small contacts",
+                format_quantity(largest_, "m")));
+        if (negative_samples_ > 0) out.push_back(fmt::format("{} samples with negative force caused no contact", negative_samples_));
         return out;
     }
 
@@ -169,12 +171,13 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Contact>> make_contact(std::string_view name, std::span<const Wish> wishes, const Sites& sites, const Clock& clock) {
+Result<std::unique_ptr<Contact>> make_contact(std::string_view name, std::span<const Wish> overrides, const Sites& sites,
+                                              const Clock& clock) {
     const auto indenter = indenter_named(name);
     if (!indenter) return indenter.error();
-    const auto params = contact_params(**indenter, wishes, sites);
+    const auto params = contact_params(**indenter, overrides, sites);
     if (!params) return params.error();
-    return std::unique_ptr<Contact>(std::make_unique<Pressing>(**indenter, *params, sites, clock));
+    return std::unique_ptr<Contact>(std::make_unique<IndenterContact>(**indenter, *params, sites, clock));
 }
 
 std::span<const NamedTouch> named_touches() {
@@ -182,13 +185,13 @@ std::span<const NamedTouch> named_touches() {
         {"stroke",
          "ramp-hold",
          "sphere",
-         "1 N of a fingertip moved from the palm to the tip of the index finger of 'hand' in 10 s",
+         "a fingertip pressed with 1 N and moved from the palm to the tip of the index finger of 'hand' in 10 s",
          {{"radius", 8e-3}, {"x", 29.6e-3}, {"y", 52.6e-3}, {"x1", 47.2e-3}, {"y1", 177.4e-3}, {"t_move", 10}},
          {{"F_max", 1}, {"t_rest", 0}, {"t_up", 0.1}, {"t_hold", 9.8}, {"t_down", 0.1}, {"t_post", 0}}},
         {"scan",
          "ramp-hold",
          "grating",
-         "a grating, a ridge every 4 mm, that passes over a patch of skin ('fingertip') at 80 mm/s under 2 N for 2 s",
+         "a grating with a ridge every 4 mm, pressed with 2 N and moved over a patch of skin ('fingertip') at 80 mm/s for 2 s",
          {{"radius", 5.6e-3}, {"period", 4e-3}, {"ridge", 2e-3}, {"speed", 80e-3}},
          {{"F_max", 2}, {"t_rest", 0.1}, {"t_up", 0.1}, {"t_hold", 2}, {"t_down", 0.1}, {"t_post", 0.2}}},
     };

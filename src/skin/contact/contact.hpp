@@ -1,5 +1,5 @@
 #pragma once
-// Touch without a sensor: an indenter pressed with a force, standing or moved over the skin, becomes force at the sites.
+// Touch without a sensor: an indenter, pressed with a given force at rest or moving over the skin, is converted to force at the sites.
 
 #include <optional>
 #include <string_view>
@@ -9,29 +9,29 @@
 
 namespace corpuscle {
 
-/// What touches: which indenter, its measures (rows of settings "contact.radius" ...), and the path it takes.
+/// A contact: its indenter, the parameters of the indenter (settings "contact.radius" ...), and its path.
 class Contact {
 public:
     virtual ~Contact() = default;
     virtual std::string sentence() const = 0;              ///< "a sphere of 5 mm pressed at (12, 160) mm"
-    virtual std::vector<Fact> facts() const = 0;           ///< its measures as used
-    virtual std::vector<std::string> remarks() const = 0;  ///< what it leaves out, what of the contact was off the skin
-    /// Force at the sites for `force.size()` samples of normal force (N), the first of them number `first`. Valid until the next call.
-    /// The sum over all sites is the force, but for what lies off the skin.
+    virtual std::vector<Fact> facts() const = 0;           ///< its parameters as used
+    virtual std::vector<std::string> remarks() const = 0;  ///< limitations of the model, and how much of the force was off the skin
+    /// Force at the sites for `force.size()` samples of normal force (N); the first has number `first`. Valid until the next call. The sum
+    /// over all sites is the force, except for the part off the skin.
     virtual Result<SiteForce> press(std::span<const double> force, std::int64_t first) = 0;
 };
 
-/// "flat", "sphere", "edge", "grating" of this skin; wishes set "contact.PARAMETER". For samples of this clock.
-Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const Wish> wishes, const Sites&, const Clock&);
+/// "flat", "sphere", "edge" or "grating" on this skin, for samples of this clock. Overrides set "contact.PARAMETER".
+Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const Wish> overrides, const Sites&, const Clock&);
 
-/// One parameter's row, for listings.
+/// The parameters of all contacts, for listings.
 std::vector<Row> contact_rows();
 
-/// What can be asked for in the place of a force: "stroke" (from the palm to the tip of the index finger), "scan" (a grating over the
-/// fingertip). A touch is a force, an indenter and a path.
+/// Named touches, which can be requested in place of a force: "stroke" (from the palm to the tip of the index finger), "scan" (a grating
+/// over the fingertip). A touch consists of a force, an indenter and a path.
 struct NamedTouch {
     std::string_view name, force, indenter, sentence;
-    std::vector<Setting> settings;             ///< of the contact, where they differ from the rows'
+    std::vector<Setting> settings;             ///< of the contact, where they differ from the defaults
     std::vector<Setting> force_settings = {};  ///< of the force
 };
 std::span<const NamedTouch> named_touches();

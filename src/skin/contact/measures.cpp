@@ -16,25 +16,25 @@ bool has_measure(const Indenter& i, std::string_view name) {
     return std::find(i.measures.begin(), i.measures.end(), name) != i.measures.end() || is_path_measure(name);
 }
 
-/// The middle of a region: of its sites, the mean, to the micrometre.
+/// The centre of the first region: the mean position of its sites, rounded to 1 um.
 Position middle_of_first(const Sites& sites) {
     Position sum;
     double n = 0;
     for (std::size_t s = 0; s < sites.size(); ++s)
         if (sites.region[s] == 0) sum.x += sites.at[s].x, sum.y += sites.at[s].y, n += 1;
-    const auto rounded = [](double m) { return std::round(m * 1e6) / 1e6 + 0.0; };  // + 0.0: no zero is negative
+    const auto rounded = [](double m) { return std::round(m * 1e6) / 1e6 + 0.0; };  // + 0.0: avoids -0
     return n > 0 ? Position{rounded(sum.x / n), rounded(sum.y / n), 0} : sites.at[0];
 }
 
-/// What cannot be said together.
-std::optional<Error> contact_refusal(const Indenter& i, const ContactParams& p) {
+/// Checks combinations of parameters.
+std::optional<Error> check_contact(const Indenter& i, const ContactParams& p) {
     if (i.name == "grating" && p.ridge > p.period)
         return bad_input(fmt::format("contact: ridge = {:g} m must not be wider than period = {:g} m", p.ridge, p.period));
-    if (p.t_move > 0 && p.speed > 0) return bad_input("contact: t_move and speed say the same twice; give one of them");
+    if (p.t_move > 0 && p.speed > 0) return bad_input("contact: t_move and speed are alternatives; give only one of them");
     if (moves(p) && p.t_move == 0 && p.speed == 0)
-        return bad_input("contact: how fast is it moved to x1, y1? Give contact.t_move or contact.speed");
+        return bad_input("contact: the speed of the movement to x1, y1 is missing; give contact.t_move or contact.speed");
     if (!moves(p) && (p.t_move > 0 || (p.speed > 0 && i.name != "grating")))
-        return bad_input("contact: where to is it moved? Give contact.x1 or contact.y1");
+        return bad_input("contact: the end of the movement is missing; give contact.x1 or contact.y1");
     return {};
 }
 
@@ -52,30 +52,30 @@ Result<const Indenter*> indenter_named(std::string_view name) {
         if (i.name == name) return &i;
         names.push_back(i.name);
     }
-    return bad_usage(fmt::format("no indenter is called '{}'{} (there are {})", name, did_you_mean(name, names), fmt::join(names, ", ")));
+    return bad_usage(fmt::format("there is no indenter '{}'{} (there are {})", name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-Result<ContactParams> contact_params(const Indenter& indenter, std::span<const Wish> wishes, const Sites& sites) {
+Result<ContactParams> contact_params(const Indenter& indenter, std::span<const Wish> overrides, const Sites& sites) {
     const auto rows = contact_rows();
-    const auto settings = settings_for("contact", rows, wishes);
+    const auto settings = settings_for("contact", rows, overrides);
     if (!settings) return settings.error();
-    const auto said = [&](std::string_view name) {
+    const auto is_set = [&](std::string_view name) {
         return std::any_of(settings->begin(), settings->end(), [&](const Setting& s) { return s.name == name; });
     };
     for (const auto& s : *settings)
         if (!has_measure(indenter, s.name))
             return bad_input(
-                fmt::format("contact.{}: {} has none (it has {}, and its path {})", s.name, indenter.name,
+                fmt::format("contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
                             fmt::join(indenter.measures.begin(), std::find(indenter.measures.begin(), indenter.measures.end(), ""), ", "),
                             fmt::join(path_measures, ", ")));
     auto p = with<ContactParams>(contact_fields, *settings);
-    if (!said("x") && !said("y")) {
+    if (!is_set("x") && !is_set("y")) {
         const auto middle = middle_of_first(sites);
         p.x = middle.x, p.y = middle.y;
     }
-    if (!said("x1")) p.x1 = p.x;
-    if (!said("y1")) p.y1 = p.y;
-    if (auto wrong = contact_refusal(indenter, p)) return *wrong;
+    if (!is_set("x1")) p.x1 = p.x;
+    if (!is_set("y1")) p.y1 = p.y;
+    if (auto error = check_contact(indenter, p)) return *error;
     return p;
 }
 

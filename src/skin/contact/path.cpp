@@ -12,8 +12,8 @@ ContactPath::ContactPath(const ContactParams& p)
 }
 
 Position ContactPath::at(double t) const {
-    const double way = length_ > 0 ? progress(t, start_, length_) : 0;
-    return {from_.x + (to_.x - from_.x) * way, from_.y + (to_.y - from_.y) * way, 0};
+    const double fraction = length_ > 0 ? progress(t, start_, length_) : 0;
+    return {from_.x + (to_.x - from_.x) * fraction, from_.y + (to_.y - from_.y) * fraction, 0};
 }
 
 }  // namespace corpuscle

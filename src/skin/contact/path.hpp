@@ -1,5 +1,5 @@
 #pragma once
-// Where a contact is at a time.
+// The position of a contact over time.
 
 #include "signal/clock.hpp"
 #include "skin/contact/measures.hpp"
@@ -8,13 +8,13 @@ namespace corpuscle {
 
 class ContactPath {
     Position from_, to_;
-    double start_, length_, speed_;  // length_: s that the way takes
-    bool passes_;                    // what it presses with passes under it, and it stands
+    double start_, length_, speed_;  // length_: duration of the movement, s
+    bool passes_;                    // the contact rests while a pattern passes under it
 
 public:
     explicit ContactPath(const ContactParams&);
     Position at(double t) const;
-    /// How far a pattern has passed under it, m.
+    /// The distance that a pattern has passed under the contact, m.
     double passed(double t) const { return passes_ && t > start_ ? speed_ * (t - start_) : 0; }
     double seconds() const { return length_; }
 };

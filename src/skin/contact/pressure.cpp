@@ -11,8 +11,8 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-/// Round contacts: exact along y, by Gauss's two points along x. Along a whole chord both pressures are polynomials of x, so that all
-/// cells together have all of the force.
+/// Round contacts: exact along y, two-point Gauss quadrature along x. Along a full chord both pressures are polynomials of x, so the
+/// fractions of all cells add up to the periods force.
 template <class Chord>
 void round_column(double a, double x0, double side, std::span<const double> y, double* parts, Chord&& chord) {
     constexpr double at[] = {-0.5773502691896257, 0.5773502691896257};
@@ -51,14 +51,14 @@ public:
     }
 };
 
-/// x^(1/3) by Newton's steps: within a few units of the last place, the same everywhere.
+/// x^(1/3) by Newton's method: accurate to a few units in the last place, and the same on every machine.
 double cube_root(double x) {
     double r = num::exp(num::log(x) * (1.0 / 3));
     for (int k = 0; k < 2; ++k) r -= (r * r * r - x) / (3 * r * r);
     return r;
 }
 
-/// p/F = 3/(2 pi a^3) (a^2 - r^2)^(1/2): along a chord of half c the integral is c^2/2 of the arc's area.
+/// p/F = 3/(2 pi a^3) (a^2 - r^2)^(1/2): along a chord of half length c the integral is c^2/2 times the area of the arc.
 class SpherePressure final : public Pressure {
     double per_newton_;  // a^3 / F
     struct Chord {
@@ -76,10 +76,10 @@ public:
     }
 };
 
-/// What lies at an angle: a cell counts as if it were turned alike.
-struct Turned {
+/// A rotated pattern. Each cell is treated as if it were rotated as well.
+struct Rotation {
     double c, s;
-    explicit Turned(double degrees) : c(num::cos_turns(degrees / 360)), s(num::sin_turns(degrees / 360)) {}
+    explicit Rotation(double degrees) : c(num::cos_turns(degrees / 360)), s(num::sin_turns(degrees / 360)) {}
     double along(double x, double y) const { return x * c + y * s; }
     double across(double x, double y) const { return y * c - x * s; }
 };
@@ -89,20 +89,20 @@ double overlap(double from, double to, double low, double high) { return std::ma
 /// p/F = 2/(pi b L) (1 - d^2/b^2)^(1/2) along its length.
 class EdgePressure final : public Pressure {
     double half_length_, per_newton_;  // per_newton_: b^2 / F
-    Turned turned_;
+    Rotation rotation_;
 
 public:
     explicit EdgePressure(const ContactParams& p)
-        : half_length_(0.5 * p.length), per_newton_(4 * p.edge_radius / (pi * p.length * p.E_star)), turned_(p.angle) {}
+        : half_length_(0.5 * p.length), per_newton_(4 * p.edge_radius / (pi * p.length * p.E_star)), rotation_(p.angle) {}
     double size(double force) const override { return num::sqrt(per_newton_ * force); }
     HalfBox box(double b) const override {
-        const double c = num::abs(turned_.c), s = num::abs(turned_.s);
+        const double c = num::abs(rotation_.c), s = num::abs(rotation_.s);
         return {half_length_ * c + b * s, half_length_ * s + b * c};
     }
     void column(double b, double, double x0, double side, std::span<const double> y, double* parts) const override {
         const double half = 0.5 * side, x = x0 + half;
         for (std::size_t c = 0; c + 1 < y.size(); ++c) {
-            const double middle = y[c] + half, along = turned_.along(x, middle), across = turned_.across(x, middle);
+            const double middle = y[c] + half, along = rotation_.along(x, middle), across = rotation_.across(x, middle);
             parts[c] = 0;
             const double beside = overlap(along - half, along + half, -half_length_, half_length_);
             if (beside == 0 || num::abs(across) >= b + half) continue;
@@ -112,20 +112,20 @@ public:
     }
 };
 
-/// Even pressure on the ridges within a round patch.
+/// Uniform pressure on the ridges within a round patch.
 class GratingPressure final : public Pressure {
     double radius_, period_, ridge_, side_;
-    Turned turned_;
+    Rotation rotation_;
 
-    /// Length of ridges between 0 and d.
+    /// Total width of the ridges between 0 and d.
     double ridges(double d) const {
-        const double whole = std::floor(d / period_);
-        return whole * ridge_ + std::min(d - whole * period_, ridge_);
+        const double periods = std::floor(d / period_);
+        return periods * ridge_ + std::min(d - periods * period_, ridge_);
     }
 
 public:
     GratingPressure(const ContactParams& p, double side)
-        : radius_(p.radius), period_(p.period), ridge_(p.ridge), side_(side), turned_(p.angle) {}
+        : radius_(p.radius), period_(p.period), ridge_(p.ridge), side_(side), rotation_(p.angle) {}
     double size(double) const override { return radius_; }
     HalfBox box(double radius) const override { return {radius + 0.5 * side_, radius + 0.5 * side_}; }
     void column(double radius, double shift, double x0, double side, std::span<const double> y, double* parts) const override {
@@ -134,8 +134,8 @@ public:
             const double middle = y[c] + half, square = x * x + middle * middle;
             parts[c] = 0;
             if (square >= reach * reach) continue;
-            const double inside = std::min(1.0, (reach - num::sqrt(square)) / side);  // of the cell, at the patch's rim
-            const double along = turned_.along(x, middle) - shift;
+            const double inside = std::min(1.0, (reach - num::sqrt(square)) / side);  // fraction of the cell, at the edge of the patch
+            const double along = rotation_.along(x, middle) - shift;
             parts[c] = inside * (ridges(along + half) - ridges(along - half));
         }
     }

@@ -1,5 +1,5 @@
 #pragma once
-// How a force is shared out under each indenter: the part of it in each cell of a column of cells.
+// The pressure distribution of each indenter, as the fraction of the force in each cell of a column.
 
 #include <memory>
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// Half a box, about the contact's middle, that holds it.
+/// Half the sides of a box, centred on the contact, that encloses it.
 struct HalfBox {
     double width, height;
 };
@@ -16,11 +16,11 @@ struct HalfBox {
 class Pressure {
 public:
     virtual ~Pressure() = default;
-    /// How large the contact is under a force above 0 (N): what the other two want; m.
+    /// The size of the contact for a positive force (N), in m. The other two functions take this size.
     virtual double size(double force) const = 0;
     virtual HalfBox box(double size) const = 0;
-    /// Parts of the force, or what is in proportion to them, in the cells [x0, x0 + side] by [y[k], y[k + 1]], about the contact's middle.
-    /// `shift`: how far a pattern has moved under it, m.
+    /// Fractions of the force, or numbers proportional to them, in the cells [x0, x0 + side] by [y[k], y[k + 1]], relative to the contact's
+    /// centre. `shift`: the distance that a pattern has moved under the contact, m.
     virtual void column(double size, double shift, double x0, double side, std::span<const double> y, double* parts) const = 0;
 };
 

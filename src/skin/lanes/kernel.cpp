@@ -1,5 +1,4 @@
-// Receptive fields on SIMD lanes. Compiled once for each instruction set, CORPUSCLE_ISA; what is made here must not leave this file but
-// for one table.
+// Receptive fields on SIMD lanes, compiled once for each instruction set, CORPUSCLE_ISA. Only one table may be visible outside this file.
 
 #include "skin/lanes/kernel.hpp"
 
@@ -31,25 +30,25 @@ void add_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* 
 
 void add_site(const std::uint32_t* unit, const double* weight, std::size_t count, const double* force, std::size_t steps, double* sums,
               std::size_t stride) {
-    const std::size_t whole = steps / width * width;
+    const std::size_t full_vectors = steps / width * width;
     for (std::size_t k = 0; k < count; ++k) {
         double* const sum = sums + unit[k] * stride;
         const T w(weight[k]);
-        for (std::size_t t = 0; t < whole; t += width)
+        for (std::size_t t = 0; t < full_vectors; t += width)
             (T::load_unaligned(sum + t) + w * T::load_unaligned(force + t)).store_unaligned(sum + t);
-        for (std::size_t t = whole; t < steps; ++t) sum[t] += weight[k] * force[t];
+        for (std::size_t t = full_vectors; t < steps; ++t) sum[t] += weight[k] * force[t];
     }
 }
 
-void add_unit(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* of, std::size_t steps,
+void add_unit(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
               double* column, std::size_t stride) {
-    constexpr std::size_t at_once = 16;  // steps: how many come is a multiple of it, mostly
+    constexpr std::size_t at_once = 16;  // the number of steps is usually a multiple of this
     std::size_t from = 0;
     for (; from + at_once <= steps; from += at_once) {
         T sum[at_once / width];
         for (auto& s : sum) s = T(0.0);
         for (std::size_t k = 0; k < count; ++k) {
-            const double* const f = of[site[k]] + from;
+            const double* const f = rows[site[k]] + from;
             const T w(weight[k]);
             for (std::size_t i = 0; i < at_once / width; ++i) sum[i] = sum[i] + w * T::load_unaligned(f + i * width);
         }
@@ -59,7 +58,7 @@ void add_unit(const std::uint32_t* site, const double* weight, std::size_t count
     }
     for (; from < steps; ++from) {
         double sum = 0;
-        for (std::size_t k = 0; k < count; ++k) sum += weight[k] * of[site[k]][from];
+        for (std::size_t k = 0; k < count; ++k) sum += weight[k] * rows[site[k]][from];
         column[from * stride] = sum;
     }
 }

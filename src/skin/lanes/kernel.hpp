@@ -1,6 +1,6 @@
 #pragma once
-// Between receptive fields, compiled for every machine, and their sums on SIMD lanes, compiled once for each instruction set: plain data
-// and pointers only. All sums are in the order that they are told in: the same bits from each.
+// The interface between receptive fields, compiled for every machine, and their sums on SIMD lanes, compiled once for each instruction set.
+// It consists of plain data and pointers only. Sums run in the given order, so each instruction set gives the same bits.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace corpuscle::lanes {
 
-inline constexpr std::size_t eight = 8;  ///< weights that lie side by side
+inline constexpr std::size_t eight = 8;  ///< weights in one group
 
-/// What one instruction set offers.
+/// The functions of one instruction set.
 struct FieldLanes {
-    /// 64 units at one step: sums[u] = sum over k of w * now[row[k] + u], w being number u % eight of the eight weights that begin at
-    /// weights[eights[(64 k + u) / eight]].
+    /// 64 afferents at one step: sums[u] = sum over k of w * now[row[k] + u]. w is number u % group_size of the group of weights that
+    /// begins at weights[eights[(64 k + u) / group_size]].
     void (*add_rows)(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* eights, const double* weights, const double* now,
                      double* sums);
-    /// One site over some steps to each who feels it: sums[unit[k] * stride + t] += weight[k] * force[t].
+    /// One site over some steps, added to each afferent that responds to it: sums[unit[k] * stride + t] += weight[k] * force[t].
     void (*add_site)(const std::uint32_t* unit, const double* weight, std::size_t count, const double* force, std::size_t steps,
                      double* sums, std::size_t stride);
-    /// One unit over some steps: column[t * stride] = sum over k of weight[k] * of[site[k]][t].
-    void (*add_unit)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* of, std::size_t steps,
+    /// One afferent over some steps: column[t * stride] = sum over k of weight[k] * rows[site[k]][t].
+    void (*add_unit)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
                      double* column, std::size_t stride);
 };
 

@@ -119,17 +119,19 @@ TEST(Fronted, EverySampleBeyondTheSupplyIsClippedAndCounted) {
 TEST(Parts, WrongOrUnknownPartsAreRefusedWithWhatIsRight) {
     const std::pair<const char*, const char*> cases[] = {
         {"adc+fsr+sa1",
-         "adc+fsr+sa1: 'fsr' stands too late; the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), then the "
+         "adc+fsr+sa1: 'fsr' is in the wrong place; the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), "
+         "then the "
          "afferent"},
-        {"fsr+f2v+f2i+sa1", "fsr+f2v+f2i+sa1: 'f2i' after 'f2v': a transducer is enough"},
+        {"fsr+f2v+f2i+sa1", "fsr+f2v+f2i+sa1: 'f2i' after 'f2v': use only one of them"},
         {"fsrr+sa1",
-         "fsrr+sa1: 'fsrr' is no part that can stand there; did you mean 'fsr'? (the signal goes through a sensor (fsr), a transducer "
+         "fsrr+sa1: 'fsrr' is not a component that fits there; did you mean 'fsr'? (the signal goes through a sensor (fsr), a transducer "
          "(f2v, "
          "f2i), a converter (adc), then the afferent)"},
         {"f2v+sa1", "f2v+sa1: f2v needs the conductance of a sensor before it, such as 'fsr+f2v+sa1'"},
-        {"fsr+f2i", "fsr+f2i: no afferent stands behind 'fsr+f2i'; name one, such as 'fsr+f2i+sa1'"},
-        {"adc+sa1-kim", "adc+sa1-kim: sa1-kim has a front of its own (fsr+f2v+adc); put 'adc' before sa1a+lif-a instead"},
-        {"adc+fa2", "adc+fa2: vibration+lif-b has no fixed point; behind adc stand sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
+        {"fsr+f2i", "fsr+f2i: 'fsr+f2i' must be followed by an afferent, such as 'fsr+f2i+sa1'"},
+        {"adc+sa1-kim", "adc+sa1-kim: sa1-kim has its own front end (fsr+f2v+adc); put 'adc' before sa1a+lif-a instead"},
+        {"adc+fa2",
+         "adc+fa2: vibration+lif-b has no fixed-point version; adc can be followed by sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
     };
     for (const auto& [text, said] : cases) EXPECT_EQ(plan_afferent(text, {}).error().sentence, said);
 }
@@ -151,10 +153,10 @@ TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
         {"fsr+f2v+sa1.F_cal=8N", "fsr+f2v+sa1: at F_cal = 8 N V_Z would be 0.8344 V, above V_DD = 0.7 V; lower R_fb or F_cal"},
         {"sa1-kim.F_high=7N", "sa1-kim: at F_high = 7 N V_Z would be 0.7671 V, above V_DD = 0.7 V; lower R_fb or F_high"},
         {"sa1-kim.F_low=5N", "sa1-kim: F_low = 5 must be below F_high = 5"},
-        {"sa1-kim.bits=3.5", "sa1-kim: bits = 3.5 is no whole number"},
+        {"sa1-kim.bits=3.5", "sa1-kim: bits = 3.5 must be an integer"},
         {"sa1-kim.word=18", "sa1-kim: frac = 20 must be below word = 18"},
         {"sa1-kim.word=22",
-         "sa1-kim: the force of a code = 5 (in N, uA, V and steps) does not fit a word of 22 bits, 20 of them behind the point; raise "
+         "sa1-kim: the force of a code = 5 (in N, uA, V and steps) does not fit a word of 22 bits with 20 fraction bits; raise "
          "word, or "
          "lower frac"},
     };
@@ -164,7 +166,7 @@ TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
     }
     const auto unfelt = test::wishes({"fsr+sa1.F_cal=1uN", "fsr+sa1.m=2", "fsr+sa1.R_1gf=1e12", "fsr+sa1.R_0=1"});
     EXPECT_EQ(plan_afferent("fsr+sa1", unfelt).error().sentence,
-              "fsr+sa1: F_cal = 1e-06 N cannot be told from 0 N behind this sensor; raise F_cal");
+              "fsr+sa1: F_cal = 1e-06 N gives the same reading as 0 N with this sensor; raise F_cal");
 }
 
 }  // namespace
