@@ -46,9 +46,9 @@ lint: setup-test
 # Every figure and table of the thesis, computed and published values side by side: a page, and the numbers as text.
 reproduction: build
 	@mkdir -p out
-	$(corpuscle) study all --quiet --report out/reproduction.html --markdown doc/reproduction.md
-	if [ -d $(CORPUSCLE_DATA)/fbg_eskin_press ]; then CORPUSCLE_DATA=$(CORPUSCLE_DATA) $(corpuscle) study eskin-press --quiet --markdown doc/recorded.md; \
-	else echo "doc/recorded.md is left as it is: no recordings in $(CORPUSCLE_DATA)"; fi
+	$(corpuscle) study all --quiet --report out/reproduction.html --markdown reproduction/reproduction.md
+	if [ -d $(CORPUSCLE_DATA)/fbg_eskin_press ]; then CORPUSCLE_DATA=$(CORPUSCLE_DATA) $(corpuscle) study eskin-press --quiet --markdown reproduction/recorded.md; \
+	else echo "reproduction/recorded.md is left as it is: no recordings in $(CORPUSCLE_DATA)"; fi
 
 install: build
 	@cmake --preset release -D CMAKE_INSTALL_PREFIX=$(PREFIX) > /dev/null  # programs of others look for the helper programs there

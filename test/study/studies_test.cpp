@@ -51,8 +51,8 @@ TEST(Studies, AreAllToldAsTheirPageSays) {
         EXPECT_TRUE(names.insert(all_studies[k]->name).second) << all_studies[k]->name;
         check(*all_studies[k], (*outcomes)[k]);
     }
-    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::root() + "/doc/reproduction.md");
-    EXPECT_EQ(text, page) << "doc/reproduction.md is stale: make reproduction";
+    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::root() + "/reproduction/reproduction.md");
+    EXPECT_EQ(text, page) << "reproduction/reproduction.md is stale: make reproduction";
 }
 
 TEST(Studies, OfARecordingTellWhatTheirPageSays) {
@@ -60,7 +60,7 @@ TEST(Studies, OfARecordingTellWhatTheirPageSays) {
     const auto outcomes = run_studies(recorded_studies, {.recordings = test::shared("")});
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
     for (std::size_t k = 0; k < std::size(recorded_studies); ++k) check(*recorded_studies[k], (*outcomes)[k]);
-    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::root() + "/doc/recorded.md")) << "stale: make reproduction";
+    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::root() + "/reproduction/recorded.md")) << "stale: make reproduction";
 }
 
 TEST(Studies, OfARecordingThatIsAbsentSayWhereItWasSought) {
