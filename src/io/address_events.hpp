@@ -1,11 +1,11 @@
 #pragma once
-// Binary address events: a header that says the clock and what addresses mean, then 16 bytes a spike (doc/events.md). All numbers are
-// little-endian.
-//     header: "corpaer1", i64 per, i64 seconds (a sample is seconds/per s), u32 runs, u32 bytes that follow; then the runs of units
-//     a run:  u32 first address, u32 stride, u32 first number (0: the name stands alone), u32 count, u32 letters, letters, 0 to 3 zeros
-//     then, if bytes of the header remain: u32 runs of channels, and these: the name is the channel's that the addresses stand on
-//     spike:  i64 step, u32 place in the step, u32 address
-// A spike's place in its step is (place + 1) / 2^32, so that its time is (step - 1 + that) * seconds / per.
+// Binary address events: a header with the clock and the meaning of the addresses, then 16 bytes for each spike (doc/events.md). All
+// numbers are little-endian.
+//     header: "corpaer1", i64 per, i64 seconds (a sample is seconds/per s), u32 runs, u32 bytes that follow; then the runs of afferents
+//     a run:  u32 first address, u32 stride, u32 first number (0: name without a number), u32 count, u32 letters, letters, 0 to 3 zeros
+//     then, if bytes of the header remain: u32 runs of channels, and these runs, with the name of the channel of the addresses
+//     spike:  i64 step, u32 fraction of the step, u32 address
+// The offset of a spike in its step is (fraction + 1) / 2^32, so its time is (step - 1 + offset) * seconds / per.
 
 #include <bit>
 #include <cmath>
@@ -17,12 +17,12 @@
 
 namespace corpuscle::address_events {
 
-static_assert(std::endian::native == std::endian::little, "written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "structures are written as they are in memory");
 
 inline constexpr std::string_view magic = "corpaer1";
 inline constexpr std::size_t head_bytes = 32, run_bytes = 20, spike_bytes = 16;
 
-/// Units whose names count: sa1#1, sa1#2 ... at addresses `stride` apart.
+/// Afferents with numbered names, such as sa1#1, sa1#2 ..., at addresses `stride` apart.
 struct NameRun {
     std::uint32_t address = 0, stride = 1, number = 0, count = 1;
     std::string name;

@@ -8,7 +8,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::uint16_t first_of_1980 = 1 << 5 | 1;  // day and month: the earliest date that zip knows
+constexpr std::uint16_t first_of_1980 = 1 << 5 | 1;  // month and day: 1980-01-01 is the earliest date of the zip format
 
 struct CloseFile {
     void operator()(zip_file_t* f) const { zip_fclose(f); }
@@ -20,13 +20,15 @@ class MemberBytes final : public Bytes {
     std::string name_;
     std::unique_ptr<zip_file_t, CloseFile> file_;
 
-    Error broken(zip_error_t* why) const { return bad_input(fmt::format("cannot be unpacked: {}", zip_error_strerror(why)), {name_}); }
+    Error read_error(zip_error_t* error) const {
+        return bad_input(fmt::format("cannot be decompressed: {}", zip_error_strerror(error)), {name_});
+    }
 
     Result<void> skip(std::uint64_t count) {
-        for (std::array<std::byte, 1 << 16> passed; count > 0;) {
-            const auto piece = std::min<std::uint64_t>(count, passed.size());
-            if (auto ok = read(std::span(passed).first(static_cast<std::size_t>(piece))); !ok) return ok;
-            count -= piece;
+        for (std::array<std::byte, 1 << 16> skipped; count > 0;) {
+            const auto count_now = std::min<std::uint64_t>(count, skipped.size());
+            if (auto ok = read(std::span(skipped).first(static_cast<std::size_t>(count_now))); !ok) return ok;
+            count -= count_now;
         }
         return {};
     }
@@ -39,7 +41,7 @@ public:
         file_.reset();
         file_.reset(zip_fopen_index(zip_.get(), index_, 0));
         at_ = 0;
-        return file_ ? Result<void>() : broken(zip_get_error(zip_.get()));
+        return file_ ? Result<void>() : read_error(zip_get_error(zip_.get()));
     }
 
     const std::string& name() const override { return name_; }
@@ -48,22 +50,25 @@ public:
     Result<void> read(std::span<std::byte> out) override {
         while (!out.empty()) {
             const auto got = zip_fread(file_.get(), out.data(), out.size());
-            if (got < 0) return broken(zip_file_get_error(file_.get()));
-            if (got == 0) return bad_input("ends too early", {name_});
+            if (got < 0) return read_error(zip_file_get_error(file_.get()));
+            if (got == 0) return bad_input("the file is incomplete", {name_});
             at_ += static_cast<std::uint64_t>(got);
             out = out.subspan(static_cast<std::size_t>(got));
         }
         if (at_ != size_) return {};
-        std::byte beyond;  // libzip compares the checksum when the end is read
+        std::byte beyond;  // libzip checks the checksum when the end is read
         const auto more = zip_fread(file_.get(), &beyond, 1);
-        if (more < 0) return broken(zip_file_get_error(file_.get()));
-        if (more > 0) return bad_input(fmt::format("is longer than the {} bytes in the archive's directory: damaged?", size_), {name_});
+        if (more < 0) return read_error(zip_file_get_error(file_.get()));
+        if (more > 0)
+            return bad_input(fmt::format("is longer than the {} bytes stated in the archive's directory; it may be damaged", size_),
+                             {name_});
         return {};
     }
 
     Result<void> seek(std::uint64_t at) override {
         if (at == at_) return {};
-        if (zip_fseek(file_.get(), static_cast<zip_int64_t>(at), SEEK_SET) == 0) return at_ = at, Result<void>{};  // what is stored
+        if (zip_fseek(file_.get(), static_cast<zip_int64_t>(at), SEEK_SET) == 0)
+            return at_ = at, Result<void>{};  // works for uncompressed members
         if (at < at_)
             if (auto ok = open(); !ok) return ok;
         return skip(at - at_);
@@ -81,7 +86,7 @@ Result<Archive> Archive::open(const std::string& path) {
     if (!archive.zip_) {
         zip_error_t error;
         zip_error_init_with_code(&error, code);
-        const auto why = bad_input(fmt::format("this is no zip archive that can be read: {}", zip_error_strerror(&error)), {path});
+        const auto why = bad_input(fmt::format("cannot be read as a zip archive: {}", zip_error_strerror(&error)), {path});
         zip_error_fini(&error);
         return why;
     }
@@ -105,37 +110,37 @@ Result<std::string> make_archive(const std::vector<Packed>& members) {
     zip_error_t error;
     zip_error_init(&error);
     const auto failed = [](zip_error_t* why) {
-        auto told = bad_input(fmt::format("no archive can be made: {}", zip_error_strerror(why)));
+        auto result = bad_input(fmt::format("the archive cannot be created: {}", zip_error_strerror(why)));
         zip_error_fini(why);
-        return told;
+        return result;
     };
-    zip_source_t* whole = zip_source_buffer_create(nullptr, 0, 0, &error);
-    zip* archive = whole ? zip_open_from_source(whole, ZIP_CREATE | ZIP_TRUNCATE, &error) : nullptr;
-    if (!archive) return zip_source_free(whole), failed(&error);
-    zip_source_keep(whole);
-    const auto drop = [&] {
-        auto why = bad_input(fmt::format("no archive can be made: {}", zip_strerror(archive)));
-        zip_discard(archive), zip_source_free(whole);
+    zip_source_t* buffer = zip_source_buffer_create(nullptr, 0, 0, &error);
+    zip* archive = buffer ? zip_open_from_source(buffer, ZIP_CREATE | ZIP_TRUNCATE, &error) : nullptr;
+    if (!archive) return zip_source_free(buffer), failed(&error);
+    zip_source_keep(buffer);
+    const auto discard = [&] {
+        auto why = bad_input(fmt::format("the archive cannot be created: {}", zip_strerror(archive)));
+        zip_discard(archive), zip_source_free(buffer);
         return why;
     };
     for (const auto& m : members) {
         zip_source_t* bytes = zip_source_buffer(archive, m.bytes.data(), m.bytes.size(), 0);
         const auto at = bytes ? zip_file_add(archive, m.name.c_str(), bytes, ZIP_FL_ENC_UTF_8) : -1;
-        if (at < 0) return zip_source_free(bytes), drop();
+        if (at < 0) return zip_source_free(bytes), discard();
         const auto index = static_cast<zip_uint64_t>(at);
         if (zip_set_file_compression(archive, index, ZIP_CM_STORE, 0) != 0 ||
             zip_file_set_dostime(archive, index, 0, first_of_1980, 0) != 0)
-            return drop();
+            return discard();
     }
-    if (zip_close(archive) != 0) return drop();
+    if (zip_close(archive) != 0) return discard();
     std::string out;
-    if (zip_stat_t about; zip_source_stat(whole, &about) == 0 && zip_source_open(whole) == 0) {
+    if (zip_stat_t about; zip_source_stat(buffer, &about) == 0 && zip_source_open(buffer) == 0) {
         out.resize(about.size);
-        const auto got = zip_source_read(whole, out.data(), out.size());
+        const auto got = zip_source_read(buffer, out.data(), out.size());
         out.resize(static_cast<std::size_t>(std::max<zip_int64_t>(got, 0)));
-        zip_source_close(whole);
+        zip_source_close(buffer);
     }
-    zip_source_free(whole);
+    zip_source_free(buffer);
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Zip archives, through libzip: what is in one, and one made of bytes.
+// Reads and writes zip archives with libzip.
 
 #include <string>
 #include <vector>
@@ -17,13 +17,13 @@ class Archive {
 public:
     struct Member {
         std::string name;
-        std::uint64_t size;  ///< unpacked, as the archive claims
+        std::uint64_t size;  ///< uncompressed, as stated by the archive
     };
 
     static Result<Archive> open(const std::string& path);
     const std::string& path() const { return path_; }
     const std::vector<Member>& members() const { return members_; }
-    /// Stored or deflated; `name` is for messages. What is deflated is slow to seek in.
+    /// The uncompressed bytes of a member. `name` is for messages. Seeking is slow in a compressed member.
     Result<std::unique_ptr<Bytes>> bytes(std::size_t member, std::string name) const;
 
 private:
@@ -34,7 +34,7 @@ struct Packed {
     std::string name, bytes;
 };
 
-/// The bytes of an archive that stores these, with no date: the same members, the same bytes.
+/// The bytes of an uncompressed archive without dates: the same members give the same bytes.
 Result<std::string> make_archive(const std::vector<Packed>&);
 
 }  // namespace corpuscle

@@ -13,7 +13,7 @@ namespace {
 
 namespace aer = address_events;
 
-/// "sa1#17" is sa1, number 17; a name without a number stands alone.
+/// Splits "sa1#17" into sa1 and 17. A name without a number has number 0.
 aer::NameRun run_of(const std::string& name, std::uint32_t address) {
     const auto sign = name.rfind('#');
     std::uint32_t number = 0;
@@ -23,8 +23,8 @@ aer::NameRun run_of(const std::string& name, std::uint32_t address) {
     return {address, 1, number, 1, name.substr(0, sign)};
 }
 
-/// Whether the unit goes on where the run ends; if so, it is part of it then.
-bool take_in(aer::NameRun& run, const aer::NameRun& next) {
+/// Extends the run by the next afferent if that continues it. Returns false if it does not.
+bool extend(aer::NameRun& run, const aer::NameRun& next) {
     if (run.number == 0 || next.number != run.number + run.count || next.name != run.name || next.address <= run.address) return false;
     if (run.count == 1) run.stride = next.address - run.address;
     if (next.address != run.address + static_cast<std::uint64_t>(run.stride) * run.count) return false;
@@ -32,25 +32,25 @@ bool take_in(aer::NameRun& run, const aer::NameRun& next) {
     return true;
 }
 
-std::vector<aer::NameRun> runs_of(const EventUnits& units) {
+std::vector<aer::NameRun> runs_of(const EventUnits& addressing) {
     std::vector<aer::NameRun> runs;
-    for (std::size_t u = 0; u < units.names.size(); ++u) {
-        auto next = run_of(units.names[u], units.addresses[u]);
-        if (runs.empty() || !take_in(runs.back(), next)) runs.push_back(std::move(next));
+    for (std::size_t u = 0; u < addressing.names.size(); ++u) {
+        auto next = run_of(addressing.names[u], addressing.addresses[u]);
+        if (runs.empty() || !extend(runs.back(), next)) runs.push_back(std::move(next));
     }
     return runs;
 }
 
-/// Which channel the units at some addresses stand on, where the units' names do not tell: in the order of the addresses. Channels without
-/// names of their own (ch1, ch2 ...) are as good as their numbers.
-std::vector<aer::NameRun> channel_runs_of(const EventUnits& units) {
+/// The channels of the afferents as runs of addresses, sorted by address. Empty if the names of the afferents already identify the
+/// channel. Default channel names (ch1, ch2 ...) are omitted, because the numbers are enough.
+std::vector<aer::NameRun> channel_runs_of(const EventUnits& addressing) {
     std::vector<std::pair<std::uint32_t, const std::string*>> on;
     bool any_named = false;
-    for (std::size_t u = 0; u < units.afferents.size() && u < units.channels.size(); ++u) {
-        if (units.afferents[u] == units.names[u]) return {};
-        on.emplace_back(units.addresses[u], &units.channels[u]);
-        const auto number = units.names[u].substr(units.names[u].rfind('#') + 1);
-        any_named = any_named || units.channels[u] != "ch" + number;
+    for (std::size_t u = 0; u < addressing.afferents.size() && u < addressing.channels.size(); ++u) {
+        if (addressing.afferents[u] == addressing.names[u]) return {};
+        on.emplace_back(addressing.addresses[u], &addressing.channels[u]);
+        const auto number = addressing.names[u].substr(addressing.names[u].rfind('#') + 1);
+        any_named = any_named || addressing.channels[u] != "ch" + number;
     }
     if (!any_named) return {};
     std::sort(on.begin(), on.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -64,7 +64,7 @@ std::vector<aer::NameRun> channel_runs_of(const EventUnits& units) {
     return runs;
 }
 
-/// "0, 2 ... 30"
+/// The addresses of a run as text: "addresses 0, 2 ... 30".
 std::string addresses_of(const aer::NameRun& run) {
     const auto last = run.address + std::uint64_t{run.stride} * (run.count - 1);
     return run.count == 1   ? fmt::format("address {}", run.address)
@@ -77,22 +77,22 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// The meaning of the addresses, as comments of at most 32 kB. Readers look for the events within the first 64 kB.
-std::string comments_of(const EventUnits& units) {
-    constexpr std::size_t most = std::size_t{1} << 15;
+/// The meaning of the addresses as comments of at limit 32 kB. Readers expect the events within the first 64 kB.
+std::string comments_of(const EventUnits& addressing) {
+    constexpr std::size_t limit = std::size_t{1} << 15;
     std::string text;
     const auto add = [&](const std::string& comment) {
-        if (text.size() + comment.size() > most) return false;
+        if (text.size() + comment.size() > limit) return false;
         text += "# " + one_line(comment) + "\r\n";
         return true;
     };
     bool all = true;
-    for (const auto& r : runs_of(units))
+    for (const auto& r : runs_of(addressing))
         all = all && add(r.number == 0  ? fmt::format("{}: {}", addresses_of(r), r.name)
                          : r.count == 1 ? fmt::format("{}: {}#{}", addresses_of(r), r.name, r.number)
                                         : fmt::format("{}: {}#{} ... {}#{}", addresses_of(r), r.name, r.number, r.name,
                                                       std::uint64_t{r.number} + r.count - 1));
-    for (const auto& r : channel_runs_of(units)) all = all && add(fmt::format("{}: channel {}", addresses_of(r), r.name));
+    for (const auto& r : channel_runs_of(addressing)) all = all && add(fmt::format("{}: channel {}", addresses_of(r), r.name));
     return all ? text : text + "# and others\r\n";
 }
 
@@ -111,27 +111,27 @@ void add_runs(std::string& text, const std::vector<aer::NameRun>& runs) {
 }
 
 class AerEvents final : public EventFormat {
-    EventUnits units_;
+    EventUnits addressing_;
 
 public:
-    explicit AerEvents(const EventUnits& units) : units_(units) {}
+    explicit AerEvents(const EventUnits& addressing) : addressing_(addressing) {}
     std::string_view name() const override { return "aer"; }
     std::size_t most_bytes() const override { return aer::spike_bytes; }
     bool same_size() const override { return true; }
 
     std::string header() const override {
         std::string names;
-        const auto runs = runs_of(units_), channels = channel_runs_of(units_);
+        const auto runs = runs_of(addressing_), channels = channel_runs_of(addressing_);
         add_runs(names, runs);
         if (!channels.empty()) add_number(names, static_cast<std::uint32_t>(channels.size())), add_runs(names, channels);
         std::string text(aer::magic);
-        add_number(text, units_.clock.per), add_number(text, units_.clock.seconds);
+        add_number(text, addressing_.clock.per), add_number(text, addressing_.clock.seconds);
         add_number(text, static_cast<std::uint32_t>(runs.size())), add_number(text, static_cast<std::uint32_t>(names.size()));
         return text + names;
     }
 
     std::size_t put(const Spike& s, char* at) const override {
-        const aer::Packed packed{s.step, aer::place_of(s.offset), units_.addresses[s.unit]};
+        const aer::Packed packed{s.step, aer::place_of(s.offset), addressing_.addresses[s.unit]};
         std::memcpy(at, &packed, sizeof packed);
         return sizeof packed;
     }
@@ -142,12 +142,13 @@ class Aedat2Events final : public EventFormat {
     std::vector<std::uint32_t> addresses_;
     std::string comments_;
 
-    static void put_big(std::uint32_t number, char* at) {
+    static void put_big_endian(std::uint32_t number, char* at) {
         for (int k = 3; k >= 0; --k) at[k] = static_cast<char>(number & 0xff), number >>= 8;
     }
 
 public:
-    explicit Aedat2Events(const EventUnits& units) : time_(units.clock), addresses_(units.addresses), comments_(comments_of(units)) {}
+    explicit Aedat2Events(const EventUnits& addressing)
+        : time_(addressing.clock), addresses_(addressing.addresses), comments_(comments_of(addressing)) {}
     std::string_view name() const override { return "aedat2"; }
     std::size_t most_bytes() const override { return 8; }
     bool same_size() const override { return true; }
@@ -155,15 +156,15 @@ public:
         return "#!AER-DAT2.0\r\n# spikes of afferents: address, microseconds modulo 2^32\r\n" + comments_;
     }
     std::size_t put(const Spike& s, char* at) const override {
-        put_big(addresses_[s.unit], at);
-        put_big(static_cast<std::uint32_t>((time_.nanoseconds(s) + 500) / 1000), at + 4);
+        put_big_endian(addresses_[s.unit], at);
+        put_big_endian(static_cast<std::uint32_t>((time_.nanoseconds(s) + 500) / 1000), at + 4);
         return 8;
     }
 };
 
 }  // namespace
 
-std::unique_ptr<EventFormat> aer_events(const EventUnits& units) { return std::make_unique<AerEvents>(units); }
-std::unique_ptr<EventFormat> aedat2_events(const EventUnits& units) { return std::make_unique<Aedat2Events>(units); }
+std::unique_ptr<EventFormat> aer_events(const EventUnits& addressing) { return std::make_unique<AerEvents>(addressing); }
+std::unique_ptr<EventFormat> aedat2_events(const EventUnits& addressing) { return std::make_unique<Aedat2Events>(addressing); }
 
 }  // namespace corpuscle

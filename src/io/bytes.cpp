@@ -30,11 +30,12 @@ public:
     std::uint64_t size() const override { return size_; }
     Result<void> read(std::span<std::byte> out) override {
         if (std::fread(out.data(), 1, out.size(), file_.get()) == out.size()) return {};
-        return bad_input(std::ferror(file_.get()) ? fmt::format("cannot be read: {}", std::strerror(errno)) : "ends too early", {name_});
+        return bad_input(std::ferror(file_.get()) ? fmt::format("cannot be read: {}", std::strerror(errno)) : "the file is incomplete",
+                         {name_});
     }
     Result<void> seek(std::uint64_t at) override {
         if (at <= size_ && ::fseeko(file_.get(), static_cast<off_t>(at), SEEK_SET) == 0) return {};
-        return bad_input("ends too early", {name_});
+        return bad_input("the file is incomplete", {name_});
     }
 };
 
@@ -46,24 +47,24 @@ Result<std::unique_ptr<Bytes>> open_bytes(const std::string& path) {
     File file(open_input(path));
     if (!file) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     const auto size = std::filesystem::file_size(path, status);
-    if (status) return bad_input("this is no plain file; save it to one", {path});
+    if (status) return bad_input("this is not a regular file; save it to one first", {path});
     return std::unique_ptr<Bytes>(std::make_unique<FileBytes>(path, std::move(file), size));
 }
 
 Result<std::unique_ptr<Bytes>> spooled(Bytes& from) {
     File file(std::tmpfile());
-    if (!file) return bad_input(fmt::format("no temporary file can be made: {}", std::strerror(errno)), {from.name()});
+    if (!file) return bad_input(fmt::format("a temporary file cannot be created: {}", std::strerror(errno)), {from.name()});
     if (auto ok = from.seek(0); !ok) return ok.error();
     std::vector<std::byte> buffer(std::size_t{1} << 20);
     for (std::uint64_t left = from.size(); left > 0;) {
-        const auto piece = std::span(buffer).first(static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer.size())));
-        if (auto ok = from.read(piece); !ok) return ok.error();
-        if (std::fwrite(piece.data(), 1, piece.size(), file.get()) != piece.size())
-            return bad_input(fmt::format("no room for it in a temporary file: {}", std::strerror(errno)), {from.name()});
-        left -= piece.size();
+        const auto chunk = std::span(buffer).first(static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer.size())));
+        if (auto ok = from.read(chunk); !ok) return ok.error();
+        if (std::fwrite(chunk.data(), 1, chunk.size(), file.get()) != chunk.size())
+            return bad_input(fmt::format("cannot be copied to a temporary file: {}", std::strerror(errno)), {from.name()});
+        left -= chunk.size();
     }
     if (std::fflush(file.get()) != 0)
-        return bad_input(fmt::format("no room for it in a temporary file: {}", std::strerror(errno)), {from.name()});
+        return bad_input(fmt::format("cannot be copied to a temporary file: {}", std::strerror(errno)), {from.name()});
     return std::unique_ptr<Bytes>(std::make_unique<FileBytes>(from.name(), std::move(file), from.size()));
 }
 

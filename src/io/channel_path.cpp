@@ -7,13 +7,13 @@
 namespace corpuscle {
 
 void Levels::add(std::span<const double> force) {
-    double low = least, high = greatest;  // locals: kept in registers
-    std::int64_t beneath = 0, over = 0, under_zero = 0;
+    double low = least, high = greatest;  // local variables, which stay in registers
+    std::int64_t below_count = 0, above_count = 0, negative_count = 0;
     for (const double F : force) {
         low = F < low ? F : low, high = F > high ? F : high;
-        beneath += F < 0.2, over += F > 4, under_zero += F < 0;
+        below_count += F < 0.2, above_count += F > 4, negative_count += F < 0;
     }
-    least = low, greatest = high, below += beneath, above += over, negative += under_zero;
+    least = low, greatest = high, below += below_count, above += above_count, negative += negative_count;
     count += static_cast<std::int64_t>(force.size());
 }
 
@@ -47,7 +47,7 @@ Result<void> ChannelPath::mend(std::span<const double> read) {
     return gaps_.push(read, mended_);
 }
 
-/// What was mended, in newtons; looked at before the filters smooth its faults.
+/// Converts the repaired samples to newtons and appends them. The detectors see them before the filters, which would hide faults.
 void ChannelPath::append(std::vector<double>& out) {
     for (double& x : mended_) x = gain_ * (x - offset_);
     stray_check.add(mended_);

@@ -1,5 +1,6 @@
 #pragma once
-// A channel's way from what is read to newtons: strays out, gaps filled, offset and gain, filters; looked at on the way.
+// The processing of one channel from file values to newtons: outlier removal, gap filling, offset and gain, filters. Fault detectors
+// examine the channel on the way.
 
 #include <optional>
 #include <span>
@@ -13,7 +14,7 @@
 
 namespace corpuscle {
 
-/// The force of a channel, by the levels that the models are fitted to (thesis 1.2: 0.2 to 4 N).
+/// Statistics of a channel's force relative to the range that the models are fitted to (thesis 1.2: 0.2 to 4 N).
 struct Levels {
     double least = 1e308, greatest = -1e308;
     std::int64_t below = 0, above = 0, negative = 0, count = 0;
@@ -26,13 +27,13 @@ class ChannelPath {
     GapFiller gaps_;
     double offset_, gain_;
     std::vector<Biquad> filters_;
-    bool filter_early_;                    // on the rows, which are evenly spaced; else after resampling
-    std::vector<double> judged_, mended_;  // scratch
+    bool filter_early_;                    // true: filter the evenly spaced rows; false: filter after resampling
+    std::vector<double> judged_, mended_;  // scratch memory
 
     Result<void> mend(std::span<const double> read);
 
 public:
-    /// `rows`: the clock that the filters run on.
+    /// `filters` is the clock that the filters run on.
     static Result<ChannelPath> make(const RecordingOptions&, double gain, const Clock& filters, bool filter_early, const HumTable&);
 
     StrayCheck stray_check;
@@ -45,11 +46,11 @@ public:
     std::int64_t strays_taken_out() const { return strays_ ? strays_->found : 0; }
     std::int64_t filled() const { return gaps_.filled; }
 
-    /// Takes readings, appends newtons to `out`: later, if they had to wait for their neighbours.
+    /// Processes samples and appends newtons to `out`. Samples that depend on their neighbours are appended by a later call.
     Result<void> push(std::span<const double> read, std::vector<double>& out);
-    /// The last ones.
+    /// Appends the remaining samples.
     Result<void> finish(std::vector<double>& out);
-    /// The force as it is answered: the late filters, and what is found of it.
+    /// Applies the filters that run after resampling, and updates the statistics of the final force.
     void complete(std::span<double> force);
 
 private:

@@ -5,7 +5,7 @@
 namespace corpuscle {
 namespace {
 
-/// Every second point between the ends goes: of a chain this fine the others lie as far out to within its rounding.
+/// Removes every second point between the ends. With so many points, the remaining ones have the same distance to within rounding.
 template <class Points>
 void thin(Points& side) {
     std::size_t kept = 1;

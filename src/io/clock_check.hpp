@@ -1,6 +1,6 @@
 #pragma once
-// Are these times those of an even clock? One pass, whatever the length: of all points (k, t_k) only those on the two sides
-// of their convex hull can lie farthest from a straight line.
+// Tests in one pass whether times are evenly spaced. Of all points (k, t_k) only those on the convex hull can be farthest from a
+// straight line, so only these are kept.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,8 @@ class ClockCheck {
     struct Point {
         double k, t;
     };
-    static constexpr std::size_t most_points = std::size_t{1} << 16;  // of a side; a clock that slows steadily would put every sample there
+    // The limit on each side. The times of a steadily slowing clock would all be on the hull.
+    static constexpr std::size_t most_points = std::size_t{1} << 16;
     std::vector<Point> upper_, lower_;
     Point first_{}, last_{};
     LogHistogram steps_;
@@ -32,13 +33,13 @@ public:
     std::int64_t gaps() const { return steps_.above(1.5 * steps_.median(steps_.count())); }
     double first() const { return first_.t; }
     double mean_step() const { return (last_.t - first_.t) / (last_.k - first_.k); }
-    double least_step() const { return least_step_; }  ///< negative if time went back
+    double least_step() const { return least_step_; }  ///< negative if the time decreased
     double longest_step() const { return longest_step_; }
-    /// From the earliest to the latest that a sample comes, against the mean clock; s.
+    /// The peak-to-peak deviation of the times from the mean clock, in s.
     double spread() const;
-    /// Even: no sample is further than half a step from its place.
+    /// True if no sample deviates by more than half a step.
     bool even() const { return count_ >= 2 && least_step_ >= 0 && mean_step() > 0 && spread() <= mean_step(); }
-    /// The simplest rate that these times do not contradict.
+    /// The clock with the simplest rate that is consistent with the times.
     Result<Clock> clock() const;
 };
 

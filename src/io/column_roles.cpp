@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t rows_of_an_index = 8;  // to tell by its numbers alone
+constexpr std::size_t rows_of_an_index = 8;  // number of rows needed to recognise an index by its values
 
 struct Roles {
     std::vector<Column>& columns;
@@ -16,7 +16,7 @@ struct Roles {
 
     bool holds_numbers(std::size_t c) const { return first[c].values > 0 && first[c].words == 0 && first[c].stamps == 0; }
 
-    /// Do its numbers never fall, and rise on the whole?
+    /// True if the numbers of the column never decrease and are not constant.
     bool rises(std::size_t c) const {
         double last = -std::numeric_limits<double>::infinity(), begin = last;
         for (const double x : first[c].numbers) {
@@ -28,7 +28,7 @@ struct Roles {
         return last > begin && !std::isinf(begin);
     }
 
-    /// Are all of them whole numbers, each above the last by what `step` allows?
+    /// True if all values are integers, and all differences satisfy `step`.
     template <class Step>
     bool counts(std::size_t c, const Step& step) const {
         const auto& x = first[c].numbers;
@@ -37,10 +37,10 @@ struct Roles {
             if (std::floor(x[k]) != x[k] || (k > 0 && !step(x[k] - x[k - 1]))) return false;
         return x[1] > x[0];
     }
-    static bool by_one(double step) { return step == 1; }
-    static bool upwards(double step) { return step > 0; }
-    static bool by_one_or_anew(double step) { return step == 1 || step < 0; }  // an index of each trial
-    static bool upwards_or_anew(double step) { return step != 0; }             // packets may be lost, and their number begin anew
+    static bool is_one(double step) { return step == 1; }
+    static bool is_positive(double step) { return step > 0; }
+    static bool is_one_or_restart(double step) { return step == 1 || step < 0; }  // an index that restarts at each trial
+    static bool is_positive_or_restart(double step) { return step != 0; }         // packets may be lost, and their number may restart
 
     bool evenly_rises(std::size_t c) const {
         const auto& x = first[c].numbers;
@@ -61,11 +61,11 @@ struct Roles {
         }
     }
 
-    /// The first column that `suits`.
-    template <class Suits>
-    bool take_time(const Suits& suits) {
+    /// Takes the first column that satisfies `matches` as the time.
+    template <class Matches>
+    bool take_time(const Matches& matches) {
         for (std::size_t c = 0; c < columns.size(); ++c)
-            if (suits(c)) return out.time = c, true;
+            if (matches(c)) return out.time = c, true;
         return false;
     }
 
@@ -83,48 +83,48 @@ struct Roles {
         if (found) {
             const auto& name = columns[*out.time].name;
             out.remarks.push_back(
-                fmt::format("{} was taken as the time (--time none takes no column as that)",
+                fmt::format("{} is taken as the time (use --time none if it is not)",
                             name.empty() ? fmt::format("column {}, which has no name,", *out.time + 1) : "'" + name + "'"));
-        } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !counts(0, upwards)) {
+        } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !counts(0, is_positive)) {
             out.time = 0, out.time_is_guessed = true;
-            out.remarks.push_back(fmt::format("{} has no name, rises evenly and was taken as the time (--time none takes it as a channel)",
-                                              "the first column"));
+            out.remarks.emplace_back(
+                "the first column has no name, increases evenly and is taken as the time (use --time none if it is a channel)");
         }
     }
 
     bool is_index(std::size_t c) const {
         const auto& column = columns[c];
         if (!column.unit.empty() || !holds_numbers(c)) return false;
-        if (c == 0 && column.name.empty()) return counts(c, upwards);
-        if (names_sequence(column.name) && counts(c, upwards_or_anew)) return true;
-        if (names_index(column.name)) return counts(c, by_one_or_anew);
-        return first[c].numbers.size() >= rows_of_an_index && counts(c, by_one);
+        if (c == 0 && column.name.empty()) return counts(c, is_positive);
+        if (names_sequence(column.name) && counts(c, is_positive_or_restart)) return true;
+        if (names_index(column.name)) return counts(c, is_one_or_restart);
+        return first[c].numbers.size() >= rows_of_an_index && counts(c, is_one);
     }
 
-    bool is_whole(std::size_t c) const {
+    bool holds_integers(std::size_t c) const {
         return holds_numbers(c) &&
                std::all_of(first[c].numbers.begin(), first[c].numbers.end(), [](double x) { return std::floor(x) == x; });
     }
 
-    /// Numbers that are no readings: row numbers, trial numbers, second clocks; something must stay.
+    /// Excludes columns of numbers that are not measurements: row numbers, trial numbers, second clocks. Keeps all if none would remain.
     void leave_out() {
-        std::vector<std::pair<std::size_t, std::string>> some;
-        std::size_t stay = 0;
+        std::vector<std::pair<std::size_t, std::string>> excluded;
+        std::size_t remaining = 0;
         for (std::size_t c = 0; c < columns.size(); ++c) {
             if (c == out.time || !columns[c].left_out.empty()) continue;
             if (columns[c].stamps)
                 columns[c].left_out = "holds times";
             else if (is_index(c))
-                some.emplace_back(c, "counts the rows");
-            else if (names_trial(columns[c].name) && columns[c].unit.empty() && is_whole(c))
-                some.emplace_back(c, "tells trials apart");
+                excluded.emplace_back(c, "counts the rows");
+            else if (names_trial(columns[c].name) && columns[c].unit.empty() && holds_integers(c))
+                excluded.emplace_back(c, "identifies trials");
             else if (out.time && rises(c) && (names_time(columns[c].name) || columns[c].name.ends_with("stamp")))
-                some.emplace_back(c, "is a second clock");
+                excluded.emplace_back(c, "is a second clock");
             else
-                ++stay;
+                ++remaining;
         }
-        if (stay == 0) return;
-        for (auto& [c, why] : some) columns[c].left_out = std::move(why);
+        if (remaining == 0) return;
+        for (auto& [c, why] : excluded) columns[c].left_out = std::move(why);
     }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which column of a table is the time and which are no channels (indexes, words), by their headings and first rows.
+// Determines, from headings and first rows, which column is the time and which columns are not channels (indexes, words).
 
 #include <limits>
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace corpuscle {
 
-/// How many rows are looked at.
+/// The number of rows that are inspected.
 inline constexpr std::size_t rows_looked_at = 64;
 
-/// What stands in the first rows of a column.
+/// The first fields of a column, with a count for each kind of field.
 struct FirstFields {
-    std::vector<double> numbers;  ///< NaN where there is none
+    std::vector<double> numbers;  ///< NaN for a field that is not a number
     std::size_t values = 0, words = 0, stamps = 0, nothing = 0;
 
     void add_number(double x) { numbers.push_back(x), ++values; }
@@ -22,16 +22,17 @@ struct FirstFields {
 
 struct ColumnRoles {
     std::optional<std::size_t> time = {};
-    bool time_is_guessed = false;           ///< by how it runs, not by its name
-    std::vector<std::string> remarks = {};  ///< of the time
+    bool time_is_guessed = false;           ///< recognised by its values, not by its name
+    std::vector<std::string> remarks = {};  ///< about the time column
 };
 
-/// Marks the columns that hold stamps or are to be left out, and finds the time. `first`: a member a column. `named`: the columns have
-/// headings; without them the time is not looked for but among stamps. `time`: the file itself says which column that is.
+/// Marks columns with time stamps and columns that are not channels, and finds the time column. `first` has one element for each
+/// column. `named` is true if the columns have headings; otherwise only time stamps can be the time. `time` is the time column if the
+/// file states it.
 ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named,
                          std::optional<std::size_t> time = {});
 
-/// Whether columns have names that their file gave them: they are not ch1, ch2 ...
+/// True if the columns have names of their own, other than ch1, ch2 ...
 bool are_named(const std::vector<Column>& columns);
 
 }  // namespace corpuscle

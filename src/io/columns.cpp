@@ -13,15 +13,15 @@
 namespace corpuscle {
 namespace {
 
-std::optional<std::size_t> whole_number(std::string_view text) {
+std::optional<std::size_t> parse_integer(std::string_view text) {
     std::size_t n = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), n);
     if (status != std::errc{} || end != text.data() + text.size()) return {};
     return n;
 }
 
-/// By its name, its name and unit, or as its heading reads: "Zeit [s]".
-bool called(const Column& column, std::string_view name) {
+/// True if `name` is the column's name, its name and unit, or its heading as written, such as "Zeit [s]".
+bool matches_name(const Column& column, std::string_view name) {
     if (column.name == name || (!column.unit.empty() && column.name + "_" + column.unit == name)) return true;
     const auto heading = parse_heading(name);
     return !heading.unit.empty() && column.name == heading.name && column.unit == heading.unit;
@@ -43,14 +43,15 @@ std::string_view without_quotes(std::string_view s) {
     return s.size() > 2 && (s.front() == '\'' || s.front() == '"') && s.back() == s.front() ? s.substr(1, s.size() - 2) : s;
 }
 
-/// The columns of a table that are channels, and how they are asked for.
-struct Chooser {
+/// Selects the channels of a table.
+struct ChannelSelector {
     const Table& table;
     std::optional<std::size_t> time;
     std::string path;
     std::vector<std::size_t> data;  // columns other than the time
 
-    Chooser(const Table& t, std::optional<std::size_t> time_column, std::string p) : table(t), time(time_column), path(std::move(p)) {
+    ChannelSelector(const Table& t, std::optional<std::size_t> time_column, std::string p)
+        : table(t), time(time_column), path(std::move(p)) {
         for (std::size_t c = 0; c < table.columns().size(); ++c)
             if (c != time) data.push_back(c);
     }
@@ -64,14 +65,14 @@ struct Chooser {
                          {path});
     }
 
-    /// Where a column of this name stands among the data.
+    /// The index in `data` of the column of this name.
     std::optional<std::size_t> named(std::string_view wanted) const {
         for (std::size_t k = 0; k < data.size(); ++k)
-            if (called(table.columns()[data[k]], wanted)) return k;
+            if (matches_name(table.columns()[data[k]], wanted)) return k;
         return {};
     }
 
-    /// The word by which --channel selects it: its name if another column has its number as name, else its number.
+    /// The argument of --channel that selects a column: its number, or its name if another column is named by that number.
     std::string option_of(std::size_t k) const {
         auto number = std::to_string(k + 1);
         const auto other = named(number);
@@ -80,13 +81,13 @@ struct Chooser {
 
     std::string name_of(std::size_t k) const { return fmt::format("'{}'", table.columns()[data[k]].name); }
 
-    /// From one to another of the data; what the table leaves out is left out of a range.
+    /// Adds a range of `data`, without the columns that the table excludes.
     void add_range(std::size_t from, std::size_t to, std::vector<std::size_t>& chosen) const {
         for (std::size_t k = from; k <= to; ++k)
             if (from == to || table.columns()[data[k]].left_out.empty()) chosen.push_back(data[k]);
     }
 
-    /// "fx-fz", "'Channel 4'-'Channel 7'"; false if it is none.
+    /// Adds a range such as "fx-fz" or "'Channel 4'-'Channel 7'". Returns false if the text is not a range of names.
     bool add_named_range(std::string_view wanted, std::vector<std::size_t>& chosen) const {
         for (auto dash = wanted.find('-'); dash != wanted.npos; dash = wanted.find('-', dash + 1)) {
             const auto from = named(without_quotes(wanted.substr(0, dash))), to = named(without_quotes(wanted.substr(dash + 1)));
@@ -95,100 +96,103 @@ struct Chooser {
         return false;
     }
 
-    Result<void> add(std::string_view wanted, std::vector<std::size_t>& chosen, std::vector<std::string>* remarks) const {
+    Result<void> add(std::string_view wanted, std::vector<std::size_t>& chosen, std::vector<std::string>* notes) const {
         for (const auto name : {wanted, without_quotes(wanted)})
             if (const auto k = named(name)) return chosen.push_back(data[*k]), Result<void>{};
         if (add_named_range(wanted, chosen)) return {};
         const auto dash = wanted.find('-');
-        const auto from = whole_number(wanted.substr(0, dash)),
-                   to = dash == std::string_view::npos ? from : whole_number(wanted.substr(dash + 1));
+        const auto from = parse_integer(wanted.substr(0, dash)),
+                   to = dash == std::string_view::npos ? from : parse_integer(wanted.substr(dash + 1));
         if (!from || !to || *from < 1 || *to > data.size() || *from > *to) return unknown(wanted);
         add_range(*from - 1, *to - 1, chosen);
-        if (remarks)
-            remarks->push_back(*from == *to ? fmt::format("--channel {} is {}", wanted, name_of(*from - 1))
-                                            : fmt::format("--channel {} is {} to {}", wanted, name_of(*from - 1), name_of(*to - 1)));
+        if (notes)
+            notes->push_back(*from == *to ? fmt::format("--channel {} is {}", wanted, name_of(*from - 1))
+                                          : fmt::format("--channel {} is {} to {}", wanted, name_of(*from - 1), name_of(*to - 1)));
         return {};
     }
 
-    /// All that may hold force: beside a column in newtons or another unit of force, none in a known unit that is none.
-    Result<std::vector<std::size_t>> usual(std::vector<std::string>* remarks) const {
+    /// The default selection: all columns that may be forces. If a column has a unit of force, columns with other known units are
+    /// excluded.
+    Result<std::vector<std::size_t>> default_selection(std::vector<std::string>* notes) const {
         const auto in_force = [&](std::size_t c) { return table.columns()[c].left_out.empty() && is_force(table.columns()[c].unit); };
         const bool some_in_force = std::any_of(data.begin(), data.end(), in_force);
         const auto is_other = [&](const Column& c) {
             return is_never_force(c.unit) || (some_in_force && !c.unit.empty() && is_unit(c.unit) && !is_force(c.unit));
         };
-        std::vector<std::size_t> chosen, other;  // other: of a unit that is no force
+        std::vector<std::size_t> chosen, other;  // other: columns whose unit is not a force
         for (const auto c : data)
             if (table.columns()[c].left_out.empty()) (is_other(table.columns()[c]) ? other : chosen).push_back(c);
         if (chosen.empty() && other.empty()) {
             const auto known = std::find_if(data.begin(), data.end(), [&](std::size_t c) { return !table.columns()[c].evidence.empty(); });
             const auto& column = table.columns()[known == data.end() ? data[0] : *known];
-            return bad_input(fmt::format("no column holds readings: '{}' {}{}{}", column.name, column.left_out,
+            return bad_input(fmt::format("no column holds force values: '{}' {}{}{}", column.name, column.left_out,
                                          column.evidence.empty() ? "" : "; ", column.evidence),
                              {path});
         }
         if (chosen.empty()) return other;
-        constexpr std::size_t most_told = 16;
+        constexpr std::size_t max_notes = 16;
         std::size_t left_out = 0;
-        for (std::size_t k = 0; remarks && k < data.size(); ++k) {
+        for (std::size_t k = 0; notes && k < data.size(); ++k) {
             const auto& c = table.columns()[data[k]];
             if (c.left_out.empty() && !is_other(c)) continue;
-            if (++left_out > most_told) continue;
+            if (++left_out > max_notes) continue;
             if (c.left_out.empty())
-                remarks->push_back(
-                    fmt::format("{} is in {}, which is no force: left out (if the header is wrong, --channel {} --unit N takes it)",
-                                name_of(k), c.unit, option_of(k)));
-            else if (c.left_out.starts_with("counts") || c.left_out.starts_with("tells"))
-                remarks->push_back(fmt::format("{} {}: left out (--channel {} takes it)", name_of(k), c.left_out, option_of(k)));
+                notes->push_back(
+                    fmt::format("{} was ignored: {} is not a unit of force (if the header is wrong, use --channel {} --unit N)", name_of(k),
+                                c.unit, option_of(k)));
+            else if (c.left_out.starts_with("counts") || c.left_out.starts_with("identifies"))
+                notes->push_back(
+                    fmt::format("{} was ignored: it {} (use --channel {} to include it)", name_of(k), c.left_out, option_of(k)));
             else
-                remarks->push_back(fmt::format("{} {}: left out", name_of(k), c.left_out));
+                notes->push_back(fmt::format("{} was ignored: it {}", name_of(k), c.left_out));
         }
-        if (left_out > most_told)
-            remarks->push_back(fmt::format("{} more columns hold no force: left out (--channel NAME takes one)", left_out - most_told));
+        if (left_out > max_notes)
+            notes->push_back(fmt::format("{} more columns were ignored because they hold no force (use --channel NAME to include one)",
+                                         left_out - max_notes));
         return chosen;
     }
 
-    Result<std::vector<std::size_t>> choose(const std::vector<std::string>& wanted, std::vector<std::string>* remarks) const {
+    Result<std::vector<std::size_t>> choose(const std::vector<std::string>& wanted, std::vector<std::string>* notes) const {
         std::vector<std::size_t> chosen;
-        if (data.empty()) return bad_input("there is no channel besides the time", {path});
-        if (wanted.empty()) return usual(remarks);
+        if (data.empty()) return bad_input("there is no channel, only the time column", {path});
+        if (wanted.empty()) return default_selection(notes);
         for (const auto& list : wanted) {
-            if (const auto whole = named(list)) {  // a name may hold commas
-                chosen.push_back(data[*whole]);
+            if (const auto k = named(list)) {  // a name may contain commas
+                chosen.push_back(data[*k]);
                 continue;
             }
             for (std::size_t at = 0; at <= list.size();) {
                 const auto end = std::min(list.find(',', at), list.size());
-                if (auto ok = add(std::string_view(list).substr(at, end - at), chosen, remarks); !ok) return ok.error();
+                if (auto ok = add(std::string_view(list).substr(at, end - at), chosen, notes); !ok) return ok.error();
                 at = end + 1;
             }
         }
-        std::vector<std::size_t> once;
+        std::vector<std::size_t> unique;
         for (const auto c : chosen)
-            if (std::find(once.begin(), once.end(), c) == once.end()) once.push_back(c);
-        if (once.empty()) return bad_input(fmt::format("--channel {} takes only columns that hold no readings", wanted[0]), {path});
-        return once;
+            if (std::find(unique.begin(), unique.end(), c) == unique.end()) unique.push_back(c);
+        if (unique.empty()) return bad_input(fmt::format("--channel {} selects only columns without force values", wanted[0]), {path});
+        return unique;
     }
 };
 
 }  // namespace
 
 Result<std::vector<std::size_t>> choose_columns(const Table& table, std::optional<std::size_t> time, const std::vector<std::string>& wanted,
-                                                const std::string& path, std::vector<std::string>* remarks) {
-    return Chooser(table, time, path).choose(wanted, remarks);
+                                                const std::string& path, std::vector<std::string>* notes) {
+    return ChannelSelector(table, time, path).choose(wanted, notes);
 }
 
 Result<std::optional<std::size_t>> choose_time(const Table& table, const std::optional<std::string>& wanted, const std::string& path) {
     if (!wanted) return table.time_column();
     if (*wanted == "none") return std::optional<std::size_t>();
     const auto& columns = table.columns();
-    const auto named = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return called(c, *wanted); });
+    const auto named = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return matches_name(c, *wanted); });
     if (named != columns.end()) return std::optional(static_cast<std::size_t>(named - columns.begin()));
-    if (const auto number = whole_number(*wanted); number && *number >= 1 && *number <= columns.size()) return std::optional(*number - 1);
+    if (const auto number = parse_integer(*wanted); number && *number >= 1 && *number <= columns.size()) return std::optional(*number - 1);
     std::vector<std::string_view> names;
     for (const auto& c : columns) names.push_back(c.name);
     const auto shown = std::span(names).first(std::min<std::size_t>(names.size(), 12));
-    return bad_input(fmt::format("no column '{}' to take as time{}; give its name, its number or 'none'; there are {}{}", *wanted,
+    return bad_input(fmt::format("no time column '{}'{}; give a name, a number or 'none' (columns: {}{})", *wanted,
                                  did_you_mean(*wanted, names), fmt::join(shown, ", "), shown.size() < names.size() ? " ..." : ""),
                      {path});
 }
@@ -200,17 +204,20 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
     if (is_newtons(unit)) return 1.0;
     const auto known = unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
     if (known && known->same_kind(*parse_unit("N"))) return known->factor;
-    const auto what = options.unit ? fmt::format("'{}' is read as {}", column.name, unit) : fmt::format("'{}' is in {}", column.name, unit);
-    const auto why = known           ? "which is no force"
-                     : unit == "raw" ? "which needs a scale"
-                                     : "which is no unit of force known here (N, mN, gf, kgf, lbf ...)";
-    const auto else_ = options.unit ? "" : ", --unit N if the header is wrong, or --channel if it is another column that holds the force";
-    if (unit == "g" || unit == "kg")  // of a load cell the weight, far more often than a mass
-        return bad_input(fmt::format("{}, which is a mass; --unit {}f takes it as the weight of that mass, --scale S takes what is read "
-                                     "times S as newtons{}",
-                                     what, unit, options.unit ? "" : ", --channel another column"),
+    const auto subject =
+        options.unit ? fmt::format("'{}' is read as {}", column.name, unit) : fmt::format("'{}' is in {}", column.name, unit);
+    const auto problem = known           ? "which is not a force"
+                         : unit == "raw" ? "which needs a scale"
+                                         : "which is not a known unit of force (N, mN, gf, kgf, lbf ...)";
+    const auto alternatives = options.unit ? "" : ", --unit N if the header is wrong, or --channel to select another column";
+    if (unit == "g" || unit == "kg")  // for a load cell, usually a weight and not a mass
+        return bad_input(fmt::format("{}, which is a mass; use --unit {}f if it is the weight of that mass, or --scale S for S newtons "
+                                     "per {}{}",
+                                     subject, unit, unit, options.unit ? "" : ", or --channel to select another column"),
                          {path});
-    return bad_input(fmt::format("{}, {}; say --scale S, so that what is read times S is newtons{}", what, why, else_), {path});
+    return bad_input(
+        fmt::format("{}, {}; use --scale S for S newtons per {}{}", subject, problem, unit == "raw" ? "count" : unit, alternatives),
+        {path});
 }
 
 Result<double> seconds_per_unit(const Column& column, const RecordingOptions& options, const std::string& path) {
@@ -218,12 +225,13 @@ Result<double> seconds_per_unit(const Column& column, const RecordingOptions& op
     if (unit.empty()) return 1.0;
     if (column.stamps && options.time_unit)
         return bad_usage(
-            fmt::format("--time-unit {}: '{}' holds dates or times of day, which have no unit; leave it out", unit, column.name));
+            fmt::format("--time-unit {}: '{}' holds dates or times of day, which have no unit; omit the option", unit, column.name));
     if (const auto seconds = seconds_in(unit)) return *seconds;
-    if (options.time_unit) return bad_usage(fmt::format("--time-unit {}: no unit of time; say s, ms, us, ns or min", unit));
+    if (options.time_unit) return bad_usage(fmt::format("--time-unit {}: not a unit of time; use s, ms, us, ns or min", unit));
     return bad_input(
         fmt::format(
-            "the time column '{}' is in '{}', which is no time; --time-unit says what it is in, --time names another column, or none",
+            "the time column '{}' is in '{}', which is not a unit of time; give its unit with --time-unit, or another column or 'none' "
+            "with --time",
             column.name, unit),
         {path});
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Which columns of a table are meant, and what one unit of them is in SI.
+// Selects columns of a table, and determines their units.
 
 #include <optional>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace corpuscle {
 
-/// The columns asked for, by name, name and unit ("fz_N"), number, or range ("2-5", "fx-fz") among those other than the time. If nothing
-/// is asked for all of them, but what the table leaves out and what is in a unit that no force sensor has. `remarks` gets what was
-/// left out and, where they were counted, what they are called.
+/// The columns requested by name, name and unit ("fz_N"), number, or range ("2-5", "fx-fz"). Numbers do not count the time column.
+/// Without a request, all columns except those that the table excludes and those in units that a force sensor never has. Appends
+/// notes about the excluded columns and about the names of columns selected by number.
 Result<std::vector<std::size_t>> choose_columns(const Table&, std::optional<std::size_t> time, const std::vector<std::string>& wanted,
-                                                const std::string& path, std::vector<std::string>* remarks = nullptr);
+                                                const std::string& path, std::vector<std::string>* notes = nullptr);
 
-/// The time column: the one asked for by name or number, none, or the one the file shows.
+/// The time column: the one requested by name or number, none, or by default the one that the file shows.
 Result<std::optional<std::size_t>> choose_time(const Table&, const std::optional<std::string>& wanted, const std::string& path);
 
-/// The factor from what stands in the column to newtons.
+/// The factor from the column's values to newtons.
 Result<double> newtons_per_unit(const Column&, const RecordingOptions&, const std::string& path);
 
-/// The factor from what stands in a time column to seconds.
+/// The factor from a time column's values to seconds.
 Result<double> seconds_per_unit(const Column&, const RecordingOptions&, const std::string& path);
 
 }  // namespace corpuscle

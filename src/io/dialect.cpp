@@ -14,12 +14,13 @@ std::string_view unquoted(std::string_view s) {
     return s.size() >= 2 && s.front() == '"' && s.back() == '"' ? s.substr(1, s.size() - 2) : s;
 }
 
-/// Where the field that begins at `at` ends; a separator within quotes does not end it.
+/// The end of the field that begins at `at`. A separator within quotes does not end it.
 std::size_t end_of_field(std::string_view line, std::size_t at, char separator) {
     const auto quote = line.find_first_not_of(" \t", at);
     if (quote != std::string_view::npos && line[quote] == '"') {
         auto close = line.find('"', quote + 1);
-        while (close != std::string_view::npos && line.substr(close + 1).starts_with('"')) close = line.find('"', close + 2);  // "": one
+        // A doubled quote is part of the field.
+        while (close != std::string_view::npos && line.substr(close + 1).starts_with('"')) close = line.find('"', close + 2);
         if (close != std::string_view::npos) return line.find(separator, close);
     }
     return line.find(separator, at);
@@ -62,7 +63,7 @@ bool Dialect::number(std::string_view field, double& value, bool any) const {
     return status == std::errc{} && end == field.data() + field.size() && (any || std::isfinite(value));
 }
 
-/// As plain_number, digit by digit.
+/// Like parse_plain_number(), but digit by digit.
 bool Dialect::longer_number(const char*& p, const char* end, double& value) const {
     std::uint64_t digits = 0;
     const auto take = [&] {
@@ -70,10 +71,10 @@ bool Dialect::longer_number(const char*& p, const char* end, double& value) cons
         while (p < end && static_cast<unsigned char>(*p - '0') < 10) digits = digits * 10 + static_cast<unsigned char>(*p++ - '0');
         return p - from;
     };
-    const auto whole = take();
+    const auto integers = take();
     std::ptrdiff_t decimals = 0;
     if (p < end && (*p == '.' || (decimal_comma && *p == ','))) ++p, decimals = take();
-    if (whole + decimals == 0 || whole + decimals > 15 || !ends_at(p, end)) return false;
+    if (integers + decimals == 0 || integers + decimals > 15 || !ends_at(p, end)) return false;
     value = static_cast<double>(digits) / powers_of_ten[decimals];
     return true;
 }

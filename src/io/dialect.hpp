@@ -1,5 +1,5 @@
 #pragma once
-// How a file of text separates its fields and writes its numbers.
+// The separators and number format of a text file.
 
 #include <bit>
 #include <cstdint>
@@ -12,20 +12,20 @@ namespace corpuscle {
 using Fields = std::vector<std::string_view>;
 
 struct Dialect {
-    char separator = ',';  ///< ' ' stands for any run of blanks
+    char separator = ',';  ///< ' ' means any number of blanks
     bool decimal_comma = false;
 
-    /// A tab, else a semicolon, else a comma, else blanks; a comma is a decimal one where it does not separate.
+    /// Detects the separator: a tab, otherwise a semicolon, a comma, or blanks. If the comma is not the separator, it is a decimal comma.
     static Dialect of(std::string_view line);
 
-    /// The fields of a line, without blanks and quotes about them.
+    /// Splits a line into fields without surrounding blanks and quotes.
     void split(std::string_view line, Fields& out) const;
 
-    /// A finite number; `any` takes infinities and NaN, too.
+    /// Parses a finite number. With `any`, also infinities and NaN.
     bool number(std::string_view field, double& value, bool any = false) const;
 
-    /// The number that begins at `p`, as most are written: a sign, up to fifteen digits and a point. Moves p behind it. False, and p
-    /// anywhere, where number() must have a closer look. Eight bytes from `end` on must be readable.
+    /// A fast parser for the common form at `p`: a sign, up to fifteen digits and a point. Moves p after the number. Returns false, with
+    /// p unspecified, for any other form, which parse_number() must parse. Eight bytes after `end` must be readable.
     bool plain_number(const char*& p, const char* end, double& value) const;
 
 private:
@@ -37,10 +37,10 @@ private:
 
 inline constexpr double powers_of_ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
-/// Eight characters at once, for the shortest numbers are the most: digits as bytes 0 to 9, the first in the lowest.
+/// Eight characters in one 64-bit word, to parse short numbers fast. Digits are bytes 0 to 9, the first character in the lowest byte.
 struct EightCharacters {
     std::uint64_t digits,
-        others;  ///< others: the high bit of each byte that is no digit; right up to the first, and to a second behind a point
+        others;  ///< others: the high bit of each byte that is not a digit; valid up to the first, and up to the second after a point
 
     explicit EightCharacters(const char* p) {
         std::memcpy(&digits, p, 8);
@@ -48,13 +48,13 @@ struct EightCharacters {
         digits ^= 0x3030303030303030U;
         others = ((digits + 0x7676767676767676U) | digits) & 0x8080808080808080U;
     }
-    static int place(std::uint64_t bits) { return std::countr_zero(bits) / 8; }  // 8: none
-    /// The first byte goes out, those above it move down.
+    static int place(std::uint64_t bits) { return std::countr_zero(bits) / 8; }  // 8 if there is none
+    /// Removes the byte at index `at` and shifts those above it down.
     void close_up(int at) {
         const std::uint64_t below = (std::uint64_t{1} << (8 * at)) - 1;
         digits = (digits & below) | ((digits >> 8) & ~below);
     }
-    /// The number that the first `count` digits make, 1 to 8.
+    /// The number formed by the first `count` digits, 1 to 8.
     std::uint64_t number(int count) const {
         std::uint64_t x = digits << (8 * (8 - count));
         x = (x * 10 + (x >> 8)) & 0x00ff00ff00ff00ffU;
@@ -68,16 +68,16 @@ inline bool Dialect::plain_number(const char*& p, const char* end, double& value
     const bool minus = p < end && *p == '-';
     p += minus;
     EightCharacters eight(p);
-    const int whole = EightCharacters::place(eight.others);
-    const bool point = whole < 8 && (p[whole] == '.' || (decimal_comma && p[whole] == ','));
-    const int length = point ? EightCharacters::place(eight.others & (eight.others - 1)) : whole;
+    const int integers = EightCharacters::place(eight.others);
+    const bool point = integers < 8 && (p[integers] == '.' || (decimal_comma && p[integers] == ','));
+    const int length = point ? EightCharacters::place(eight.others & (eight.others - 1)) : integers;
     const char* const stop = p + length;
     double size;
     if (length < 8) {
         if (length == point || !ends_at(stop, end)) return false;
-        if (point) eight.close_up(whole);
-        // Digits that a double holds and one division by an exact power of ten: the nearest double, as from_chars gives it.
-        size = static_cast<double>(eight.number(length - point)) / powers_of_ten[length - whole - point];
+        if (point) eight.close_up(integers);
+        // The digits fit into a double and the power of ten is exact, so one division gives the nearest double, as from_chars does.
+        size = static_cast<double>(eight.number(length - point)) / powers_of_ten[length - integers - point];
         p = stop;
     } else if (!longer_number(p, end, size)) {
         return false;

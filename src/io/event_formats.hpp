@@ -1,5 +1,5 @@
 #pragma once
-// The two binary formats of events, made by event_format().
+// The two binary event formats. Use make_event_format() to create a format by name.
 
 #include "io/events.hpp"
 

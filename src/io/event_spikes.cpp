@@ -1,4 +1,4 @@
-// Files of address events, ours and AEDAT 2, read as trains.
+// Reads address events of Corpuscle and AEDAT 2 files as spike trains.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -19,29 +19,29 @@ namespace aer = address_events;
 constexpr std::int64_t last_event_step = std::int64_t{1} << 53;
 constexpr std::size_t events_at_once = 4096;
 
-/// Trains by address; what an address is called is asked once.
+/// Trains by address. The name of an address is looked up once.
 class AddressTrains {
-    std::unordered_map<std::uint32_t, std::vector<double>*> of_;
+    std::unordered_map<std::uint32_t, std::vector<double>*> by_address_;
     Trains trains_;
 
 public:
     template <class Name>
-    std::vector<double>& of(std::uint32_t address, const Name& name) {
-        auto& train = of_[address];
+    std::vector<double>& train_at(std::uint32_t address, const Name& name) {
+        auto& train = by_address_[address];
         if (!train) {
             const auto [afferent, channel] = name(address);
             train = &trains_.of(afferent, channel);
         }
         return *train;
     }
-    std::vector<NamedTrain> in_order() && { return std::move(trains_).in_order(); }
+    std::vector<NamedTrain> sorted() && { return std::move(trains_).in_order(); }
 };
 
-/// Every event of a file from where it stands, `size` bytes each.
+/// Calls `take` for every event of a file, `size` bytes each, from position `at` on.
 template <class Take>
 Result<void> each_event(Bytes& file, std::uint64_t at, std::size_t size, const Take& take) {
     if ((file.size() - at) % size != 0)
-        return bad_input(fmt::format("the last spike is cut short: {} of {} bytes", (file.size() - at) % size, size), {file.name()});
+        return bad_input(fmt::format("the last spike is incomplete: {} of {} bytes", (file.size() - at) % size, size), {file.name()});
     std::vector<std::byte> block(events_at_once * size);
     for (auto left = (file.size() - at) / size; left > 0;) {
         const auto count = std::min<std::uint64_t>(left, events_at_once);
@@ -53,7 +53,7 @@ Result<void> each_event(Bytes& file, std::uint64_t at, std::size_t size, const T
     return {};
 }
 
-/// A little-endian number that lies at a place of these bytes.
+/// The little-endian number at position `at`.
 template <class T>
 T number_at(std::span<const std::byte> bytes, std::size_t at) {
     T number;
@@ -65,19 +65,20 @@ class AerFile {
     std::unique_ptr<Bytes> file_;
     Clock clock_;
     std::vector<aer::NameRun> runs_, channels_;
-    std::uint64_t begin_ = 0;  // of the spikes
+    std::uint64_t begin_ = 0;  // position of the first spike
 
-    Error wrong(std::string sentence) const { return bad_input(std::move(sentence), {file_->name()}); }
+    Error format_error(std::string message) const { return bad_input(std::move(message), {file_->name()}); }
 
     Result<void> read_head(std::uint32_t& runs, std::uint32_t& bytes) {
         std::byte head[aer::head_bytes];
-        if (file_->size() < sizeof head) return wrong("the header of address events is cut short");
+        if (file_->size() < sizeof head) return format_error("the header of the address events is incomplete");
         if (auto ok = file_->read(head); !ok) return ok;
         clock_ = {number_at<std::int64_t>(head, 8), number_at<std::int64_t>(head, 16)};
         runs = number_at<std::uint32_t>(head, 24), bytes = number_at<std::uint32_t>(head, 28);
         if (clock_.per < 1 || clock_.seconds < 1)
-            return wrong(fmt::format("a clock of {} samples in {} s is none: both are to be positive", clock_.per, clock_.seconds));
-        if (file_->size() - sizeof head < bytes) return wrong("the names of the units are cut short");
+            return format_error(
+                fmt::format("invalid clock of {} samples in {} s: both numbers must be positive", clock_.per, clock_.seconds));
+        if (file_->size() - sizeof head < bytes) return format_error("the names of the afferents are incomplete");
         begin_ = sizeof head + bytes;
         return {};
     }
@@ -88,7 +89,7 @@ class AerFile {
         std::vector<std::byte> text(bytes);
         if (auto ok = file_->read(text); !ok) return ok;
         std::size_t at = 0;
-        if (auto ok = read_runs(text, at, runs, "units", runs_); !ok) return ok;
+        if (auto ok = read_runs(text, at, runs, "afferents", runs_); !ok) return ok;
         if (text.size() - at < sizeof(std::uint32_t)) return {};
         runs = number_at<std::uint32_t>(text, at), at += sizeof runs;
         return read_runs(text, at, runs, "channels", channels_);
@@ -99,9 +100,9 @@ class AerFile {
         for (std::uint32_t k = 0; k < count; ++k) {
             const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(text, at + 4 * field); };
             if (text.size() - at < aer::run_bytes || text.size() - at - aer::run_bytes < number(4))
-                return wrong(fmt::format("the names of the {} end within run {} of {}", of, k + 1, count));
+                return format_error(fmt::format("the names of the {} end within run {} of {}", of, k + 1, count));
             aer::NameRun run{number(0), number(1), number(2), number(3), {}};
-            if (run.stride == 0 || run.count == 0) return wrong(fmt::format("run {} of {} has a stride or a count of 0", k + 1, of));
+            if (run.stride == 0 || run.count == 0) return format_error(fmt::format("run {} of {} has a stride or a count of 0", k + 1, of));
             run.name.assign(reinterpret_cast<const char*>(text.data()) + at + aer::run_bytes, number(4));
             at = std::min<std::size_t>(text.size(), at + aer::run_bytes + (number(4) + std::size_t{3}) / 4 * 4);
             out.push_back(std::move(run));
@@ -115,7 +116,7 @@ class AerFile {
         return nullptr;
     }
 
-    /// Afferent and channel: "sa1" and "fz"; without a channel "sa1#17"; without a name the address itself.
+    /// The names of afferent and channel: "sa1" and "fz". Without a channel "sa1#17", without a name the address.
     std::pair<std::string, std::string> names_of(std::uint32_t address) const {
         const auto *const run = run_at(runs_, address), *const channel = run_at(channels_, address);
         if (!run) return {std::to_string(address), channel ? channel->name : ""};
@@ -135,31 +136,31 @@ public:
             aer::Packed spike;
             std::memcpy(&spike, at, sizeof spike);
             if (spike.step < 0 || spike.step > last_event_step)
-                return wrong(fmt::format("spike {} is at step {}, outside 0 to 2^53", count, spike.step));
-            trains.of(spike.address, [&](std::uint32_t a) { return names_of(a); })
+                return format_error(fmt::format("spike {} is at step {}, outside 0 to 2^53", count, spike.step));
+            trains.train_at(spike.address, [&](std::uint32_t a) { return names_of(a); })
                 .push_back(clock_.time(spike.step, aer::offset_of(spike.place)));
             ++count;
             return {};
         });
         if (!ok) return ok.error();
-        return std::move(trains).in_order();
+        return std::move(trains).sorted();
     }
 };
 
-std::uint32_t big_at(const std::byte* at) {
+std::uint32_t big_endian_at(const std::byte* at) {
     std::uint32_t number = 0;
     for (int k = 0; k < 4; ++k) number = number << 8 | std::to_integer<std::uint32_t>(at[k]);
     return number;
 }
 
-/// Where the lines that begin with # end.
-Result<std::uint64_t> behind_comments(Bytes& file) {
+/// The position after the lines that begin with #.
+Result<std::uint64_t> skip_comments(Bytes& file) {
     std::vector<std::byte> head(std::min<std::uint64_t>(file.size(), 65536));
     if (auto ok = file.read(head); !ok) return ok.error();
     std::size_t at = 0;
     while (at < head.size() && head[at] == std::byte{'#'}) {
         const auto end = std::find(head.begin() + static_cast<std::ptrdiff_t>(at), head.end(), std::byte{'\n'});
-        if (end == head.end()) return bad_input("a comment of its header does not end", {file.name()});
+        if (end == head.end()) return bad_input("a comment in the header has no end", {file.name()});
         at = static_cast<std::size_t>(end - head.begin()) + 1;
     }
     if (auto ok = file.seek(at); !ok) return ok.error();
@@ -177,21 +178,21 @@ Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path) {
 Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path) {
     auto file = open_bytes(path);
     if (!file) return file.error();
-    const auto begin = behind_comments(**file);
+    const auto begin = skip_comments(**file);
     if (!begin) return begin.error();
     AddressTrains trains;
     std::int64_t now = 0;  // us, of the last event
     bool first = true;
     const auto ok = each_event(**file, *begin, 8, [&](const std::byte* at) -> Result<void> {
-        const auto stamp = big_at(at + 4);
-        // The nearest time to the last one that has these 32 bits.
+        const auto stamp = big_endian_at(at + 4);
+        // Time stamps have 32 bits. Take the time closest to the last one that has these bits.
         now = std::exchange(first, false) ? stamp : now + static_cast<std::int32_t>(stamp - static_cast<std::uint32_t>(now));
-        trains.of(big_at(at), [](std::uint32_t a) { return std::pair(std::to_string(a), std::string()); })
+        trains.train_at(big_endian_at(at), [](std::uint32_t a) { return std::pair(std::to_string(a), std::string()); })
             .push_back(static_cast<double>(now) * 1e-6);
         return {};
     });
     if (!ok) return ok.error();
-    return std::move(trains).in_order();
+    return std::move(trains).sorted();
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Times of spikes as whole nanoseconds, the same however long a stream has run.
+// Spike times as integer nanoseconds, with a precision that does not depend on the length of the stream.
 
 #include <cmath>
 
@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-/// `seconds` times the rate are `per` samples: whole cycles of those are counted in whole numbers, and only the rest, less than one cycle,
-/// is a double. So a spike after a year is as sharp as the first.
+/// The clock has rate_numerator samples in rate_denominator seconds. Such cycles are counted as integers, and only the remainder of less
+/// than one cycle is a double. So a spike after a year is as precise as the first one.
 class EventTime {
     std::int64_t per_, cycle_, start_;  // samples; ns; ns
     double step_;                       // ns
@@ -18,7 +18,7 @@ public:
         : per_(clock.per), cycle_(clock.seconds * 1'000'000'000), start_(std::llround(clock.t0 * 1e9)),
           step_(static_cast<double>(clock.seconds) * 1e9 / static_cast<double>(clock.per)) {}
 
-    /// Rounded to the nearest.
+    /// The time of the spike, rounded to the nearest nanosecond.
     std::int64_t nanoseconds(const Spike& s) const {
         std::int64_t cycles = (s.step - 1) / per_, rest = (s.step - 1) % per_;
         if (rest < 0) rest += per_, --cycles;

@@ -14,13 +14,13 @@ namespace corpuscle {
 namespace {
 
 constexpr EventFormatName event_format_names[] = {
-    {"lines", ".csv", "text, a line a spike: afferent,channel,time_s"},
-    {"jsonl", ".jsonl", R"(JSON, a line a spike: {"time_s":0.250000000,"afferent":"sa1","channel":"ch17","address":32})"},
-    {"aer", ".aer", "binary address events, 16 bytes a spike, behind a header that names the units; all of a spike's time"},
-    {"aedat2", ".aedat", "AEDAT 2.0, as jAER reads it: address and microseconds, 4 bytes each"},
+    {"lines", ".csv", "text, one line for each spike: afferent,channel,time_s"},
+    {"jsonl", ".jsonl", R"(JSON, one line for each spike: {"time_s":0.250000000,"afferent":"sa1","channel":"ch17","address":32})"},
+    {"aer", ".aer", "binary address events, 16 bytes for each spike, after a header that names the afferents; exact times"},
+    {"aedat2", ".aedat", "AEDAT 2.0 for jAER: address and microseconds, 4 bytes each"},
 };
 
-/// Whole seconds, a point and nine digits; where it ends.
+/// Writes seconds with nine decimals. Returns the end.
 char* put_seconds(std::int64_t ns, char* at) {
     if (ns < 0) *at++ = '-', ns = -ns;
     constexpr std::int64_t second = 1'000'000'000;
@@ -31,36 +31,36 @@ char* put_seconds(std::int64_t ns, char* at) {
     return at + 10;
 }
 
-/// A time between two texts, which are the unit's own.
+/// A text format: the time of a spike between two texts that depend on the afferent.
 class TextEvents final : public EventFormat {
-    static constexpr std::size_t longest_time = 21 + 10;
+    static constexpr std::size_t max_time = 21 + 10;
     std::string_view name_;
     EventTime time_;
     std::string header_, texts_;
-    std::vector<std::size_t> begin_ = {0};  // of each unit's two texts, one after the other, in texts_
-    std::size_t most_ = 0;
+    std::vector<std::size_t> begin_ = {0};  // start of the two texts of each afferent in texts_
+    std::size_t max_bytes_ = 0;
 
     std::string_view text(std::size_t k) const { return std::string_view(texts_).substr(begin_[k], begin_[k + 1] - begin_[k]); }
 
 public:
     TextEvents(std::string_view name, const Clock& clock, std::string header) : name_(name), time_(clock), header_(std::move(header)) {}
 
-    void add(const std::string& before, const std::string& behind) {
-        for (const auto* text : {&before, &behind}) {
+    void add(const std::string& before, const std::string& after) {
+        for (const auto* text : {&before, &after}) {
             texts_ += *text;
             begin_.push_back(texts_.size());
         }
-        most_ = std::max(most_, before.size() + longest_time + behind.size());
+        max_bytes_ = std::max(max_bytes_, before.size() + max_time + after.size());
     }
 
     std::string_view name() const override { return name_; }
-    std::size_t most_bytes() const override { return most_; }
+    std::size_t most_bytes() const override { return max_bytes_; }
     std::string header() const override { return header_; }
     std::size_t put(const Spike& s, char* const at) const override {
-        const auto before = text(2 * std::size_t{s.unit}), behind = text(2 * std::size_t{s.unit} + 1);
+        const auto before = text(2 * std::size_t{s.unit}), after = text(2 * std::size_t{s.unit} + 1);
         char* end = std::copy(before.begin(), before.end(), at);
         end = put_seconds(time_.nanoseconds(s), end);
-        end = std::copy(behind.begin(), behind.end(), end);
+        end = std::copy(after.begin(), after.end(), end);
         return static_cast<std::size_t>(end - at);
     }
 };
@@ -73,34 +73,34 @@ std::string json_text(const std::string& text) {
 
 std::span<const EventFormatName> event_formats() { return event_format_names; }
 
-Result<std::unique_ptr<EventFormat>> event_format(std::string_view name, EventUnits units) {
-    if (units.addresses.empty())
-        for (std::size_t u = 0; u < units.names.size(); ++u) units.addresses.push_back(static_cast<std::uint32_t>(u));
-    if (units.afferents.empty()) units.afferents = units.names;
-    const bool is_on_channels = !units.channels.empty();
-    if (!is_on_channels) units.channels.resize(units.names.size());
-    for (const auto size : {units.addresses.size(), units.afferents.size(), units.channels.size()})
-        if (size != units.names.size()) return bad_input(fmt::format("{} units have {} addresses or names", units.names.size(), size));
-    if (name == "aer") return aer_events(units);
-    if (name == "aedat2") return aedat2_events(units);
+Result<std::unique_ptr<EventFormat>> event_format(std::string_view name, EventUnits addressing) {
+    if (addressing.addresses.empty())
+        for (std::size_t u = 0; u < addressing.names.size(); ++u) addressing.addresses.push_back(static_cast<std::uint32_t>(u));
+    if (addressing.afferents.empty()) addressing.afferents = addressing.names;
+    const bool is_on_channels = !addressing.channels.empty();
+    if (!is_on_channels) addressing.channels.resize(addressing.names.size());
+    for (const auto size : {addressing.addresses.size(), addressing.afferents.size(), addressing.channels.size()})
+        if (size != addressing.names.size())
+            return bad_input(fmt::format("{} afferents have {} addresses or names", addressing.names.size(), size));
+    if (name == "aer") return aer_events(addressing);
+    if (name == "aedat2") return aedat2_events(addressing);
     if (name == "lines") {
-        auto lines = std::make_unique<TextEvents>("lines", units.clock, "afferent,channel,time_s\n");
-        for (std::size_t u = 0; u < units.names.size(); ++u)
-            lines->add(csv_field(units.afferents[u]) + "," + csv_field(units.channels[u]) + ",", "\n");
+        auto lines = std::make_unique<TextEvents>("lines", addressing.clock, "afferent,channel,time_s\n");
+        for (std::size_t u = 0; u < addressing.names.size(); ++u)
+            lines->add(csv_field(addressing.afferents[u]) + "," + csv_field(addressing.channels[u]) + ",", "\n");
         return Result<std::unique_ptr<EventFormat>>(std::move(lines));
     }
     if (name == "jsonl") {
-        auto lines = std::make_unique<TextEvents>("jsonl", units.clock, "");
-        for (std::size_t u = 0; u < units.names.size(); ++u)
+        auto lines = std::make_unique<TextEvents>("jsonl", addressing.clock, "");
+        for (std::size_t u = 0; u < addressing.names.size(); ++u)
             lines->add(R"({"time_s":)",
-                       fmt::format(",\"afferent\":{}{},\"address\":{}}}\n", json_text(units.afferents[u]),
-                                   is_on_channels ? ",\"channel\":" + json_text(units.channels[u]) : "", units.addresses[u]));
+                       fmt::format(",\"afferent\":{}{},\"address\":{}}}\n", json_text(addressing.afferents[u]),
+                                   is_on_channels ? ",\"channel\":" + json_text(addressing.channels[u]) : "", addressing.addresses[u]));
         return Result<std::unique_ptr<EventFormat>>(std::move(lines));
     }
     std::vector<std::string_view> known;
     for (const auto& f : event_format_names) known.push_back(f.name);
-    return bad_usage(
-        fmt::format("no format of events is called '{}'{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+    return bad_usage(fmt::format("unknown event format '{}'{}; formats: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
 }
 
 }  // namespace corpuscle

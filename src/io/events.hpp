@@ -1,6 +1,6 @@
 #pragma once
-// Spikes as bytes, one after another as they come: lines, JSON lines, binary address events, AEDAT 2 (doc/events.md). What a stream
-// writes and what a file holds are the same bytes.
+// Event formats, which encode spikes one after another: lines, JSON lines, binary address events, AEDAT 2 (doc/events.md). A stream
+// and a file have the same bytes.
 
 #include <cstddef>
 #include <memory>
@@ -14,27 +14,27 @@
 
 namespace corpuscle {
 
-/// How events are addressed: what each unit is called, and its address. All by unit.
+/// Names and addresses of the afferents. All lists are indexed by afferent.
 struct EventUnits {
     Clock clock;
     std::vector<std::string> names;           ///< "sa1#17"
-    std::vector<std::uint32_t> addresses;     ///< empty: the unit's number
-    std::vector<std::string> afferents = {};  ///< as text formats call it: "sa1" on a channel, "sa1#17" in a skin; empty: the name
-    std::vector<std::string> channels = {};   ///< "press", "palm"; empty: none
+    std::vector<std::uint32_t> addresses;     ///< empty: the afferent index is the address
+    std::vector<std::string> afferents = {};  ///< names in text formats: "sa1" on a channel, "sa1#17" in a skin; empty: as `names`
+    std::vector<std::string> channels = {};   ///< "press", "palm"; empty: no channels
 };
 
 class EventFormat {
 public:
     virtual ~EventFormat() = default;
     virtual std::string_view name() const = 0;        ///< "lines"
-    virtual std::size_t most_bytes() const = 0;       ///< of one spike
-    virtual bool same_size() const { return false; }  ///< every spike takes most_bytes(); else each is a line
-    virtual std::string header() const = 0;           ///< what comes before the first; "" if nothing does
-    /// Writes one spike at `at`, where most_bytes() are free; returns how many it took. Allocates nothing.
+    virtual std::size_t most_bytes() const = 0;       ///< upper bound on the size of one spike
+    virtual bool same_size() const { return false; }  ///< true: every spike takes max_bytes(); false: every spike is a line
+    virtual std::string header() const = 0;           ///< bytes before the first spike; may be ""
+    /// Writes one spike at `at`, where max_bytes() must be free. Returns the number of bytes written. Does not allocate.
     virtual std::size_t put(const Spike&, char* at) const = 0;
 };
 
-/// "lines", "jsonl", "aer", "aedat2".
+/// Creates a format by name: "lines", "jsonl", "aer", "aedat2".
 Result<std::unique_ptr<EventFormat>> event_format(std::string_view name, EventUnits);
 
 struct EventFormatName {

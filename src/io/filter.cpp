@@ -11,13 +11,13 @@ namespace {
 Result<void> check(double f, const Clock& clock, const char* option) {
     if (f > 0 && f < clock.rate() / 2) return {};
     return bad_input(
-        fmt::format("{} {:g}Hz: at {:g} samples a second it must lie between 0 and {:g} Hz", option, f, clock.rate(), clock.rate() / 2));
+        fmt::format("{} {:g}Hz: at a sample rate of {:g} Hz it must be between 0 and {:g} Hz", option, f, clock.rate(), clock.rate() / 2));
 }
 
 }  // namespace
 
-// Both by the bilinear transform, warped so that f is exact: R. Bristow-Johnson, "Cookbook formulae for audio EQ biquad filter
-// coefficients"; alpha = sin(w) / (2 Q).
+// Both filters use the bilinear transform, prewarped so that f is exact. Source: R. Bristow-Johnson, "Cookbook formulae for audio EQ
+// biquad filter coefficients"; alpha = sin(w) / (2 Q).
 
 Result<Biquad> Biquad::notch(double f, const Clock& clock) {
     if (auto ok = check(f, clock, "--notch"); !ok) return ok.error();

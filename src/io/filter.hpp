@@ -1,5 +1,5 @@
 #pragma once
-// Causal filters for badly logged force: what they give depends on what went before alone, so a stream and a file agree.
+// Causal filters for recordings. The output depends only on earlier samples, so a stream and a file give the same result.
 
 #include "signal/clock.hpp"
 #include "signal/error.hpp"
@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 /// A second-order section, y = b0 x + b1 x' + b2 x'' - a1 y' - a2 y'', in transposed direct form II.
-/// It begins as if its first sample had always been there.
+/// The initial state is the steady state for the first sample.
 class Biquad {
     double b0_, b1_, b2_, a1_, a2_;
     double s1_ = 0, s2_ = 0;
@@ -17,13 +17,13 @@ class Biquad {
         : b0_(b0 / a0), b1_(b1 / a0), b2_(b2 / a0), a1_(a1 / a0), a2_(a2 / a0) {}
 
 public:
-    /// Takes out one frequency (Hz) and what lies within 2 Hz of it (-3 dB), or within a quarter of it if that is less.
+    /// Removes a frequency f (Hz). The -3 dB points are at f +- 2 Hz, or at f +- f/4 if that is closer.
     static Result<Biquad> notch(double f, const Clock&);
-    /// Butterworth of second order, -3 dB at f (Hz).
+    /// A second-order Butterworth low-pass filter, -3 dB at f (Hz).
     static Result<Biquad> lowpass(double f, const Clock&);
 
     double next(double x) {
-        if (!begun_) {  // at rest under x: y = x, for both kinds pass 0 Hz as it is
+        if (!begun_) {  // steady state for x: y = x, because both filters have unit gain at 0 Hz
             begun_ = true;
             s2_ = (b2_ - a2_) * x;
             s1_ = (b1_ - a1_) * x + s2_;
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    /// Long after a touch the states would fade through numbers that processors are slow with.
+    /// Flushes tiny values to zero. Otherwise the states would become denormal long after a touch, which is slow.
     static double flushed(double s) { return s > -1e-200 && s < 1e-200 ? 0 : s; }
 };
 

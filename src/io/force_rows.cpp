@@ -12,9 +12,9 @@ ForceRows::ForceRows(Rows rows, std::vector<ChannelPath> paths, std::string path
 }
 
 std::size_t ForceRows::ready() const {
-    std::size_t least = ready_[0].size();
-    for (const auto& r : ready_) least = std::min(least, r.size());
-    return least - taken_;
+    std::size_t shortest = ready_[0].size();
+    for (const auto& r : ready_) shortest = std::min(shortest, r.size());
+    return shortest - taken_;
 }
 
 Error ForceRows::of_channel(std::size_t c, Error error) const {
@@ -23,7 +23,7 @@ Error ForceRows::of_channel(std::size_t c, Error error) const {
     return error;
 }
 
-/// A block of rows along all paths; at the end of the file what these still hold.
+/// Reads a block of rows and passes it through all pipelines. At the end of the file, flushes the pipelines.
 Result<void> ForceRows::pull() {
     for (auto& r : ready_) r.erase(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(taken_));
     taken_ = 0;

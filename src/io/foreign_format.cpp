@@ -10,16 +10,16 @@
 namespace corpuscle {
 namespace {
 
-struct Foreign {
-    std::string_view first;      ///< its first bytes
-    std::string_view within;     ///< what else must be among them
-    std::string_view extension;  ///< or its name
+struct ForeignFormat {
+    std::string_view first;      ///< the first bytes of the file
+    std::string_view within;     ///< a text that must also occur in the first bytes
+    std::string_view extension;  ///< the file extension, which can replace `within`
     std::string_view what;
-    std::string_view needs;    ///< Python's packages, or programs, that do not come with either
-    std::string_view command;  ///< {0}: the file, {1}: the new one's name without extension, both for Python; {2}, {3}: for a shell
+    std::string_view needs;    ///< Python packages, or programs, that the command needs
+    std::string_view command;  ///< {0}: the file, {1}: the new name without extension, both for Python; {2}, {3}: for a shell
 };
 
-// In Python the names stand in single quotes. An index goes along where there may be one: it may be the time.
+// In Python the names are in single quotes. An index column is kept if there can be one, because it may be the time.
 constexpr std::string_view workbook = R"py(python3 -c "import pandas; pandas.read_excel({0}).to_csv({1}.csv', index=False)")py";
 constexpr std::string_view feather = R"py(python3 -c "import pandas; pandas.read_feather({0}).to_csv({1}.csv', index=False)")py";
 constexpr std::string_view pickle = R"py(python3 -c "import pandas; pandas.read_pickle({0}).to_csv({1}.csv')")py";
@@ -30,9 +30,9 @@ constexpr std::string_view tdms =
 constexpr std::string_view matlab =
     R"py(python3 -c "import numpy, scipy.io; )py"
     R"py(numpy.savez({1}.npz', **{{k: v for k, v in scipy.io.loadmat({0}, squeeze_me=True).items() if k[0] != '_'}})")py";
-constexpr std::string_view a_pickle = "a Python pickle (reading one runs what is in it: only from people you trust)";
+constexpr std::string_view a_pickle = "a Python pickle (loading a pickle can run any code: only load files that you trust)";
 
-constexpr Foreign foreign_formats[] = {
+constexpr ForeignFormat foreign_formats[] = {
     {"PK\x03\x04", "opendocument", ".ods", "an OpenDocument spreadsheet", "pandas and odfpy", workbook},
     {"PK\x03\x04", "", ".xlsx", "an Excel workbook", "pandas and openpyxl", workbook},
     {"\xd0\xcf\x11\xe0", "", ".xls", "an Excel workbook", "pandas and xlrd (2.0.1 or later)", workbook},
@@ -41,16 +41,16 @@ constexpr Foreign foreign_formats[] = {
     {"ARROW1", "", ".feather", "a Feather (Arrow) file", "pandas and pyarrow", feather},
     {"FEA1", "", ".feather", "a Feather file", "pandas and pyarrow", feather},
     {"TDSm", "", ".tdms", "a LabVIEW TDMS file", "nptdms and pandas", tdms},
-    {"MATLAB 5.0 MAT-file", "", "", "a MATLAB file of version 5 to 7 (one of save -v7.3 is read)", "scipy", matlab},
+    {"MATLAB 5.0 MAT-file", "", "", "a MATLAB file of version 5 to 7 (files of save -v7.3 can be read)", "scipy", matlab},
     {"\x80\x02", "", ".pkl", a_pickle, "pandas", pickle},
     {"\x80\x03", "", ".pickle", a_pickle, "pandas", pickle},
     {"\x80\x04", "", ".pkl", a_pickle, "pandas", pickle},
     {"\x80\x05", "", ".pkl", a_pickle, "pandas", pickle},
-    {"#ROSBAG V", "", ".bag", "a ROS bag", "rostopic of ROS 1, and a topic that 'rosbag info' lists in the place of /TOPIC",
+    {"#ROSBAG V", "", ".bag", "a ROS bag", "rostopic of ROS 1, and a topic from 'rosbag info' in place of /TOPIC",
      "rostopic echo -p -b {2} /TOPIC > {3}.csv"},
 };
 
-/// Packed files: the programs that unpack them know them by the end of their names.
+/// Compressed formats, with the program that decompresses them and the extension that it expects.
 struct PackedFormat {
     std::string_view first, program, extension;
 };
@@ -60,12 +60,12 @@ constexpr PackedFormat packed_formats[] = {
     {"\x28\xb5\x2f\xfd", "zstd", ".zst"},
 };
 
-/// Formats that are read, by the name of the file; here under another name.
-struct Misnamed {
+/// Supported binary formats, which are recognised by their file extension.
+struct BinaryFormat {
     std::string_view first, what, extension;
 };
-constexpr Misnamed misnamed_formats[] = {
-    {"\x89HDF", "an HDF5 file", ".h5"}, {"\x93NUMPY", "NumPy's array", ".npy"}, {"PK\x03\x04", "NumPy's arrays", ".npz"},
+constexpr BinaryFormat binary_formats[] = {
+    {"\x89HDF", "an HDF5 file", ".h5"}, {"\x93NUMPY", "a NumPy array", ".npy"}, {"PK\x03\x04", "a NumPy archive", ".npz"},
     {"RIFF", "a WAV file", ".wav"},     {"fLaC", "a FLAC file", ".flac"},
 };
 
@@ -76,18 +76,18 @@ bool plain_word(const std::string& path) {
     });
 }
 
-/// The name without its extension.
+/// The file name without its extension.
 std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
-/// The file as a command names it; standard input has to be put into one.
+/// The file name for a command. Standard input must be saved to a file first.
 std::string named_file(const std::string& path) { return path == "-" ? "FILE" : path; }
 
-std::string sentence_of(const Foreign& f, const std::string& path) {
+std::string message_for(const ForeignFormat& f, const std::string& path) {
     const auto name = named_file(path);
-    // What a single-quoted Python word within a double-quoted shell word cannot hold is left to be put in.
+    // A name that cannot be quoted in Python within a double-quoted shell word is replaced by FILE.
     const bool simple = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= ' ' && !std::strchr("'\"\\$`!", c); });
     const std::string file = simple ? name : "FILE", stem = simple ? stem_of(name) : "FILE";
-    return fmt::format("this is {}, which is not read here; with {} make a file that is: {}", f.what, f.needs,
+    return fmt::format("this is {}, which is not supported; with {}, convert it like this: {}", f.what, f.needs,
                        fmt::format(fmt::runtime(f.command), "'" + file + "'", "'" + stem, shell_word(file), shell_word(stem)));
 }
 
@@ -110,7 +110,7 @@ std::string foreign_format(std::string_view first, const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
     for (const auto& p : packed_formats)
         if (first.starts_with(p.first))
-            return fmt::format("this is packed with {}, which is not read here; make a file that is: {}", p.program,
+            return fmt::format("this file is compressed with {}, which is not supported; convert it like this: {}", p.program,
                                unpack_command(std::string(p.program), p.extension, path));
     for (const auto& f : foreign_formats) {
         const bool zip = f.first == "PK\x03\x04";
@@ -118,18 +118,18 @@ std::string foreign_format(std::string_view first, const std::string& path) {
         if (zip && extension != f.extension &&
             !(f.within.empty() ? first.find("[Content_Types]") != first.npos : first.find(f.within) != first.npos))
             continue;
-        return sentence_of(f, path);
+        return message_for(f, path);
     }
     return "";
 }
 
 std::string misnamed_format(std::string_view first, const std::string& path) {
     if (first.starts_with("PK\x03\x04") && first.find(".npy") == first.npos)
-        return fmt::format("this is a ZIP archive; take out what is in it: unzip {}", shell_word(path));
-    for (const auto& m : misnamed_formats)
+        return fmt::format("this is a ZIP archive; extract its files: unzip {}", shell_word(path));
+    for (const auto& m : binary_formats)
         if (first.starts_with(m.first)) {
             const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
-            return fmt::format("this is {}, and it is known by the end of its name: ln -s {} {}", m.what, shell_word(path),
+            return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.what, shell_word(path),
                                shell_word(to + std::string(m.extension)));
         }
     return "";

@@ -1,5 +1,5 @@
 #pragma once
-// The formats a recording may have, chosen by extension. A new one: its file here in io/, and its row in the list.
+// The recording formats, chosen by file extension. To add one, put its file into io/ and its row into the list below.
 
 #include <span>
 
@@ -20,13 +20,13 @@ struct Format {
 
 inline constexpr Format formats[] = {
     {"text", ".csv .tsv .txt .dat .lvm .gz .json .jsonl .ndjson",
-     "numbers in columns: commas, tabs, semicolons or blanks; header or none; decimal point or comma; JSON; packed with gzip or not",
+     "columns of numbers separated by commas, tabs, semicolons or blanks; header optional; decimal point or comma; JSON; gzip",
      open_text_table},
-    {"npy", ".npy", "NumPy's array: rows and channels, or a structure with a field a column", open_npy_table},
-    {"npz", ".npz", "NumPy's arrays in one file: one of them, with its rate (fs) and times (t)", open_npz_table},
-    {"sound", ".wav .w64 .flac .aif .aiff .au", "a channel a column, with its rate; whole numbers are parts of full scale: say --scale",
-     open_wav_table},
-    {"hdf5", ".h5 .hdf5 .nwb .mat", "a dataset of HDF5: rows and channels, or members; NWB's time series; MATLAB's -v7.3", open_hdf5_table},
+    {"npy", ".npy", "NumPy array: rows and channels, or a structured array with one field for each column", open_npy_table},
+    {"npz", ".npz", "NumPy archive: one of its arrays, with its rate (fs) or times (t)", open_npz_table},
+    {"sound", ".wav .w64 .flac .aif .aiff .au",
+     "one column for each channel, with the rate; integers are fractions of full scale: use --scale", open_wav_table},
+    {"hdf5", ".h5 .hdf5 .nwb .mat", "HDF5 dataset: rows and channels, or a compound type; NWB time series; MATLAB -v7.3", open_hdf5_table},
 };
 
 }  // namespace corpuscle

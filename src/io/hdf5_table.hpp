@@ -5,8 +5,8 @@
 
 namespace corpuscle {
 
-/// The dataset asked for (or the group that holds it as `data`), or the only one. Unit, rate, names of columns and NWB's conversion
-/// are its attributes'; the rate may also stand in a group above it, and rate or times in datasets beside it.
+/// Reads the requested dataset (or the member `data` of the requested group), or the only dataset. Its attributes give the unit, rate,
+/// column names and NWB conversion. The rate may also be an attribute of a parent group. Rate or times may be datasets of the same group.
 Result<std::unique_ptr<Table>> open_hdf5_table(const std::string& path, const TableOptions& = {});
 
 }  // namespace corpuscle

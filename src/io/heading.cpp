@@ -27,10 +27,10 @@ constexpr std::string_view never_force[] = {"hex",     "deg", "\u00b0", "rad",  
                                             "Celsius", "C",   "K",      "kelvin",   "Kelvin", "Nm",    "Nmm",     "mNm",     "Ncm",
                                             "kNm",     "N.m", "N.mm",   "N\u00b7m", "rpm",    "deg/s", "rad/s",   "m/s^2",   "m/s\u00b2"};
 
-/// Letters, and min, that more often mean something else behind a name (left_F, sensor_A) than a unit.
+/// Suffixes that are usually not units (left_F, sensor_A).
 constexpr std::string_view ambiguous_units[] = {"", "1", "F", "A", "S", "T", "C", "K", "h", "min"};
 
-/// Does the name before it show that such a letter is a unit: temp_C, motor_current_A?
+/// True if the name shows that such a suffix is a unit: temp_C, motor_current_A.
 bool shows_unit(std::string_view name, std::string_view letter) {
     const auto n = lower(name);
     if (letter == "C" || letter == "K" || letter == "F") return contains_any(n, {"temp", "therm"}) || (n == "t" && letter != "F");
@@ -38,13 +38,13 @@ bool shows_unit(std::string_view name, std::string_view letter) {
     return letter == "A" && (contains_any(n, {"current", "strom"}) || n == "i");
 }
 
-/// What may stand behind a name and be its unit.
+/// True if the suffix `s` of a heading is a unit.
 bool is_suffix_unit(std::string_view name, std::string_view s) {
     if (in_list(ambiguous_units, s)) return shows_unit(name, s);
     return is_unit(s);
 }
 
-/// A quote within quotes stands twice.
+/// Replaces doubled quotes by single ones.
 std::string with_single_quotes(std::string text) {
     std::size_t kept = 0;
     for (std::size_t k = 0; k < text.size(); ++k) {
@@ -55,7 +55,7 @@ std::string with_single_quotes(std::string text) {
     return text;
 }
 
-/// The unit of a column that is named after a unit of time alone: millis, header.stamp.nsecs; "" for other names.
+/// The unit of a column whose name is a unit of time: millis, header.stamp.nsecs. "" for other names.
 std::string_view time_unit_named(std::string_view name) {
     constexpr std::pair<std::string_view, std::string_view> words[] = {
         {"sec", "s"}, {"secs", "s"},    {"seconds", "s"},   {"sekunden", "s"},      {"msec", "ms"},    {"msecs", "ms"},
@@ -63,7 +63,7 @@ std::string_view time_unit_named(std::string_view name) {
         {"us", "us"}, {"micros", "us"}, {"microsec", "us"}, {"microseconds", "us"}, {"nsec", "ns"},    {"nsecs", "ns"},
         {"ns", "ns"}, {"nanos", "ns"},  {"nanosec", "ns"},  {"nanoseconds", "ns"},  {"minutes", "min"}};
     if (const auto dot = name.rfind('.'); dot != name.npos) name.remove_prefix(dot + 1);
-    if (name.size() == 2 && name != lower(name)) return "";  // MS may be a sensor
+    if (name.size() == 2 && name != lower(name)) return "";  // MS may be the name of a sensor
     for (const auto& [word, unit] : words)
         if (same_letters(name, word)) return unit;
     return "";
@@ -90,7 +90,7 @@ Column parse_heading(std::string_view written) {
     if (const auto at = field.rfind('_');
         at != std::string_view::npos && at > 0 && is_suffix_unit(field.substr(0, at), field.substr(at + 1)))
         return {std::string(field.substr(0, at)), std::string(field.substr(at + 1))};
-    // A DIN slash, "Fz/mN"; in a path, "wrench/force/x", a slash is none.
+    // The DIN notation "Fz/mN". In a path such as "wrench/force/x" the slash is not followed by a unit.
     if (const auto at = field.find('/'); at != std::string_view::npos && at > 0) {
         const auto name = trimmed(field.substr(0, at)), unit = trimmed(field.substr(at + 1));
         if (unit.find('/') == unit.npos || is_never_force(unit))

@@ -17,11 +17,11 @@
 namespace corpuscle {
 namespace {
 
-Error cannot_start(const std::string& program, int why) {
-    return bad_input(fmt::format("{} cannot be started: {}", program, std::strerror(why)));
+Error cannot_start(const std::string& program, int error) {
+    return bad_input(fmt::format("{} cannot be started: {}", program, std::strerror(error)));
 }
 
-/// A copy of a descriptor above those that the program gets, so that setting them up overwrites none of them.
+/// A copy of a descriptor with a number above those that the child gets, so that creating those does not overwrite it.
 class HighDescriptor {
     int number_;
 
@@ -35,7 +35,8 @@ public:
     int number() const { return number_; }
 };
 
-/// What the linker and sanitizers read; nothing that would have a library load or write something.
+/// The environment variables for the dynamic linker and sanitizers. Others are removed, because they could make a library load or write
+/// files.
 std::vector<char*> environment() {
     std::vector<char*> kept;
     for (char** variable = environ; *variable; ++variable)
@@ -45,7 +46,7 @@ std::vector<char*> environment() {
     return kept;
 }
 
-/// Neither a shell's ignored signals nor a thread's mask are handed on, and no descriptor but these two.
+/// Starts the program with default signal handling and only these two descriptors.
 int spawn(const std::string& program, const std::string& argument, int socket, int file, pid_t& child) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -93,8 +94,8 @@ Result<HelperProcess> HelperProcess::start(const std::string& program, int file,
     HelperProcess helper;
     helper.socket_ = ends[0];
     helper.program_ = program;
-    const timeval patience{seconds_to_answer + 5, 0};  // beyond the program's own alarm, which is the usual end
-    (void)::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const timeval timeout{seconds_to_answer + 5, 0};  // longer than the child's own alarm, which normally ends it first
+    (void)::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     const HighDescriptor socket(ends[1]), opened(file);
     ::close(ends[1]);
     if (socket.number() < 0 || opened.number() < 0) return cannot_start(program, errno);
@@ -114,17 +115,17 @@ Error HelperProcess::failure(const std::string& path, const std::string& library
     const bool silent = errno == EAGAIN || errno == EWOULDBLOCK;
     int status = 0;
     const pid_t child = std::exchange(child_, -1);
-    if (child > 0) ::kill(child, SIGKILL);  // one that broke the line without dying
+    if (child > 0) ::kill(child, SIGKILL);  // the child may have closed the socket without exiting
     while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return {Code::interrupted, "interrupted", {path}};
     if (silent || signal == SIGALRM)
-        return bad_input(fmt::format("{} did not read this file within {} s: damaged?", library, seconds_to_answer), {path});
+        return bad_input(fmt::format("{} did not read this file within {} s; it may be damaged", library, seconds_to_answer), {path});
     if (signal == 0 && WEXITSTATUS(status) == other_version)
-        return bad_input(fmt::format("{} belongs to another version of Corpuscle; install both together", program_), {path});
+        return bad_input(fmt::format("{} belongs to another version of Corpuscle; install both from the same version", program_), {path});
     const auto how = signal ? fmt::format("signal {}", signal) : fmt::format("status {}", WEXITSTATUS(status));
-    return bad_input(fmt::format("{} could not read this file ({}): damaged?", library, how), {path});
+    return bad_input(fmt::format("{} could not read this file ({}); it may be damaged", library, how), {path});
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// A program of ours that reads one file with a library that damaged files can crash or keep busy for ever. A crash costs an error.
+// A child process that reads one file with a library that damaged files can crash or block. A crash in the child becomes an error.
 
 #include <sys/types.h>
 
@@ -10,7 +10,7 @@
 
 namespace corpuscle {
 
-/// The program holds two descriptors: its end of a socket and the file. It is killed with this object, and when an answer takes too long.
+/// The child holds two descriptors: its end of a socket and the file. It is killed by the destructor, or when a response takes too long.
 class HelperProcess {
     int socket_ = -1;
     pid_t child_ = -1;
@@ -20,27 +20,28 @@ class HelperProcess {
 
 public:
     static constexpr unsigned seconds_to_answer = 60;
-    static constexpr std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, above what the program needs to start
-    static constexpr int socket_number = 3, file_number = 4;         ///< the program's descriptors
-    static constexpr int other_version = 2;                          ///< exit status of a program that does not know `protocol`
-    static constexpr const char* protocol = "reader-1";              ///< the program's only argument
+    static constexpr std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, in addition to the memory needed to start
+    static constexpr int socket_number = 3, file_number = 4;         ///< descriptors in the child
+    static constexpr int other_version = 2;                          ///< exit status of a child that does not know `protocol`
+    static constexpr const char* protocol = "reader-1";              ///< the only argument of the child
 
     HelperProcess() = default;
     HelperProcess(HelperProcess&& other) noexcept;
     HelperProcess& operator=(HelperProcess&& other) noexcept;
     ~HelperProcess();
 
-    /// Starts the program at this path with an open file; the caller keeps its own descriptor.
+    /// Starts the program at this path with an open file. The caller keeps its own descriptor.
     static Result<HelperProcess> start(const std::string& program, int file, const std::string& argument = protocol);
     pid_t id() const { return child_; }
 
-    void ask(const Message& m) { (void)m.send(socket_); }  // answer() reports a program that is gone
-    /// The next message; if there is none, an error about the file. `library` begins its sentence.
+    void ask(const Message& m) { (void)m.send(socket_); }  // receive() reports a child that has exited
+    /// The next message. If there is none, an error about the file that begins with `library`.
     Result<Message> answer(const std::string& path, const std::string& library);
 };
 
-/// The path of an installed helper program: in the directory CORPUSCLE_LIBEXEC, if the environment has it; else beside the running program,
-/// in ../libexec/corpuscle from there, or in the libexec directory of the prefix that the library was configured with.
+/// The path of an installed helper program. Searches the directory in the environment variable CORPUSCLE_LIBEXEC if it is set.
+/// Otherwise searches the directory of the running program, ../libexec/corpuscle relative to it, and the libexec directory of the
+/// install prefix.
 Result<std::string> helper_program(const std::string& name);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// Where the helper programs are. Alone in its file, for its compile options name the libexec directory.
+// Finds the helper programs. A separate file, because its compile options contain the libexec directory.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -33,8 +33,8 @@ Result<std::string> helper_program(const std::string& name) {
         if (::access(path.c_str(), X_OK) == 0) return path.string();
         tried += (tried.empty() ? "" : ", ") + directory.string();
     }
-    return bad_input(fmt::format(
-        "the program '{}', which reads such files, is not there (looked in {}); set CORPUSCLE_LIBEXEC to its directory", name, tried));
+    return bad_input(
+        fmt::format("the program '{}', which reads this format, was not found in {}; set CORPUSCLE_LIBEXEC to its directory", name, tried));
 }
 
 }  // namespace corpuscle

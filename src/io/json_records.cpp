@@ -14,18 +14,18 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr std::size_t most_document = std::size_t{64} << 20;  // bytes that are parsed at once
-constexpr int most_depth = 16;
+constexpr std::size_t max_document = std::size_t{64} << 20;  // bytes
+constexpr int max_depth = 16;
 
-/// Python writes NaN and Infinity, which JSON has not: null in their place. Empty if brackets go too deep. `read`: how much of the text is
-/// read when `most` bytes have been made of it.
-std::optional<std::string> plain_json(std::string_view text, std::size_t most = std::string_view::npos, std::size_t* read = nullptr) {
+/// Replaces NaN and Infinity, which Python writes but JSON does not have, by null. Returns nullopt if brackets are nested too deep.
+/// Stops after `max_bytes` bytes of output, and stores the number of bytes read in `read`.
+std::optional<std::string> plain_json(std::string_view text, std::size_t max_bytes = std::string_view::npos, std::size_t* read = nullptr) {
     std::string out;
-    out.reserve(std::min(text.size(), most));
+    out.reserve(std::min(text.size(), max_bytes));
     bool quoted = false;
     int depth = 0;
     std::size_t k = 0;
-    for (; k < text.size() && out.size() < most; ++k) {
+    for (; k < text.size() && out.size() < max_bytes; ++k) {
         const char c = text[k];
         if (quoted) {
             out += c;
@@ -34,7 +34,7 @@ std::optional<std::string> plain_json(std::string_view text, std::size_t most = 
             continue;
         }
         quoted = c == '"';
-        if ((c == '{' || c == '[') && ++depth > most_depth) return {};
+        if ((c == '{' || c == '[') && ++depth > max_depth) return {};
         if (c == '}' || c == ']') --depth;
         std::size_t word = 0;
         for (const std::string_view w : {"-Infinity", "Infinity", "NaN"})
@@ -48,18 +48,18 @@ std::optional<std::string> plain_json(std::string_view text, std::size_t most = 
     return out;
 }
 
-/// Builds the document as nlohmann's own reader does, but appends members without looking for one of the same name: an object of many
-/// members would take time quadratic in their number.
+/// Builds the document like nlohmann's parser, but appends members without a search for duplicate names, which would take quadratic
+/// time for an object with many members.
 class DocumentBuilder {
     using Members = std::vector<std::pair<const std::string, OrderedJson>>;
-    static constexpr std::size_t values_between_looks = 4096;
+    static constexpr std::size_t values_between_checks = 4096;
     const std::function<bool()>& keep_on_;
-    std::vector<OrderedJson*> open_;  // the containers about the next value
+    std::vector<OrderedJson*> open_;  // the containers around the next value
     std::string key_;
     std::size_t values_ = 0;
 
     bool add(OrderedJson value) {
-        if (++values_ % values_between_looks == 0 && !keep_on_()) return interrupted = true, false;
+        if (++values_ % values_between_checks == 0 && !keep_on_()) return interrupted = true, false;
         const bool is_container = value.is_structured();
         OrderedJson* at = &document;
         if (open_.empty()) {
@@ -80,7 +80,7 @@ class DocumentBuilder {
 public:
     explicit DocumentBuilder(const std::function<bool()>& keep_on) : keep_on_(keep_on) {}
     OrderedJson document;
-    std::optional<std::size_t> wrong_at;  ///< the byte of a syntax error
+    std::optional<std::size_t> wrong_at;  ///< position of a syntax error in bytes
     bool interrupted = false;
 
     bool null() { return add(nullptr); }
@@ -107,24 +107,24 @@ class JsonReader {
     Lines& lines_;
     const Take& take_;
     const std::function<bool()>& keep_on_;
-    JsonFacts* facts_;
+    JsonFacts* metadata_;
     std::vector<JsonField> fields_;
 
-    Error wrong(std::string sentence, long line = 0) const { return bad_input(std::move(sentence), {lines_.path(), line}); }
+    Error error_at(std::string message, long line = 0) const { return bad_input(std::move(message), {lines_.path(), line}); }
 
     Result<OrderedJson> parse(std::string_view text, long line) const {
         const auto plain = plain_json(text);
-        if (!plain) return wrong(fmt::format("JSON that is nested more than {} deep is no table", most_depth), line);
+        if (!plain) return error_at(fmt::format("this JSON is nested more than {} deep, so it is not a table", max_depth), line);
         DocumentBuilder builder(keep_on_);
         if (OrderedJson::sax_parse(*plain, &builder)) return std::move(builder.document);
         if (builder.interrupted) return Error{Code::interrupted, "interrupted"};
-        if (!builder.wrong_at) return wrong("this JSON holds a number that is too large", line);
-        std::size_t at = 0;  // in the text as it is written
+        if (!builder.wrong_at) return error_at("this JSON contains a number that is too large", line);
+        std::size_t at = 0;  // position in the original text
         static_cast<void>(plain_json(text, std::min(*builder.wrong_at, plain->size()), &at));
         const auto before = text.substr(0, at);
         const auto above = std::count(before.begin(), before.end(), '\n');
         const auto column = at - (above > 0 ? before.rfind('\n', at - 1) + 1 : 0);
-        return bad_input("this is no whole JSON: something else was expected here",
+        return bad_input("this JSON is not valid: unexpected text or end here",
                          {lines_.path(), std::max(line, 1L) + static_cast<long>(above), static_cast<long>(column)});
     }
 
@@ -155,7 +155,7 @@ class JsonReader {
     Result<void> give_split(const OrderedJson& names, const OrderedJson& data) {
         for (const auto& row : data) {
             if (!row.is_array() || row.size() != names.size())
-                return wrong(fmt::format("a row of 'data' has not the {} fields that 'columns' names", names.size()));
+                return error_at(fmt::format("a row of 'data' does not have the {} fields of 'columns'", names.size()));
             fields_.clear();
             for (std::size_t c = 0; c < names.size(); ++c)
                 flatten(names[c].is_string() ? names[c].get<std::string>() : names[c].dump(), row[c]);
@@ -186,17 +186,17 @@ class JsonReader {
         }
     }
 
-    /// A rate and a unit beside the table.
-    void read_facts(const OrderedJson& object) {
+    /// Reads a rate and a unit outside the table.
+    void read_metadata(const OrderedJson& object) {
         for (const auto& [key, value] : object.items()) {
             if (value.is_number() && names_rate(key) && value.get<double>() > 0 && std::isfinite(value.get<double>()))
-                facts_->rate = value.get<double>();
+                metadata_->rate = value.get<double>();
             if (value.is_string() && (key == "unit" || key == "units") && is_unit(value.get<std::string>()))
-                facts_->unit = value.get<std::string>();
+                metadata_->unit = value.get<std::string>();
         }
     }
 
-    /// Lists of words alone that are not as long as those with numbers do not belong to the table.
+    /// Removes lists of strings that are not as long as the lists of numbers, because they do not belong to the table.
     void leave_out_other_lists(std::vector<JsonColumn>& columns) const {
         const auto has_numbers = [](const JsonColumn& c) {
             return std::any_of(c.values.begin(), c.values.end(), [](const OrderedJson* v) { return v->is_number(); });
@@ -206,9 +206,9 @@ class JsonReader {
         const auto rows = numbers->values.size();
         std::erase_if(columns, [&](const JsonColumn& c) {
             const bool other = c.values.size() != rows && !has_numbers(c);
-            if (other && facts_)
-                facts_->remarks.push_back(
-                    fmt::format("'{}' holds {} words, and the table has {} rows: left out", c.name, c.values.size(), rows));
+            if (other && metadata_)
+                metadata_->remarks.push_back(
+                    fmt::format("'{}' was ignored: it has {} strings, but the table has {} rows", c.name, c.values.size(), rows));
             return other;
         });
     }
@@ -217,13 +217,14 @@ class JsonReader {
         std::vector<JsonColumn> columns;
         find_columns("", object, columns);
         if (columns.empty())
-            return wrong("no table in this JSON: a record a line, a list of records, or an object of lists as long as one another is one");
+            return error_at(
+                "no table in this JSON; expected one record on each line, a list of records, or an object of lists of equal length");
         leave_out_other_lists(columns);
         const auto rows = columns[0].values.size();
         for (const auto& c : columns)
             if (c.values.size() != rows)
-                return wrong(fmt::format("'{}' has {} values and '{}' has {}: columns of a table are as long as one another",
-                                         columns[0].name, rows, c.name, c.values.size()));
+                return error_at(fmt::format("'{}' has {} values and '{}' has {}: the columns of a table must have equal lengths",
+                                            columns[0].name, rows, c.name, c.values.size()));
         for (std::size_t r = 0; r < rows; ++r) {
             fields_.clear();
             for (const auto& c : columns) fields_.push_back({c.name, c.values[r]});
@@ -234,10 +235,10 @@ class JsonReader {
 
     Result<void> give_document(const OrderedJson& all) {
         if (all.is_array()) return give_rows(all);
-        if (!all.is_object()) return wrong("no table in this JSON: it holds a single value");
+        if (!all.is_object()) return error_at("no table in this JSON: it holds a single value");
         if (all.contains("columns") && all["columns"].is_array() && all.contains("data") && all["data"].is_array())
             return give_split(all["columns"], all["data"]);
-        if (facts_) read_facts(all);
+        if (metadata_) read_metadata(all);
         const OrderedJson* records = nullptr;
         std::size_t lists = 0;
         for (const auto& member : all)
@@ -245,7 +246,7 @@ class JsonReader {
         return lists == 1 && records ? give_rows(*records) : give_columns(all);
     }
 
-    /// Is the first line a whole record, with another or nothing but one row behind it?
+    /// True if the first line is a complete record, followed by another one or by nothing.
     Result<bool> are_json_lines() {
         std::string_view line;
         std::string first;
@@ -263,12 +264,12 @@ class JsonReader {
                 break;
         }
         if (auto ok = lines_.rewind(); !ok) return ok.error();
-        if (lines == 0 || !alike || first.size() > most_document) return false;
-        const auto whole = parse(first, 1);
-        if (!whole && whole.error().code == Code::interrupted) return whole.error();
-        if (!whole || !whole->is_structured()) return false;
+        if (lines == 0 || !alike || first.size() > max_document) return false;
+        const auto record = parse(first, 1);
+        if (!record && record.error().code == Code::interrupted) return record.error();
+        if (!record || !record->is_structured()) return false;
         if (lines > 1) return true;
-        return whole->is_object() && std::none_of(whole->begin(), whole->end(), [](const OrderedJson& v) { return v.is_structured(); });
+        return record->is_object() && std::none_of(record->begin(), record->end(), [](const OrderedJson& v) { return v.is_structured(); });
     }
 
     Result<void> read_lines() {
@@ -279,7 +280,7 @@ class JsonReader {
             if (trimmed(line).empty()) continue;
             const auto record = parse(line, lines_.number());
             if (!record) return record.error();
-            if (!record->is_structured()) return wrong("a record should be here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.number());
+            if (!record->is_structured()) return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.number());
             if (auto ok = give(*record, lines_.number()); !ok) return ok;
         }
     }
@@ -291,20 +292,20 @@ class JsonReader {
             if (!more) return more.error();
             if (!*more) break;
             text.append(line) += '\n';
-            if (text.size() > most_document)
-                return wrong(
-                    fmt::format("a JSON document of more than {} MB; write a record a line, which may be as many as there are: python3 -c "
-                                "\"import pandas; pandas.read_json('FILE').to_json('FILE.jsonl', orient='records', lines=True)\"",
-                                most_document >> 20));
+            if (text.size() > max_document)
+                return error_at(fmt::format(
+                    "the JSON document is larger than {} MB; convert it to one record on each line, without a limit: python3 -c "
+                    "\"import pandas; pandas.read_json('FILE').to_json('FILE.jsonl', orient='records', lines=True)\"",
+                    max_document >> 20));
         }
-        if (!text.empty()) text.pop_back();  // the end of the last line, which the file need not have
+        if (!text.empty()) text.pop_back();  // the last line ending, which the file may not have
         const auto all = parse(text, 1);
         return all ? give_document(*all) : all.error();
     }
 
 public:
-    JsonReader(Lines& lines, const Take& take, const std::function<bool()>& keep_on, JsonFacts* facts)
-        : lines_(lines), take_(take), keep_on_(keep_on), facts_(facts) {}
+    JsonReader(Lines& lines, const Take& take, const std::function<bool()>& keep_on, JsonFacts* metadata)
+        : lines_(lines), take_(take), keep_on_(keep_on), metadata_(metadata) {}
 
     Result<void> read() {
         const auto by_line = are_json_lines();
@@ -316,8 +317,8 @@ public:
 }  // namespace
 
 Result<void> read_json_records(Lines& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
-                               const std::function<bool()>& keep_on, JsonFacts* facts) {
-    return JsonReader(lines, take, keep_on, facts).read();
+                               const std::function<bool()>& keep_on, JsonFacts* metadata) {
+    return JsonReader(lines, take, keep_on, metadata).read();
 }
 
 Result<bool> begins_like_json(Lines& lines) {

@@ -1,5 +1,5 @@
 #pragma once
-// JSON as a table: a record a line (JSON lines), a list of records or of rows, or an object of columns.
+// JSON as a table: one record on each line (JSON lines), a list of records or of rows, or an object of columns.
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -12,26 +12,26 @@
 
 namespace corpuscle {
 
-/// A field of a record. Members of members are called "wrench.force.x", those of lists "taxels.1".
+/// A field of a record. Nested members are called "wrench.force.x", list elements "taxels.1".
 struct JsonField {
     std::string name;
-    const nlohmann::ordered_json* value;  ///< a number, a word, true, false or null
+    const nlohmann::ordered_json* value;  ///< a number, a string, true, false or null
 };
 
-/// What a document says beside its table.
+/// Information in a document outside its table.
 struct JsonFacts {
-    std::optional<double> rate = {};  ///< Hz: a number called fs, rate ...
-    std::string unit = {};            ///< of columns that have none in their name: a word called unit
+    std::optional<double> rate = {};  ///< Hz, from a number called fs, rate ...
+    std::string unit = {};            ///< unit of columns without a unit in their name, from a string called unit
     std::vector<std::string> remarks = {};
 };
 
-/// Gives the records one after another; `line`: of a record of JSON lines, else 0. An error of `take` ends it, and so does a `keep_on`
-/// that returns false, which is asked every few thousand values.
+/// Passes the records to `take`, with the line number for JSON lines and 0 otherwise. Stops if `take` returns an error, or if
+/// `keep_on`, which is called every few thousand values, returns false.
 Result<void> read_json_records(
     Lines&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
-    const std::function<bool()>& keep_on = [] { return true; }, JsonFacts* facts = nullptr);
+    const std::function<bool()>& keep_on = [] { return true; }, JsonFacts* metadata = nullptr);
 
-/// Does the text begin as JSON does? Rewinds it.
+/// True if the text begins like JSON. Rewinds the text.
 Result<bool> begins_like_json(Lines&);
 
 }  // namespace corpuscle

@@ -14,28 +14,28 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t most_json_numbers = std::size_t{1} << 27, most_json_columns = std::size_t{1} << 17;
+constexpr std::size_t max_json_numbers = std::size_t{1} << 27, max_json_columns = std::size_t{1} << 17;
 
 class JsonTable final : public Table {
     struct Values {
-        std::vector<double> numbers;  // NaN where a record has none
+        std::vector<double> numbers;  // NaN if a record has no number
         FirstFields first;
-        std::optional<TimeStamp> stamp;  // the first
+        std::optional<TimeStamp> stamp;  // the first time stamp
     };
     std::string path_;
     std::vector<Column> columns_;
     std::vector<Values> values_;
-    std::unordered_map<std::string, std::size_t> called_;
-    std::vector<long> lines_;  // of the records, if each has one
+    std::unordered_map<std::string, std::size_t> column_indices_;
+    std::vector<long> lines_;  // line number of each record, for JSON lines
     ColumnRoles roles_;
-    JsonFacts facts_;
+    JsonFacts metadata_;
     std::size_t rows_ = 0, next_ = 0, block_ = 0, numbers_ = 0;
 
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-    Error wrong(std::string sentence, long line) const { return bad_input(std::move(sentence), {path_, line}); }
+    Error error_at(std::string message, long line) const { return bad_input(std::move(message), {path_, line}); }
 
-    /// A word is a number in quotes, a stamp, or nothing that is used.
+    /// The value of a string: a number in quotes, a time stamp, or NaN.
     double number_of(const std::string& word, Values& v, FirstFields* first) {
         double x = 0;
         const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), x);
@@ -60,16 +60,18 @@ class JsonTable final : public Table {
 
     Result<void> add(std::span<const JsonField> fields, long line) {
         for (const auto& f : fields) {
-            const auto [at, is_new] = called_.try_emplace(f.name, columns_.size());
+            const auto [at, is_new] = column_indices_.try_emplace(f.name, columns_.size());
             if (is_new) {
-                if (columns_.size() == most_json_columns) return wrong(fmt::format("more than {} columns", most_json_columns), line);
+                if (columns_.size() == max_json_columns)
+                    return error_at(fmt::format("the table has more than {} columns", max_json_columns), line);
                 columns_.push_back(parse_heading(f.name));
                 values_.emplace_back();
             }
             auto& v = values_[at->second];
-            if (v.numbers.size() > rows_) return wrong(fmt::format("'{}' stands twice in one record", f.name), line);
+            if (v.numbers.size() > rows_) return error_at(fmt::format("'{}' occurs twice in one record", f.name), line);
             numbers_ += rows_ + 1 - v.numbers.size();
-            if (numbers_ > most_json_numbers) return wrong("more numbers than fit into memory; CSV is read in blocks", line);
+            if (numbers_ > max_json_numbers)
+                return error_at("the table is too large for memory; save it as CSV, which is read in blocks", line);
             v.numbers.resize(rows_, none);
             for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, rows_looked_at); ++k) v.first.add_other(v.first.nothing);
             v.numbers.push_back(number_of(*f.value, v));
@@ -87,10 +89,10 @@ public:
             if (rows_ % rows_a_block == 0 && !keep_on()) return Result<void>(Error{Code::interrupted, "interrupted"});
             return add(fields, line);
         };
-        if (auto ok = read_json_records(lines, take, keep_on, &facts_); !ok) return ok;
+        if (auto ok = read_json_records(lines, take, keep_on, &metadata_); !ok) return ok;
         if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
-        if (rows_ > most_json_numbers / columns_.size())
-            return bad_input("more numbers than fit into memory; CSV is read in blocks", {path_});
+        if (rows_ > max_json_numbers / columns_.size())
+            return bad_input("the table is too large for memory; save it as CSV, which is read in blocks", {path_});
         std::vector<FirstFields> first;
         for (auto& v : values_) {
             v.numbers.resize(rows_, none);
@@ -99,7 +101,7 @@ public:
         }
         roles_ = assign_roles(columns_, first, are_named(columns_));
         for (std::size_t c = 0; c < columns_.size(); ++c)
-            if (columns_[c].unit.empty() && columns_[c].left_out.empty() && c != roles_.time) columns_[c].unit = facts_.unit;
+            if (columns_[c].unit.empty() && columns_[c].left_out.empty() && c != roles_.time) columns_[c].unit = metadata_.unit;
         if (roles_.time && columns_[*roles_.time].stamps) {
             const auto& s = *values_[*roles_.time].stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
@@ -112,15 +114,15 @@ public:
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return roles_.time; }
     bool time_is_guessed() const override { return roles_.time_is_guessed; }
-    std::optional<double> rate() const override { return facts_.rate; }
-    std::vector<std::string> remarks() const override { return facts_.remarks; }
+    std::optional<double> rate() const override { return metadata_.rate; }
+    std::vector<std::string> remarks() const override { return metadata_.remarks; }
     std::vector<std::string> time_remarks() const override { return roles_.remarks; }
     double done() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
     Place place(std::size_t row) const override {
         const auto at = block_ + row;
         if (at < lines_.size()) return {path_, lines_[at]};
-        return {fmt::format("{}: record {}", path_, at + 1)};  // of a document, whose lines say nothing
+        return {fmt::format("{}: record {}", path_, at + 1)};  // in a document, line numbers do not identify records
     }
 
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
@@ -135,11 +137,12 @@ public:
             const auto row = static_cast<std::size_t>(bad - out[i].begin());
             if (!gaps_allowed_)
                 return bad_input(
-                    fmt::format("record {}: '{}' has no number; --bad-fields interpolate fills it in, --bad-fields drop leaves the "
-                                "record out",
+                    fmt::format("record {}: '{}' is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop to "
+                                "skip the record",
                                 next_ + row + 1, columns_[wanted[i]].name),
                     lines_.empty() ? Place{path_} : place(row));
-            std::replace_if(out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, none);
+            std::replace_if(
+                out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, none);
         }
         next_ += count;
         return count;

@@ -1,5 +1,5 @@
 #pragma once
-// JSON lines, and JSON of records or columns, as tables. What they hold is kept in memory.
+// JSON lines, and JSON documents of records or columns, as tables. All values are kept in memory.
 
 #include "io/lines.hpp"
 #include "io/table.hpp"

@@ -23,7 +23,7 @@ class LabviewReader {
 
     void split(std::size_t k) { head_.dialect.split(lines_[k], fields_); }
 
-    /// A line of the header: a name, and what holds of the file or of each channel.
+    /// Reads a line of the header: a name, followed by a value for the file or one for each channel.
     void read_entry(std::size_t k) {
         split(k);
         if (fields_.size() < 2) return;
@@ -39,7 +39,7 @@ class LabviewReader {
     }
     bool delta_column_ = false;
 
-    /// X_Value, a column a channel, Comment. With an X of its own for every channel only the first is the time.
+    /// Reads the column names: X_Value, one for each channel, Comment. If every channel has its own X_Value, only the first is the time.
     void read_names(std::size_t k) {
         split(k);
         std::size_t channel = 0;
@@ -52,7 +52,7 @@ class LabviewReader {
                 else
                     column.left_out = x_columns_ == "No" ? "is empty" : "is the clock of another channel";
             } else if (name == "Comment") {
-                column.left_out = "holds remarks";
+                column.left_out = "holds comments";
             } else {
                 if (channel < units_.size()) column.unit = units_[channel];
                 ++channel;
@@ -84,8 +84,7 @@ public:
             if (head_.columns.empty()) break;
             return std::move(head_);
         }
-        return bad_input("this LabVIEW file has no table: two lines ***End_of_Header*** and names of columns are to stand before it",
-                         {path_});
+        return bad_input("this LabVIEW file has no table: expected two lines ***End_of_Header*** and the column names before it", {path_});
     }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// LabVIEW's measurement files (.lvm): lines of names and values, twice, before a table.
+// LabVIEW measurement files (.lvm): two blocks of names and values, followed by a table.
 
 #include <optional>
 #include <string>
@@ -15,12 +15,12 @@ struct LabviewHead {
     Dialect dialect;
     std::vector<Column> columns;
     std::optional<double> rate = {};  ///< Hz, if the times are not in the table
-    std::size_t first_row = 0;        ///< of the lines given
+    std::size_t first_row = 0;        ///< index into the given lines
 };
 
 bool is_labview(std::string_view first_line);
 
-/// `lines`: the first ones that are not empty.
+/// `lines` are the first lines that are not empty.
 Result<LabviewHead> read_labview_head(const std::vector<std::string>& lines, const std::string& path);
 
 }  // namespace corpuscle

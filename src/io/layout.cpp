@@ -13,10 +13,10 @@
 namespace corpuscle {
 namespace {
 
-/// What each column of the layout holds.
+/// The columns of the layout file.
 struct Headings {
     std::optional<std::size_t> channel, name, axes[3];
-    double metres[3] = {1, 1, 1};  ///< a unit of each axis
+    double metres[3] = {1, 1, 1};  ///< unit of each axis
     std::size_t count = 0;
     bool unitless = false;
 };
@@ -30,9 +30,9 @@ class LayoutReader {
     Fields fields_;
     std::string_view line_;
 
-    Error at(std::string sentence, std::size_t field = std::string::npos) const {
+    Error error_at(std::string message, std::size_t field = std::string::npos) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
-        return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
+        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
     }
 
     Result<bool> next_line() {
@@ -48,8 +48,8 @@ class LayoutReader {
         if (heading.unit.empty()) return headings_.unitless = true, Result<void>{};
         const auto unit = parse_unit(heading.unit);
         if (!unit || !unit->same_kind(*parse_unit("m")))
-            return at(fmt::format("'{}' is in '{}', which is no length; say m, cm, mm or um, or no unit", heading.name, heading.unit),
-                      field);
+            return error_at(
+                fmt::format("'{}' is in '{}', which is not a length; use m, cm, mm or um, or no unit", heading.name, heading.unit), field);
         headings_.metres[axis] = unit->factor;
         return {};
     }
@@ -71,8 +71,8 @@ class LayoutReader {
                     if (auto ok = read_axis(axis, f, heading); !ok) return ok;
         }
         if (!headings_.channel)
-            return at(fmt::format("a layout's header needs a column 'channel' (and may have name, x, y, z); this one has: {}",
-                                  fmt::join(fields_, ", ")));
+            return error_at(fmt::format("a layout needs a column 'channel' (and may have name, x, y, z); this header has: {}",
+                                        fmt::join(fields_, ", ")));
         return {};
     }
 
@@ -85,7 +85,7 @@ class LayoutReader {
             const auto field = *headings_.axes[axis];
             double value;
             if (!dialect_.number(fields_[field], value))
-                return at(fmt::format("'{}' where a coordinate should be", fields_[field].substr(0, 40)), field);
+                return error_at(fmt::format("'{}' where a coordinate is expected", fields_[field].substr(0, 40)), field);
             *to[axis] = value * headings_.metres[axis];
             any = true;
         }
@@ -93,14 +93,15 @@ class LayoutReader {
     }
 
     Result<Placed> sensor(const Layout& before) const {
-        if (fields_.size() != headings_.count) return at(fmt::format("{} columns where {} should be", fields_.size(), headings_.count));
+        if (fields_.size() != headings_.count)
+            return error_at(fmt::format("{} columns where {} are expected", fields_.size(), headings_.count));
         const auto field = *headings_.channel;
         const auto columns = choose_columns(table_, time_, {std::string(fields_[field])}, "");
-        if (!columns) return at(columns.error().sentence, field);
-        if (columns->size() != 1) return at(fmt::format("'{}' is more than one channel", fields_[field]), field);
+        if (!columns) return error_at(columns.error().sentence, field);
+        if (columns->size() != 1) return error_at(fmt::format("'{}' is more than one channel", fields_[field]), field);
         const auto same = [&](const Placed& p) { return p.column == columns->front(); };
         if (std::any_of(before.sensors.begin(), before.sensors.end(), same))
-            return at(fmt::format("channel '{}' stands here twice", fields_[field]), field);
+            return error_at(fmt::format("channel '{}' occurs twice", fields_[field]), field);
         auto where = position();
         if (!where) return where.error();
         return Placed{columns->front(), headings_.name ? std::string(fields_[*headings_.name]) : "", *where};

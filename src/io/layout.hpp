@@ -1,5 +1,5 @@
 #pragma once
-// A layout file: which channels are sensors, what they are called, where they sit.
+// Reads a layout file: which channels are sensors, their names and their positions.
 
 #include <optional>
 #include <string>
@@ -12,17 +12,18 @@ namespace corpuscle {
 
 struct Placed {
     std::size_t column;  ///< of the table
-    std::string name;    ///< "": as the table calls it
+    std::string name;    ///< "": the name in the table
     std::optional<Position> position;
 };
 
 struct Layout {
     std::vector<Placed> sensors;
-    bool metres = true;  ///< false: the file gives no unit of length
+    bool metres = true;  ///< false if the file has no unit of length
 };
 
-/// Reads a table of text with a header. `channel` (or `sensor`) names a channel, or counts it as --channel does; `name` gives it a
-/// new name; `x`, `y`, `z` say where it sits ("x_mm", "x [m]"; without a unit only the pattern is meant). Other columns are passed over.
+/// Reads a text table with a header. Column `channel` (or `sensor`) is the name or number of a channel, as for --channel. Column
+/// `name` is an optional new name. Columns `x`, `y`, `z` are the position ("x_mm", "x [m]"; without a unit only relative positions
+/// are known). Other columns are ignored.
 Result<Layout> read_layout(const std::string& path, const Table&, std::optional<std::size_t> time);
 
 }  // namespace corpuscle

@@ -26,7 +26,7 @@ Result<bool> Lines::fill() {
     lost_ = lost_ || at_ > 0;
     std::memmove(buffer_.data(), buffer_.data() + at_, filled_ - at_);
     filled_ -= std::exchange(at_, 0);
-    if (filled_ > longest) return bad_input(fmt::format("a line of more than {} MB", longest >> 20), {path_, number_ + 1});
+    if (filled_ > longest) return bad_input(fmt::format("the line is longer than {} MB", longest >> 20), {path_, number_ + 1});
     if (buffer_.size() < filled_ + block + behind) buffer_.resize(filled_ + block + behind);
     const auto got = input_->read(buffer_.data() + filled_, block);
     if (!got) return Error{got.error().code, got.error().sentence, {path_, number_ + 1}};
@@ -63,7 +63,7 @@ Result<bool> Lines::next(std::string_view& line) {
 }
 
 Result<void> Lines::rewind() {
-    if (!lost_) return at_ = 0, number_ = 0, Result<void>{};  // all that was read is still here: a pipe can do this, too
+    if (!lost_) return at_ = 0, number_ = 0, Result<void>{};  // the buffer still holds the beginning, so this works for a pipe too
     if (auto ok = input_->rewind(); !ok) return ok;
     filled_ = 0, at_ = 0, number_ = 0, read_ = 0, ended_ = false, lost_ = false;
     return {};
@@ -76,7 +76,7 @@ std::string Lines::copy_command(const std::string& filter, const std::string& ma
     auto name = fs::path(path_).filename();
     if (lower(name.extension().string()) == ".gz") name = name.stem();
     const auto stem = name.stem().string() + mark, extension = name.extension().string();
-    const auto is_there = [&](const fs::path& file) {  // also beside the recording, which may be in another folder
+    const auto is_there = [&](const fs::path& file) {  // also in the recording's folder, which may be another one
         return fs::exists(fs::symlink_status(file, status)) || fs::exists(fs::symlink_status(fs::path(path_).parent_path() / file, status));
     };
     std::string copy = stem + extension;

@@ -1,5 +1,5 @@
 #pragma once
-// A text file line by line, read in blocks; memory is bounded by the longest line allowed.
+// Reads a text file line by line. Memory is bounded by the longest line allowed.
 
 #include <memory>
 #include <string>
@@ -13,27 +13,27 @@ namespace corpuscle {
 class Lines {
     std::string path_;
     std::unique_ptr<TextInput> input_;
-    std::string buffer_;                 // what was read, and `behind` bytes more
-    std::size_t filled_ = 0;             // of the buffer
-    std::size_t at_ = 0;                 // of the next line, in the buffer
-    long number_ = 0;                    // of the last line given
-    double read_ = 0;                    // bytes
-    bool ended_ = false, lost_ = false;  // lost_: the beginning is no longer in the buffer
+    std::string buffer_;                 // the bytes read, followed by `padding` more bytes
+    std::size_t filled_ = 0;             // bytes of the buffer that hold text
+    std::size_t at_ = 0;                 // position of the next line in the buffer
+    long number_ = 0;                    // number of the last line returned
+    double read_ = 0;                    // bytes read so far
+    bool ended_ = false, lost_ = false;  // lost_: the beginning of the file is no longer in the buffer
 
     Result<bool> fill();
 
 public:
     static constexpr std::size_t longest = std::size_t{64} << 20;
-    static constexpr std::size_t behind = 8;  ///< bytes that may be read behind any line
+    static constexpr std::size_t behind = 8;  ///< number of bytes after any line that may be read
 
     static Result<Lines> open(const std::string& path);
-    /// The next line without its end (LF, CRLF); false at the end of the file. The view lives until the next call.
+    /// The next line without its line ending (LF, CRLF). Returns false at the end of the file. The view is valid until the next call.
     Result<bool> next(std::string_view& line);
     Result<void> rewind();
     long number() const { return number_; }
     const std::string& path() const { return path_; }
-    /// The shell's command that runs a filter, such as "head -n 9", on this text and writes a file which is not there yet, named after
-    /// this one and `mark`: "head -n 9 < press.csv > press-first.csv"; "" if there is no file to read it from.
+    /// A shell command that applies a filter, such as "head -n 9", to this file and writes a new file named after this one and `mark`:
+    /// "head -n 9 < press.csv > press-first.csv". "" if the input is not a regular file.
     std::string copy_command(const std::string& filter, const std::string& mark) const;
     double done() const { return read_ > 0 ? input_->done() * (read_ - static_cast<double>(filled_ - at_)) / read_ : input_->done(); }
 };

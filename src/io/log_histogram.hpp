@@ -1,5 +1,5 @@
 #pragma once
-// How often numbers of which size came, in little memory: four bins an octave, from 2^-44 to 2^20.
+// A histogram of magnitudes in bounded memory: four bins per octave, from 2^-44 to 2^20.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ class LogHistogram {
     static constexpr std::int64_t bins = 256, lowest = (std::int64_t{1023 - 44}) << 2;
     std::array<std::uint32_t, bins> counts_{};
 
-    /// The exponent and the first two digits of the mantissa; 0 and less are in bin 0.
+    /// The bin is given by the exponent and the first two bits of the mantissa. Numbers <= 0 are in bin 0.
     static std::size_t bin(double x) {
         if (!(x > 0)) return 0;
         const auto key = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 50) - lowest;
@@ -25,7 +25,7 @@ public:
 
     std::int64_t count() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
 
-    /// The lower edge of the bin in which the median of `all` numbers lies, those that were not added being 0; 0 for bin 0.
+    /// The lower edge of the bin that contains the median of `all` numbers; 0 for bin 0. Numbers that were not added count as 0.
     double median(std::int64_t all) const {
         std::int64_t seen = all - count();
         std::size_t b = 0;
@@ -33,7 +33,7 @@ public:
         return b == 0 ? 0 : std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + lowest) << 50);
     }
 
-    /// How many are above x, but for those in its bin.
+    /// The count of numbers above x, without those in the bin of x.
     std::int64_t above(double x) const {
         std::int64_t count = 0;
         for (std::size_t b = bin(x) + 1; b < counts_.size(); ++b) count += counts_[b];

@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// The reading at centre_, or NaN for a stray.
+/// The sample at center_, or NaN if it is an outlier.
 double StrayFilter::judged() {
     const double x = last_[centre_], median = sorted_.empty() ? x : sorted_[sorted_.size() / 2], off = std::abs(x - median);
     if (!(off > 0)) return x;
@@ -16,7 +16,7 @@ double StrayFilter::judged() {
         for (const double y : sorted_) deviations.push_back(std::abs(y - median));
         const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
         std::nth_element(deviations.begin(), middle, deviations.end());
-        limit = 6 * 1.4826 * *middle;  // 1.4826: from the median deviation of a normal distribution to its standard deviation
+        limit = 6 * 1.4826 * *middle;  // 1.4826: ratio of the standard deviation to the median absolute deviation of a normal distribution
     }
     if (off <= limit) return x;
     ++found;
@@ -42,7 +42,7 @@ void StrayFilter::finish(std::vector<double>& out) {
 
 Result<void> GapFiller::push(double x, std::vector<double>& out) {
     if (std::isnan(x)) {
-        if (++missing_ > longest) return bad_input(fmt::format("no good reading among {} in a row", missing_));
+        if (++missing_ > longest) return bad_input(fmt::format("{} consecutive samples are missing or bad", missing_));
         return {};
     }
     const double from = std::isnan(before_) ? x : before_;
@@ -67,7 +67,7 @@ Result<void> GapFiller::push(std::span<const double> x, std::vector<double>& out
 }
 
 Result<void> GapFiller::finish(std::vector<double>& out) {
-    if (missing_ > 0 && std::isnan(before_)) return bad_input("no good reading at all");
+    if (missing_ > 0 && std::isnan(before_)) return bad_input("all samples are missing or bad");
     out.insert(out.end(), static_cast<std::size_t>(missing_), before_);
     filled += missing_;
     missing_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// A channel's readings made whole: what is missing or out of range is filled in by straight lines, lone strays are taken for missing.
-// What is done to a reading depends on it and its neighbours alone, whatever the blocks it comes in.
+// Repairs a channel: removes isolated outliers, and fills missing and out-of-range samples by linear interpolation. The result for a
+// sample depends only on the sample and its neighbours, not on the block size.
 
 #include <cstdint>
 #include <limits>
@@ -13,18 +13,20 @@
 
 namespace corpuscle {
 
-/// What --despike is given: how far from its neighbours' median a reading may stand.
+/// The argument of --despike: the largest distance of a sample from the median of its neighbours.
 struct Despike {
-    std::optional<double> limit = {};  ///< in what is read; none: 6 standard deviations, as the median of the window's deviations gives it
+    /// In the file's unit. Default: 6 standard deviations, estimated from the median absolute deviation of the window.
+    std::optional<double> limit = {};
 };
 
-/// A reading further than the limit from the median of the 25 about it is missing (Hampel's rule). It comes 12 readings late.
+/// A Hampel filter: a sample further than the limit from the median of the 25 samples around it becomes missing (NaN). The output is
+/// delayed by 12 samples.
 class StrayFilter {
     static constexpr std::size_t half = 12, window = 2 * half + 1;
     std::optional<double> limit_;
-    std::vector<double> last_;    // at most `window` readings, the oldest first
+    std::vector<double> last_;    // at most `window` samples, oldest first
     std::vector<double> sorted_;  // the finite ones among them
-    std::size_t centre_ = 0;      // place in last_ of the next reading to be judged
+    std::size_t centre_ = 0;      // index in last_ of the next sample to be filtered
 
     double judged();
 
@@ -35,11 +37,11 @@ public:
     std::int64_t found = 0;
 };
 
-/// Missing readings (NaN) become the straight line between their neighbours; at either end the nearest reading is held.
+/// Replaces missing samples (NaN) by linear interpolation. At either end the nearest sample is held.
 class GapFiller {
     static constexpr std::int64_t longest = 1'000'000;
     double before_ = std::numeric_limits<double>::quiet_NaN();
-    std::int64_t missing_ = 0;  // readings since `before_`
+    std::int64_t missing_ = 0;  // number of missing samples since `last_good_`
 
     Result<void> push(double x, std::vector<double>& out);
 

@@ -8,8 +8,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::uint64_t longest_message = std::uint64_t{1} << 30;
-constexpr std::size_t piece = std::size_t{1} << 20;
+constexpr std::uint64_t max_message = std::uint64_t{1} << 30;
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 bool send_all(int socket, const void* data, std::size_t size) {
     for (const char* at = static_cast<const char*>(data); size > 0;) {
@@ -58,10 +58,10 @@ bool Message::receive(int socket) {
     std::uint64_t size = 0;
     bytes_.clear();
     at_ = 0;
-    if (!receive_all(socket, &size, sizeof size) || size > longest_message) return false;
+    if (!receive_all(socket, &size, sizeof size) || size > max_message) return false;
     while (bytes_.size() < size) {
         const auto had = bytes_.size();
-        bytes_.resize(had + std::min<std::size_t>(piece, size - had));
+        bytes_.resize(had + std::min<std::size_t>(chunk_bytes, size - had));
         if (!receive_all(socket, bytes_.data() + had, bytes_.size() - had)) return false;
     }
     return true;

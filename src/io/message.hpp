@@ -1,12 +1,12 @@
 #pragma once
-// Numbers and texts in a row, on their way through a socket or to another rank.
+// A message of numbers and texts, for a socket or another MPI rank.
 
 #include <cstdint>
 #include <string>
 
 namespace corpuscle {
 
-/// Values are read in the order in which they were put.
+/// Values are read in the order in which they were written.
 class Message {
     std::string bytes_;
     std::size_t at_ = 0;
@@ -22,13 +22,13 @@ public:
         put(s.size());
         put(s.data(), s.size());
     }
-    /// False if less is left.
+    /// Returns false if fewer bytes are left.
     bool get(void* data, std::size_t size);
     bool get(std::uint64_t& n) { return get(&n, sizeof n); }
     bool get(std::string& s);
 
     bool send(int socket) const;
-    /// False if the other end is closed, or silent for longer than the socket's timeout (errno is EAGAIN then).
+    /// Returns false if the other end is closed, or sends nothing within the socket's timeout (errno is then EAGAIN).
     bool receive(int socket);
 };
 

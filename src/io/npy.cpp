@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::size_t longest_header = std::size_t{1} << 20;
+constexpr std::size_t max_header = std::size_t{1} << 20;
 
 template <class T, bool swap>
 T stored(const std::byte* at) {
@@ -31,7 +31,7 @@ double number(const std::byte* at) {
     return static_cast<double>(stored<T, swap>(at));
 }
 
-/// IEEE half precision: 5 bits of exponent, 10 of mantissa.
+/// IEEE half precision: 5 exponent bits, 10 mantissa bits.
 template <bool swap>
 double half(const std::byte* at) {
     const unsigned bits = stored<std::uint16_t, swap>(at), mantissa = bits & 0x3ff;
@@ -42,13 +42,13 @@ double half(const std::byte* at) {
     return bits >> 15 ? -size : size;
 }
 
-double truth(const std::byte* at) { return *at == std::byte{0} ? 0 : 1; }
+double boolean(const std::byte* at) { return *at == std::byte{0} ? 0 : 1; }
 
 template <bool swap>
 double (*decoder_of(char kind, std::size_t size))(const std::byte*) {
     switch (kind) {
         case 'b':
-            return truth;
+            return boolean;
         case 'f':
             return size == 8 ? number<double, swap> : size == 4 ? number<float, swap> : half<swap>;
         case 'i':
@@ -64,7 +64,7 @@ double (*decoder_of(char kind, std::size_t size))(const std::byte*) {
     }
 }
 
-/// "<f8", "|b1", ">u2", "<U12": order, kind, size; U counts characters of four bytes.
+/// Parses byte order, kind and size: "<f8", "|b1", ">u2", "<U12". The size of U is in characters of four bytes.
 std::optional<NpyField> parse_type(std::string_view text) {
     constexpr std::string_view kinds = "biufcUSOVMm";
     NpyField field;
@@ -72,9 +72,9 @@ std::optional<NpyField> parse_type(std::string_view text) {
     if (std::string_view("<>|=").find(text[0]) != std::string_view::npos) field.big_endian = text[0] == '>', text.remove_prefix(1);
     if (text.empty() || kinds.find(text[0]) == std::string_view::npos) return {};
     field.kind = text[0];
-    text = text.substr(1, text.find('[') - 1);  // dates say their unit: M8[ns]
+    text = text.substr(1, text.find('[') - 1);  // remove the unit of dates: M8[ns]
     for (const char digit : text) {
-        if (digit < '0' || digit > '9' || field.size > longest_header) return {};
+        if (digit < '0' || digit > '9' || field.size > max_header) return {};
         field.size = field.size * 10 + static_cast<std::size_t>(digit - '0');
     }
     if (field.kind == 'O') field.size = 8;
@@ -85,11 +85,11 @@ std::optional<NpyField> parse_type(std::string_view text) {
 std::size_t elements_of(const Python& shape) {
     std::size_t product = 1;
     for (const auto& n : shape.items)
-        if (__builtin_mul_overflow(product, static_cast<std::size_t>(n.number), &product)) return longest_header;
+        if (__builtin_mul_overflow(product, static_cast<std::size_t>(n.number), &product)) return max_header;
     return product;
 }
 
-/// A type by name, or the list of a structure's fields: (name, type) or (name, type, shape).
+/// Parses a type name, or the list of fields of a structured type: (name, type) or (name, type, shape).
 std::optional<std::vector<NpyField>> parse_fields(const Python& type, std::size_t& element) {
     std::vector<NpyField> fields;
     if (type.kind == Python::text) {
@@ -102,9 +102,9 @@ std::optional<std::vector<NpyField>> parse_fields(const Python& type, std::size_
     for (const auto& item : type.items) {
         if (item.items.size() < 2 || item.items[1].kind != Python::text) return {};
         auto field = parse_type(item.items[1].letters);
-        if (!field || field->size > longest_header) return {};
+        if (!field || field->size > max_header) return {};
         if (item.items.size() > 2) field->kind = 'V', field->size *= elements_of(item.items[2]);  // an array in each element
-        if (field->size > longest_header) return {};
+        if (field->size > max_header) return {};
         field->name = item.items[0].kind == Python::text ? item.items[0].letters : "";
         field->offset = element;
         element += field->size;
@@ -114,23 +114,24 @@ std::optional<std::vector<NpyField>> parse_fields(const Python& type, std::size_
     return fields;
 }
 
-/// What stands in the header's dictionary.
+/// Parses the dictionary of the header.
 Result<NpyHeader> parse_header(std::string_view text, const std::string& name) {
     const auto dictionary = parse_python(text);
     const Python *type = nullptr, *order = nullptr, *shape = nullptr;
     if (dictionary) type = dictionary->find("descr"), order = dictionary->find("fortran_order"), shape = dictionary->find("shape");
     if (!type || !order || order->kind != Python::truth || !shape || shape->kind != Python::list)
-        return bad_input("the header does not say descr, fortran_order and shape", {name});
+        return bad_input("the header does not contain descr, fortran_order and shape", {name});
     NpyHeader header;
     header.by_columns = order->number != 0;
     header.type = type->source.substr(0, 60);
     for (const auto& n : shape->items) {
-        if (n.kind != Python::integer || n.number < 0) return bad_input("the shape in the header is no list of whole numbers", {name});
+        if (n.kind != Python::integer || n.number < 0)
+            return bad_input("the shape in the header is not a list of non-negative integers", {name});
         header.shape.push_back(static_cast<std::uint64_t>(n.number));
     }
     auto fields = parse_fields(*type, header.element);
-    if (!fields || header.element == 0 || header.element > longest_header)
-        return bad_input(fmt::format("the type {} in the header is none of NumPy's", header.type), {name});
+    if (!fields || header.element == 0 || header.element > max_header)
+        return bad_input(fmt::format("unknown NumPy type {} in the header", header.type), {name});
     header.fields = *std::move(fields);
     return header;
 }
@@ -158,34 +159,35 @@ std::uint64_t NpyHeader::count() const {
 
 Result<NpyHeader> read_npy_header(Bytes& bytes) {
     std::array<std::byte, 8> start{};
-    const bool whole = bytes.size() >= start.size();
-    if (auto ok = whole ? bytes.read(start) : Result<void>(); !ok) return ok.error();
-    if (!whole || std::memcmp(start.data(), magic.data(), magic.size()) != 0) return bad_input("this is no NPY file", {bytes.name()});
+    const bool is_complete = bytes.size() >= start.size();
+    if (auto ok = is_complete ? bytes.read(start) : Result<void>(); !ok) return ok.error();
+    if (!is_complete || std::memcmp(start.data(), magic.data(), magic.size()) != 0) return bad_input("not an NPY file", {bytes.name()});
     const int version = static_cast<int>(start[6]);
-    if (version < 1 || version > 3) return bad_input(fmt::format("NPY version {} is not known here (1, 2, 3)", version), {bytes.name()});
+    if (version < 1 || version > 3)
+        return bad_input(fmt::format("NPY version {} is not supported (only 1, 2, 3)", version), {bytes.name()});
     const auto length = header_length(bytes, version);
     if (!length) return length.error();
-    if (*length > longest_header) return bad_input(fmt::format("a header of {} bytes", *length), {bytes.name()});
+    if (*length > max_header) return bad_input(fmt::format("the header is too long: {} bytes", *length), {bytes.name()});
     std::string text(*length, ' ');
     if (auto ok = bytes.read(std::as_writable_bytes(std::span(text))); !ok) return ok.error();
     auto header = parse_header(text, bytes.name());
     if (!header) return header.error();
     header->data_at = start.size() + (version == 1 ? 2 : 4) + *length;
     std::uint64_t needed = header->element;
-    bool endless = false;
-    for (const auto n : header->shape) endless = __builtin_mul_overflow(needed, n, &needed) || endless;
+    bool is_too_large = false;
+    for (const auto n : header->shape) is_too_large = __builtin_mul_overflow(needed, n, &needed) || is_too_large;
     const bool pickled = std::any_of(header->fields.begin(), header->fields.end(), [](const auto& f) { return f.kind == 'O'; });
-    if (!pickled && (endless || needed > bytes.size() - header->data_at))
-        return bad_input(fmt::format("the array should take {} bytes, and {} are there: cut short?",
-                                     endless ? "endless" : fmt::format("{}", needed), bytes.size() - header->data_at),
+    if (!pickled && (is_too_large || needed > bytes.size() - header->data_at))
+        return bad_input(fmt::format("the array needs {} bytes, but the file has {}; it may be incomplete",
+                                     is_too_large ? "more than 2^64" : fmt::format("{}", needed), bytes.size() - header->data_at),
                          {bytes.name()});
     return header;
 }
 
 std::string npy_header(std::string_view type, std::size_t count) {
     auto text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({},), }}", type, count);
-    const std::size_t before = magic.size() + 4, whole = (before + text.size() + 1 + 63) / 64 * 64;  // the data begin at 64 k
-    text.resize(whole - before - 1, ' ');
+    const std::size_t before = magic.size() + 4, total = (before + text.size() + 1 + 63) / 64 * 64;  // the data start at a multiple of 64
+    text.resize(total - before - 1, ' ');
     const auto length = text.size() + 1;
     return std::string(magic) + '\x01' + '\0' + static_cast<char>(length & 255) + static_cast<char>(length >> 8) + text + '\n';
 }

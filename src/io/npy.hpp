@@ -1,5 +1,5 @@
 #pragma once
-// NumPy's NPY: a header that is a Python literal, then the elements as they lie in memory.
+// The NumPy format NPY: a header that is a Python literal, then the elements as in memory.
 
 #include <string>
 #include <string_view>
@@ -9,32 +9,32 @@
 
 namespace corpuscle {
 
-/// A number, or whatever else a type has in it.
+/// A field of an element type.
 struct NpyField {
-    std::string name = {};             ///< "" if the elements are no structures
-    char kind = 'V';                   ///< NumPy's letter: b i u f are numbers; c U S O V M m are not
-    std::size_t size = 0, offset = 0;  ///< bytes, in an element
+    std::string name = {};             ///< "" if the type is not structured
+    char kind = 'V';                   ///< NumPy's type letter: b i u f are numbers; c U S O V M m are not
+    std::size_t size = 0, offset = 0;  ///< bytes within an element
     bool big_endian = false;
     bool numeric() const;
-    /// The number that stands there. Only for a numeric field.
+    /// A function that reads the number. Only for a numeric field.
     double (*decoder() const)(const std::byte*);
 };
 
 struct NpyHeader {
-    std::string type = {};  ///< as the file writes it
+    std::string type = {};  ///< as written in the file
     std::vector<NpyField> fields = {};
     std::size_t element = 0;  ///< bytes
-    bool by_columns = false;  ///< Fortran's order
+    bool by_columns = false;  ///< Fortran order
     std::vector<std::uint64_t> shape = {};
     std::uint64_t data_at = 0;
 
-    std::uint64_t count() const;  ///< of elements
+    std::uint64_t count() const;  ///< number of elements
 };
 
-/// Versions 1, 2 and 3. Refuses a type that is not understood, and more elements than there are bytes.
+/// Reads versions 1, 2 and 3. An unknown type, or more elements than the file has bytes for, is an error.
 Result<NpyHeader> read_npy_header(Bytes&);
 
-/// The header of a list of `count` elements.
+/// The header of a one-dimensional array of `count` elements.
 std::string npy_header(std::string_view type, std::size_t count);
 
 }  // namespace corpuscle

@@ -10,10 +10,10 @@
 namespace corpuscle {
 namespace {
 
-/// A unit's number as its name.
+/// The number of a train as its name.
 std::string unit_name(double x) { return std::floor(x) == x ? fmt::format("{:.0f}", x) : fmt::format("{}", x); }
 
-/// Phy's spike_times.npy holds the numbers of samples, in which no rate is said.
+/// True if the times look like sample numbers, as in spike_times.npy of Phy, which does not contain the rate.
 bool are_sample_numbers(const std::vector<double>& times) {
     return times.size() > 1 && *std::max_element(times.begin(), times.end()) >= 1000 &&
            std::all_of(times.begin(), times.end(), [](double t) { return std::floor(t) == t; });
@@ -30,8 +30,7 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     const bool plain = headings.size() > 1 && headings[0] == "ch1";
     if (plain && !(wanted.time && wanted.unit))
         return bad_input(
-            fmt::format("an array of {} columns: times of spikes are one; --time 1 --unit 2 says which hold the times and the units",
-                        headings.size()),
+            fmt::format("the array has {} columns; select the columns of times and trains, such as --time 1 --unit 2", headings.size()),
             {path});
     std::size_t column = 0;
     const auto found = find_spike_columns(headings, wanted, column);
@@ -54,7 +53,7 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     }
     if (found->seconds == 1 && are_sample_numbers(all))
         return bad_input(
-            fmt::format("whole numbers, as the numbers of samples are; times are in seconds, so divide them by the rate: python3 -c "
+            fmt::format("the times are integers, as sample numbers are; convert them to seconds with the sample rate: python3 -c "
                         "\"import numpy; numpy.save('seconds.npy', numpy.load('{}') / 30000)\"",
                         path.find_first_of("'\"\\$`!") == path.npos ? path : "FILE.npy"),
             {path});

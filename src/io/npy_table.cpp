@@ -11,19 +11,19 @@
 namespace corpuscle {
 namespace {
 
-bool lies_by_columns(const NpyHeader& header, const Extent& extent) { return extent.columns > 1 && header.by_columns != extent.lying; }
+bool is_column_major(const NpyHeader& header, const Extent& extent) { return extent.columns > 1 && header.by_columns != extent.lying; }
 
 class NpySamples final : public Samples {
     std::unique_ptr<Bytes> bytes_;
     NpyHeader header_;
     Extent extent_;
-    bool by_columns_;               // the elements of a channel lie side by side
-    std::vector<NpyField> fields_;  // of each column; in an array without structure all are the same one
-    SamplesFacts facts_;
+    bool by_columns_;               // the elements of a channel are contiguous
+    std::vector<NpyField> fields_;  // one for each column; a single one if the array is not is_structured
+    SamplesFacts info_;
     std::vector<std::byte> buffer_;
 
-    bool structured() const { return !header_.fields[0].name.empty(); }
-    std::size_t field_of(std::size_t column) const { return structured() ? column : 0; }
+    bool is_structured() const { return !header_.fields[0].name.empty(); }
+    std::size_t field_of(std::size_t column) const { return is_structured() ? column : 0; }
     std::uint64_t element(std::uint64_t number) const { return header_.data_at + number * header_.element; }
 
     Result<void> read_elements(std::uint64_t first, std::size_t count) {
@@ -32,7 +32,7 @@ class NpySamples final : public Samples {
         return bytes_->read(buffer_);
     }
 
-    /// Every `stride`-th element in the buffer, from number `from` on.
+    /// Decodes every `stride`-th element of the buffer, from index `from` on.
     void decode(const NpyField& field, std::size_t from, std::size_t stride, std::span<double> out) const {
         const auto number = field.decoder();
         const auto* at = buffer_.data() + from * header_.element + field.offset;
@@ -50,34 +50,34 @@ class NpySamples final : public Samples {
 
 public:
     NpySamples(std::unique_ptr<Bytes> bytes, NpyHeader header, Extent extent)
-        : bytes_(std::move(bytes)), header_(std::move(header)), extent_(std::move(extent)), by_columns_(lies_by_columns(header_, extent_)) {
-        if (!extent_.remark.empty()) facts_.remarks.push_back(extent_.remark);
-        facts_.rows = static_cast<std::int64_t>(extent_.rows);
+        : bytes_(std::move(bytes)), header_(std::move(header)), extent_(std::move(extent)), by_columns_(is_column_major(header_, extent_)) {
+        if (!extent_.remark.empty()) info_.remarks.push_back(extent_.remark);
+        info_.rows = static_cast<std::int64_t>(extent_.rows);
     }
 
     void name_columns(std::string_view name) {
-        if (!structured()) {
+        if (!is_structured()) {
             fields_ = header_.fields;
-            facts_.columns = columns_named_after(name, static_cast<std::size_t>(extent_.columns));
+            info_.columns = columns_named_after(name, static_cast<std::size_t>(extent_.columns));
         }
         for (const auto& f : header_.fields)
-            if (structured() && f.numeric()) fields_.push_back(f), facts_.columns.push_back(parse_heading(f.name));
+            if (is_structured() && f.numeric()) fields_.push_back(f), info_.columns.push_back(parse_heading(f.name));
     }
-    void set_rate(std::optional<double> rate) { facts_.rate = rate; }
+    void set_rate(std::optional<double> rate) { info_.rate = rate; }
 
-    const SamplesFacts& facts() const override { return facts_; }
+    const SamplesFacts& facts() const override { return info_; }
 
     Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         const auto first = static_cast<std::uint64_t>(start);
         const auto width = static_cast<std::size_t>(extent_.columns);
         if (by_columns_) return fetch_columns(first, rows, wanted, out);
-        const std::size_t most = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element));
-        for (std::size_t done = 0; done < rows; done += most) {
-            const auto count = std::min(most, rows - done);
+        const std::size_t max_rows = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element));
+        for (std::size_t done = 0; done < rows; done += max_rows) {
+            const auto count = std::min(max_rows, rows - done);
             if (auto ok = read_elements((first + done) * width, count * width); !ok) return ok;
             for (std::size_t i = 0; i < wanted.size(); ++i)
-                decode(fields_[field_of(wanted[i])], structured() ? 0 : wanted[i], width, std::span(out[i]).subspan(done, count));
+                decode(fields_[field_of(wanted[i])], is_structured() ? 0 : wanted[i], width, std::span(out[i]).subspan(done, count));
         }
         return {};
     }
@@ -90,40 +90,42 @@ bool has_numbers(const NpyHeader& header) {
 Error no_numbers(const NpyHeader& header, const std::string& name) {
     const bool pickled = std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; });
     const bool complex = header.fields[0].kind == 'c';
-    return bad_input(fmt::format("the array holds {} {}", header.type,
-                                 pickled   ? "(Python objects), which are not read: to read them could run any program; save numbers"
-                                 : complex ? "(complex numbers); save the real part, or the magnitude"
-                                           : "and no numbers that are known here: floats to 64 bits, integers, booleans"),
-                     {name});
+    return bad_input(
+        fmt::format("the array holds {} {}", header.type,
+                    pickled   ? "(Python objects), which are not supported because loading them can run any code; save numbers instead"
+                    : complex ? "(complex numbers); save the real part or the magnitude instead"
+                              : "(not a supported number type); supported are floats up to 64 bits, integers and booleans"),
+        {name});
 }
 
-/// One array as samples; `bytes` stand behind its header.
-Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, NpyHeader header, const ArrayFacts& facts,
+/// One array as samples. `bytes` must be positioned after its header.
+Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, NpyHeader header, const ArrayFacts& array,
                                                const ExtentHints& hints, bool packed = false) {
     const auto name = bytes->name();
     if (!has_numbers(header) || std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; }))
         return no_numbers(header, name);
-    const auto extent = extent_of(facts, name, hints);
+    const auto extent = extent_of(array, name, hints);
     if (!extent) return extent.error();
-    if (packed && lies_by_columns(header, *extent)) {  // an archive is quick to read in order only
+    if (packed && is_column_major(header, *extent)) {  // seeking in an archive is slow
         auto copy = spooled(*bytes);
         if (!copy) return copy.error();
         bytes = *std::move(copy);
     }
     if (!header.fields[0].name.empty() && extent->columns > 1)
-        return bad_input(fmt::format("{}: a structure's fields are its columns; it can have one dimension only", described(facts)), {name});
+        return bad_input(
+            fmt::format("{}: a structured array must have one dimension, because its fields are the columns", described(array)), {name});
     auto samples = std::make_unique<NpySamples>(std::move(bytes), std::move(header), *extent);
-    samples->name_columns(facts.name);
+    samples->name_columns(array.name);
     return samples;
 }
 
-/// The arrays of an NPZ that can be read at all, and their headers.
+/// The arrays of an NPZ file and their headers.
 struct Npz {
     NpzReader file;
     std::vector<ArrayFacts> arrays = {};
     std::vector<NpyHeader> headers = {};
 
-    void look() {
+    void read_headers() {
         for (const auto& name : file.names()) {
             const auto bytes = file.bytes(name);
             auto header = bytes ? read_npy_header(**bytes) : bytes.error();
@@ -140,7 +142,7 @@ struct Npz {
         return samples_of(*std::move(bytes), *std::move(header), arrays[k], hints, true);
     }
 
-    /// What the lists of times beside array number `chosen` say of it.
+    /// Hints about array number `chosen` from the lists of times in the file.
     ExtentHints hints(std::size_t chosen, std::optional<bool> transpose) const {
         ExtentHints out{transpose};
         for (std::size_t k = 0; k < arrays.size(); ++k)
@@ -155,7 +157,7 @@ struct Npz {
         return {};
     }
 
-    /// The list of times that goes with `rows` rows of array number `chosen`.
+    /// The index of a list of times with `rows` elements, other than array number `chosen`.
     std::optional<std::size_t> times(std::size_t chosen, std::int64_t rows) const {
         for (std::size_t k = 0; k < arrays.size(); ++k)
             if (k != chosen && length_of_times(arrays[k]) == static_cast<std::uint64_t>(rows) && headers[k].fields[0].name.empty())
@@ -169,8 +171,8 @@ SamplesResult open_npy(const std::string& path, const TableOptions& options) {
     if (!bytes) return bytes.error();
     auto header = read_npy_header(**bytes);
     if (!header) return header.error();
-    const ArrayFacts facts{"", header->shape, has_numbers(*header)};
-    auto samples = samples_of(*std::move(bytes), *std::move(header), facts, {options.transpose});
+    const ArrayFacts array{"", header->shape, has_numbers(*header)};
+    auto samples = samples_of(*std::move(bytes), *std::move(header), array, {options.transpose});
     if (!samples) return samples.error();
     return std::unique_ptr<Samples>(*std::move(samples));
 }
@@ -179,7 +181,7 @@ SamplesResult open_npz(const std::string& path, const TableOptions& options) {
     auto file = NpzReader::open(path);
     if (!file) return file.error();
     Npz npz{*std::move(file)};
-    npz.look();
+    npz.read_headers();
     const auto chosen = choose_array(npz.arrays, options.dataset, path);
     if (!chosen) return chosen.error();
     auto samples = npz.samples(*chosen, npz.hints(*chosen, options.transpose));
@@ -195,7 +197,7 @@ SamplesResult open_npz(const std::string& path, const TableOptions& options) {
 }  // namespace
 
 Result<std::unique_ptr<Table>> open_npy_table(const std::string& path, const TableOptions& options) {
-    if (options.dataset) return bad_usage(fmt::format("--dataset {}: a NPY file has only one array", *options.dataset));
+    if (options.dataset) return bad_usage(fmt::format("--dataset {}: an NPY file has only one array", *options.dataset));
     return table_of(open_npy(path, options), path);
 }
 

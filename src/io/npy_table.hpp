@@ -1,14 +1,15 @@
 #pragma once
-// NumPy's arrays as tables: NPY, and NPZ with one of its arrays.
+// NumPy arrays as tables: NPY, and one array of an NPZ archive.
 
 #include "io/table.hpp"
 
 namespace corpuscle {
 
-/// Rows and channels in one or two dimensions, of any kind of number; or a structure, each of its fields that is a number a column.
+/// Reads rows and channels in one or two dimensions, of any numeric type. Of a structured array each numeric field is a column.
 Result<std::unique_ptr<Table>> open_npy_table(const std::string& path, const TableOptions& = {});
 
-/// The array asked for, or the only one. A number called rate or fs is the rate; a list called time or t with as many rows, the time.
+/// Reads the requested array, or the only one. A number called rate or fs is the rate. A list called time or t with the same number of
+/// rows is the time.
 Result<std::unique_ptr<Table>> open_npz_table(const std::string& path, const TableOptions& = {});
 
 }  // namespace corpuscle

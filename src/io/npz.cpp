@@ -16,7 +16,7 @@ std::string raw(std::span<const T> list) {
     return {reinterpret_cast<const char*>(list.data()), list.size_bytes()};
 }
 
-/// The code points of UTF-8.
+/// Decodes UTF-8. Invalid bytes become U+FFFD.
 std::u32string code_points(std::string_view s) {
     std::u32string out;
     for (std::size_t k = 0; k < s.size();) {
@@ -30,9 +30,9 @@ std::u32string code_points(std::string_view s) {
         int left = more;
         for (; left > 0 && k < s.size() && (static_cast<unsigned char>(s[k]) & 0xc0) == 0x80; --left)
             c = c << 6 | (static_cast<unsigned char>(s[k++]) & 0x3f);
-        constexpr char32_t least[] = {0, 0x80, 0x800, 0x10000};
-        const bool wrong = more < 0 || left > 0 || c < least[more] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000);
-        out.push_back(wrong ? U'\ufffd' : c);
+        constexpr char32_t min_value[] = {0, 0x80, 0x800, 0x10000};
+        const bool invalid = more < 0 || left > 0 || c < min_value[more] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000);
+        out.push_back(invalid ? U'\ufffd' : c);
     }
     return out;
 }
@@ -45,16 +45,16 @@ void append_utf8(std::string& out, std::uint32_t c) {
     for (int k = more; k-- > 0;) out.push_back(static_cast<char>(0x80 | (c >> 6 * k & 0x3f)));
 }
 
-/// An array's elements, all of them.
-struct Whole {
+/// An array with all its elements.
+struct NpyArray {
     NpyHeader header;
     std::vector<std::byte> elements;
 
     const std::byte* at(std::size_t k) const { return elements.data() + k * header.element; }
 };
 
-/// Elements of one of these kinds, read in pieces: what an archive claims of a length is not yet memory.
-Result<Whole> whole(const NpzReader& npz, const std::string& name, std::string_view kinds, std::string_view what) {
+/// Reads an array whose elements are of one of these kinds. Reads in chunks, so that a wrong length in the archive allocates no memory.
+Result<NpyArray> read_array(const NpzReader& npz, const std::string& name, std::string_view kinds, std::string_view expected) {
     const auto bytes = npz.bytes(name);
     if (!bytes) return bytes.error();
     auto header = read_member_header(**bytes);
@@ -62,8 +62,8 @@ Result<Whole> whole(const NpzReader& npz, const std::string& name, std::string_v
     const auto& field = header->fields[0];
     const bool fits = field.kind == 'U' || field.kind == 'S' || field.numeric();
     if (!field.name.empty() || !fits || kinds.find(field.kind) == std::string_view::npos)
-        return bad_input(fmt::format("{} is no type for {}", header->type, what), {(*bytes)->name()});
-    Whole out{*std::move(header), {}};
+        return bad_input(fmt::format("the type is {}, expected {}", header->type, expected), {(*bytes)->name()});
+    NpyArray out{*std::move(header), {}};
     const std::uint64_t all = out.header.count() * out.header.element;
     while (out.elements.size() < all) {
         const auto had = out.elements.size();
@@ -73,7 +73,7 @@ Result<Whole> whole(const NpzReader& npz, const std::string& name, std::string_v
     return out;
 }
 
-/// A whole number; beyond the 53 bits of a double, too.
+/// An integer of up to 64 bits, which a double could not hold.
 std::int64_t integer_at(const NpyField& field, const std::byte* at) {
     if (field.size < 8) return static_cast<std::int64_t>(field.decoder()(at));
     std::int64_t value;
@@ -81,8 +81,8 @@ std::int64_t integer_at(const NpyField& field, const std::byte* at) {
     return field.big_endian ? static_cast<std::int64_t>(__builtin_bswap64(static_cast<std::uint64_t>(value))) : value;
 }
 
-/// Without the zeros that fill it up.
-std::string word(const NpyField& field, const std::byte* at) {
+/// A string element without its zero padding.
+std::string string_at(const NpyField& field, const std::byte* at) {
     std::string out;
     if (field.kind == 'S') {
         out.assign(reinterpret_cast<const char*>(at), field.size);
@@ -107,11 +107,11 @@ void NpzWriter::add(const std::string& name, std::span<const double> list) {
 
 void NpzWriter::add(const std::string& name, std::span<const std::string> list) {
     std::vector<std::u32string> words;
-    std::size_t longest = 1;
-    for (const auto& s : list) words.push_back(code_points(s)), longest = std::max(longest, words.back().size());
-    std::string bytes = npy_header(fmt::format("<U{}", longest), list.size());
+    std::size_t max_length = 1;
+    for (const auto& s : list) words.push_back(code_points(s)), max_length = std::max(max_length, words.back().size());
+    std::string bytes = npy_header(fmt::format("<U{}", max_length), list.size());
     for (auto& w : words) {
-        w.resize(longest);
+        w.resize(max_length);
         bytes += raw(std::span<const char32_t>(w));
     }
     arrays_.push_back({name + std::string(ending), std::move(bytes)});
@@ -121,9 +121,9 @@ Result<NpyHeader> read_member_header(Bytes& bytes) {
     auto header = read_npy_header(bytes);
     if (!header) return header;
     const bool pickled = std::any_of(header->fields.begin(), header->fields.end(), [](const auto& f) { return f.kind == 'O'; });
-    const auto whole = header->data_at + header->count() * header->element;
-    if (pickled || whole == bytes.size()) return header;
-    return bad_input(fmt::format("the archive's directory says {} bytes, the array takes {}: damaged?", bytes.size(), whole),
+    const auto total = header->data_at + header->count() * header->element;
+    if (pickled || total == bytes.size()) return header;
+    return bad_input(fmt::format("the archive states {} bytes, but the array has {}; it may be damaged", bytes.size(), total),
                      {bytes.name()});
 }
 
@@ -156,7 +156,7 @@ Result<std::unique_ptr<Bytes>> NpzReader::bytes(const std::string& name) const {
 }
 
 Result<std::vector<std::int64_t>> NpzReader::integers(const std::string& name) const {
-    const auto array = whole(*this, name, "biu", "whole numbers");
+    const auto array = read_array(*this, name, "biu", "integers");
     if (!array) return array.error();
     std::vector<std::int64_t> out(array->header.count());
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = integer_at(array->header.fields[0], array->at(k));
@@ -164,7 +164,7 @@ Result<std::vector<std::int64_t>> NpzReader::integers(const std::string& name) c
 }
 
 Result<std::vector<double>> NpzReader::numbers(const std::string& name) const {
-    const auto array = whole(*this, name, "biuf", "numbers");
+    const auto array = read_array(*this, name, "biuf", "numbers");
     if (!array) return array.error();
     const auto decode = array->header.fields[0].decoder();
     std::vector<double> out(array->header.count());
@@ -173,10 +173,10 @@ Result<std::vector<double>> NpzReader::numbers(const std::string& name) const {
 }
 
 Result<std::vector<std::string>> NpzReader::words(const std::string& name) const {
-    const auto array = whole(*this, name, "US", "words");
+    const auto array = read_array(*this, name, "US", "strings");
     if (!array) return array.error();
     std::vector<std::string> out(array->header.count());
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = word(array->header.fields[0], array->at(k));
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = string_at(array->header.fields[0], array->at(k));
     return out;
 }
 

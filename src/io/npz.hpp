@@ -1,5 +1,5 @@
 #pragma once
-// Named lists of numbers and words as NumPy keeps them: an NPZ is a zip archive of NPY arrays.
+// NumPy's NPZ format: a zip archive of named NPY arrays.
 
 #include <cstdint>
 #include <span>
@@ -17,13 +17,13 @@ class NpzWriter {
 public:
     void add(const std::string& name, std::span<const std::int64_t>);
     void add(const std::string& name, std::span<const double>);
-    /// Words of UTF-8; bytes that are none become U+FFFD.
+    /// UTF-8 strings. Invalid bytes become U+FFFD.
     void add(const std::string& name, std::span<const std::string>);
-    /// The file, without a date: the same lists in the same order give the same bytes.
+    /// The file, without dates: the same arrays in the same order give the same bytes.
     Result<std::string> bytes() const { return make_archive(arrays_); }
 };
 
-/// The header of an array of an archive, which holds that array and nothing else: else the checksum would not be reached.
+/// Reads the header of an archive member. Bytes after the array are an error, because otherwise its checksum would not be checked.
 Result<NpyHeader> read_member_header(Bytes&);
 
 class NpzReader {
@@ -36,9 +36,9 @@ public:
     const std::string& path() const { return archive_.path(); }
     std::vector<std::string> names() const;
     bool has(const std::string& name) const;
-    /// The array's bytes, from the beginning of its header.
+    /// The bytes of an array, including its header.
     Result<std::unique_ptr<Bytes>> bytes(const std::string& name) const;
-    // A whole array as a list, whatever its shape. Refuses a name that is not there and elements of another kind.
+    // An entire array as a list, whatever its shape. An unknown name, or elements of another type, are errors.
     Result<std::vector<std::int64_t>> integers(const std::string& name) const;
     Result<std::vector<double>> numbers(const std::string& name) const;
     Result<std::vector<std::string>> words(const std::string& name) const;

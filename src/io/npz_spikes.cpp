@@ -7,35 +7,35 @@
 namespace corpuscle {
 namespace {
 
-/// Ours has the exact times and the units' names beside what SpikeInterface reads.
+/// Reads NPZ files of SpikeInterface. Those of Corpuscle also contain exact times and names.
 class NpzSpikes {
     NpzReader npz_;
     std::vector<std::int64_t> ids_;
     std::vector<std::string> afferents_, channels_;
-    bool ours_ = false;
+    bool has_exact_times_ = false;
     double rate_ = 1;
     Trains trains_;
 
-    Error wrong(std::string sentence) const { return bad_input(std::move(sentence), {npz_.path()}); }
+    Error format_error(std::string message) const { return bad_input(std::move(message), {npz_.path()}); }
 
     Result<void> read_units() {
         auto ids = npz_.integers("unit_ids");
         if (!ids) return ids.error();
         ids_ = std::move(*ids);
-        ours_ = npz_.has("unit_afferent");
-        if (!ours_) return {};
+        has_exact_times_ = npz_.has("unit_afferent");
+        if (!has_exact_times_) return {};
         auto afferents = npz_.words("unit_afferent"), channels = npz_.words("unit_channel");
         if (!afferents || !channels) return afferents ? channels.error() : afferents.error();
         afferents_ = std::move(*afferents), channels_ = std::move(*channels);
         if (afferents_.size() != ids_.size() || channels_.size() != ids_.size())
-            return wrong(fmt::format("unit_ids names {} units, unit_afferent {} and unit_channel {}", ids_.size(), afferents_.size(),
-                                     channels_.size()));
+            return format_error(fmt::format("unit_ids has {} elements, unit_afferent {} and unit_channel {}", ids_.size(),
+                                            afferents_.size(), channels_.size()));
         for (std::size_t u = 0; u < ids_.size(); ++u) trains_.of(afferents_[u], channels_[u]);
         return {};
     }
 
     Result<std::vector<double>> times(std::int64_t segment) const {
-        if (ours_) return npz_.numbers(fmt::format("spike_times_seg{}", segment));
+        if (has_exact_times_) return npz_.numbers(fmt::format("spike_times_seg{}", segment));
         const auto indexes = npz_.integers(fmt::format("spike_indexes_seg{}", segment));
         if (!indexes) return indexes.error();
         std::vector<double> out;
@@ -44,7 +44,7 @@ class NpzSpikes {
     }
 
     std::vector<double>& train(std::size_t unit, std::int64_t segment) {
-        if (ours_) return trains_.of(afferents_[unit], channels_[unit]);
+        if (has_exact_times_) return trains_.of(afferents_[unit], channels_[unit]);
         return trains_.of(std::to_string(ids_[unit]), segment == 0 ? "" : fmt::format("segment {}", segment + 1));
     }
 
@@ -54,14 +54,15 @@ class NpzSpikes {
         const auto when = times(segment);
         if (!when) return when.error();
         if (when->size() != labels->size())
-            return wrong(fmt::format("segment {} has {} spikes and {} labels", segment, when->size(), labels->size()));
+            return format_error(fmt::format("segment {} has {} spikes and {} labels", segment, when->size(), labels->size()));
         std::map<std::int64_t, std::vector<double>*> of;
         for (std::size_t u = 0; u < ids_.size(); ++u) of[ids_[u]] = &train(u, segment);
         for (std::size_t k = 0; k < labels->size(); ++k) {
             const auto found = of.find((*labels)[k]);
             if (found == of.end())
-                return wrong(fmt::format("spike {} of segment {} is of a unit {} that unit_ids does not name", k, segment, (*labels)[k]));
-            if (!std::isfinite((*when)[k])) return wrong(fmt::format("spike {} of segment {} is at no finite time", k, segment));
+                return format_error(fmt::format("spike {} of segment {} has label {}, which is not in unit_ids", k, segment, (*labels)[k]));
+            if (!std::isfinite((*when)[k]))
+                return format_error(fmt::format("spike {} of segment {} has a time that is not finite", k, segment));
             found->second->push_back((*when)[k]);
         }
         return {};
@@ -76,7 +77,7 @@ public:
         const auto rate = npz_.numbers("sampling_frequency");
         if (!segments || !rate) return segments ? rate.error() : segments.error();
         if (segments->size() != 1 || rate->size() != 1 || !((*rate)[0] > 0) || !std::isfinite((*rate)[0]))
-            return wrong("num_segment and sampling_frequency are to be one number each, and a rate positive");
+            return format_error("num_segment and sampling_frequency must be one number each, and the frequency must be positive");
         rate_ = (*rate)[0];
         for (std::int64_t s = 0; s < (*segments)[0]; ++s)
             if (auto ok = read_segment(s); !ok) return ok.error();

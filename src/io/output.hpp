@@ -1,6 +1,6 @@
 #pragma once
-// Files are written beside their place and put there when they are whole: nothing half-written is left behind, but for those that
-// grow so slowly that half of one is worth having.
+// Output files. They are written under a temporary name and renamed when complete, so no partial file remains. A slowly growing file
+// is the exception: a part of it is useful.
 
 #include <chrono>
 #include <cstdio>
@@ -13,12 +13,13 @@
 
 namespace corpuscle {
 
-/// The disk is not waited for where a file is quick to make again: for a disk that turns that takes several times as long as a short run.
+/// When a file is synchronised to disk. With if_costly, only a file that took long to compute is: on a hard disk, synchronising takes
+/// several times as long as a short run.
 enum class Sync { if_costly, always };
 
 class OutputFile {
     std::string path_, part_;
-    std::vector<std::string> made_;  // directories that were not there before
+    std::vector<std::string> made_;  // directories that were created
     std::FILE* file_ = nullptr;
     std::size_t size_ = 0;
     bool grows_ = false, synced_ = false;
@@ -31,29 +32,30 @@ public:
     OutputFile() = default;
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&& other) noexcept;
-    ~OutputFile();  ///< removes what was not committed
+    ~OutputFile();  ///< removes a file that was not committed
 
-    /// Makes the directories above it, too. A device or a named pipe is written in place.
+    /// Creates missing directories too. A device or a named pipe is written in place.
     static Result<OutputFile> create(const std::string& path);
-    /// One that can be read while it grows: every write() is on disk at once, and a killed program leaves it, as path.part. The next that
-    /// writes this path takes that over; while one does, another is refused. A device or a named pipe is written in place.
+    /// Creates a file that can be read while it grows, as path.part. Each write() reaches the disk at once, and path.part remains if
+    /// the program is killed; the next program that writes this path replaces it. A second writer at the same time is an error. A
+    /// device or a named pipe is written in place.
     static Result<OutputFile> growing(const std::string& path);
-    /// All of it, or an error; one that grows is then as it was before.
+    /// Writes all of the text, or returns an error. After an error a growing file is unchanged.
     Result<void> write(std::string_view text);
-    /// Over what stands there; of one that grows.
+    /// Overwrites bytes from position `at` on. Only for a growing file.
     Result<void> rewrite(std::size_t at, std::string_view text);
-    std::size_t size() const { return size_; }  ///< what was written
-    /// Puts the file in its place; refuses if a byte could not be written. Of one that took longer than a second to make, or always, its
-    /// bytes are on the disk before: behind the last of a directory sync_directory_of() keeps the names, too. Of others they are on the
-    /// way.
+    std::size_t size() const { return size_; }  ///< bytes written
+    /// Renames the complete file to its path. Returns an error if a byte could not be written. If the file took longer than a second,
+    /// or with Sync::always, its bytes are synchronised to disk first. To synchronise the names of the files as well, call
+    /// sync_directory_of() after the last file of a directory.
     Result<void> commit(Sync = Sync::if_costly);
     bool is_synced() const { return synced_; }
     const std::string& path() const { return path_; }
-    /// For a library that writes into a file that is open.
+    /// The open file, for a library that writes into it.
     std::FILE* stream() { return file_; }
 };
 
-/// Names in the directory of `path` outlast a power failure from now on.
+/// Synchronises the directory of `path` to disk, so that the names of its files survive a power failure.
 Result<void> sync_directory_of(const std::string& path);
 
 }  // namespace corpuscle

@@ -15,37 +15,38 @@
 namespace corpuscle {
 namespace {
 
-enum class Standing { nothing, empty, regular, device, directory, lost_link };
+enum class FileKind { nothing, empty, regular, device, directory, broken_link };
 
-Standing standing_at(const std::string& path) {
-    struct ::stat facts = {};
-    if (::stat(path.c_str(), &facts) != 0) return ::lstat(path.c_str(), &facts) == 0 ? Standing::lost_link : Standing::nothing;
-    if (S_ISREG(facts.st_mode)) return facts.st_size == 0 ? Standing::empty : Standing::regular;
-    return S_ISDIR(facts.st_mode) ? Standing::directory : Standing::device;
+FileKind kind_of_file(const std::string& path) {
+    struct ::stat file_status = {};
+    if (::stat(path.c_str(), &file_status) != 0)
+        return ::lstat(path.c_str(), &file_status) == 0 ? FileKind::broken_link : FileKind::nothing;
+    if (S_ISREG(file_status.st_mode)) return file_status.st_size == 0 ? FileKind::empty : FileKind::regular;
+    return S_ISDIR(file_status.st_mode) ? FileKind::directory : FileKind::device;
 }
 
-/// Refuses an output that is an input; Standing tells whether there is anything to be asked further.
-Result<Standing> replaceable(const std::string& path) {
+/// Returns the kind of file at an output's path. An output that is also an input is an error.
+Result<FileKind> check_not_input(const std::string& path) {
     if (const auto input = input_at(path))
-        return bad_usage(*input == path ? fmt::format("{}: this output would replace a file that the command reads; name another", path)
-                                        : fmt::format("{}: this output would replace a file that the command reads (as {}); name another",
-                                                      path, *input == "-" ? "standard input" : *input));
-    return standing_at(path);
+        return bad_usage(*input == path ? fmt::format("{}: this output would replace an input of the command; name another", path)
+                                        : fmt::format("{}: this output would replace an input of the command (as {}); name another", path,
+                                                      *input == "-" ? "standard input" : *input));
+    return kind_of_file(path);
 }
 
-bool is_foreign(Standing standing) { return standing == Standing::regular || standing == Standing::lost_link; }
+bool may_be_foreign(FileKind kind) { return kind == FileKind::regular || kind == FileKind::broken_link; }
 
-/// A regular file's lock is free: the process that made it has ended.
+/// True for a regular file without a lock: the process that created it has ended.
 bool is_abandoned(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return false;
-    struct ::stat facts = {};
-    const bool abandoned = ::fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    struct ::stat file_status = {};
+    const bool abandoned = ::fstat(file, &file_status) == 0 && S_ISREG(file_status.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0;
     ::close(file);
     return abandoned;
 }
 
-/// "spikes.csv" of "spikes.csv.part-123" and "spikes.csv.part-123-2"; "": it is no part.
+/// The output of a temporary file: "spikes.csv" for "spikes.csv.part-123" and "spikes.csv.part-123-2". "" for other files.
 std::string_view output_of_part(std::string_view name) {
     constexpr std::string_view part = ".part-";
     const auto at = name.rfind(part);
@@ -55,7 +56,7 @@ std::string_view output_of_part(std::string_view name) {
     return is_number ? name.substr(0, at) : "";
 }
 
-void remove_dead_parts_in(const std::string& directory, const std::function<bool(std::string_view)>& is_output) {
+void remove_stale_parts_in(const std::string& directory, const std::function<bool(std::string_view)>& is_output) {
     struct Close {
         void operator()(::DIR* d) const { ::closedir(d); }
     };
@@ -74,8 +75,8 @@ std::string beginning_of(const std::string& path) {
     std::string text(4096, '\0');
     const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return "";
-    struct ::stat facts = {};
-    const auto count = ::fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) ? ::read(file, text.data(), text.size()) : 0;
+    struct ::stat file_status = {};
+    const auto count = ::fstat(file, &file_status) == 0 && S_ISREG(file_status.st_mode) ? ::read(file, text.data(), text.size()) : 0;
     ::close(file);
     text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, count)));
     return text;
@@ -83,35 +84,35 @@ std::string beginning_of(const std::string& path) {
 
 void remove_dead_parts(const std::string& path) {
     const std::filesystem::path output(path);
-    remove_dead_parts_in(output.parent_path().string(), [&](std::string_view name) { return name == output.filename().string(); });
+    remove_stale_parts_in(output.parent_path().string(), [&](std::string_view name) { return name == output.filename().string(); });
 }
 
-/// Two outputs of one command are two files.
+/// Adds an output. Two outputs of one command with the same path are an error.
 Result<void> OutputCheck::enter(const std::string& path) {
     std::error_code status;
     const std::filesystem::path output(path);
     const auto above = output.parent_path();
     auto absolute = (std::filesystem::weakly_canonical(above.empty() ? "." : above, status) / output.filename()).string();
-    if (standing_at(path) == Standing::device) return {};
+    if (kind_of_file(path) == FileKind::device) return {};
     if (std::find(outputs_.begin(), outputs_.end(), absolute) != outputs_.end())
-        return bad_usage(fmt::format("{}: two outputs of this command have this name; name another for one of them", path));
+        return bad_usage(fmt::format("{}: two outputs of this command have this name; rename one of them", path));
     outputs_.push_back(std::move(absolute));
     return {};
 }
 
 Result<void> OutputCheck::file(const std::string& path, Signature ours) {
     if (auto ok = enter(path); !ok) return ok;
-    const auto standing = replaceable(path);
-    if (!standing) return standing.error();
-    if (is_foreign(*standing) && !overwrite_ && !ours(beginning_of(path)))
-        return bad_input("no earlier run of corpuscle wrote this file; name another, or add --overwrite to replace it", {path});
-    if (*standing != Standing::device) remove_dead_parts(path);
+    const auto kind = check_not_input(path);
+    if (!kind) return kind.error();
+    if (may_be_foreign(*kind) && !overwrite_ && !ours(beginning_of(path)))
+        return bad_input("this file was not written by corpuscle; name another, or add --overwrite to replace it", {path});
+    if (*kind != FileKind::device) remove_dead_parts(path);
     return {};
 }
 
 Result<void> OutputCheck::growing_file(const std::string& path, Signature ours) {
     if (auto ok = file(path, ours); !ok) return ok;
-    return standing_at(path) == Standing::device ? Result<void>() : file(path + ".part", ours);
+    return kind_of_file(path) == FileKind::device ? Result<void>() : file(path + ".part", ours);
 }
 
 Result<void> OutputCheck::directory(const std::string& path, std::span<const std::string> names,
@@ -119,18 +120,18 @@ Result<void> OutputCheck::directory(const std::string& path, std::span<const std
                                     Signature page) {
     for (const auto& name : names) {
         if (auto ok = enter(path + "/" + name); !ok) return ok;
-        if (const auto standing = replaceable(path + "/" + name); !standing) return standing.error();
+        if (const auto kind = check_not_input(path + "/" + name); !kind) return kind.error();
     }
     for (const auto& name : names) {
         const auto output = path + "/" + name;
-        if (!is_foreign(standing_at(output)) || overwrite_ || is_listed(name)) continue;
+        if (!may_be_foreign(kind_of_file(output)) || overwrite_ || is_listed(name)) continue;
         if (name.ends_with(".html") && page(beginning_of(output))) continue;
         return bad_input(
-            "no earlier run of corpuscle wrote this file (no summary.json beside it lists it); name another directory with --out, or "
-            "add --overwrite to replace it",
+            "this file was not written by corpuscle (it is not listed in a summary.json in its directory); name another directory with "
+            "--out, or add --overwrite to replace it",
             {output});
     }
-    remove_dead_parts_in(path, is_output);
+    remove_stale_parts_in(path, is_output);
     return {};
 }
 

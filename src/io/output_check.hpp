@@ -1,6 +1,6 @@
 #pragma once
-// Which files a command may replace, asked before anything is computed: none that it reads, and of the others only what an earlier run
-// wrote, unless --overwrite is given.
+// Checks, before anything is computed, which files a command may replace. It never replaces its inputs. Without --overwrite it
+// replaces only files that an earlier run wrote.
 
 #include <functional>
 #include <span>
@@ -14,31 +14,30 @@ namespace corpuscle {
 
 class OutputCheck {
     bool overwrite_;
-    std::vector<std::string> outputs_;  // of this command, absolute
+    std::vector<std::string> outputs_;  // absolute paths of this command's outputs
 
     Result<void> enter(const std::string& path);
 
 public:
-    /// Whether a file that begins so was written by this program.
+    /// Returns true if a file with this beginning was written by this program.
     using Signature = bool (*)(std::string_view beginning);
 
     explicit OutputCheck(bool overwrite) : overwrite_(overwrite) {}
 
-    /// An output that stands alone. What killed runs have left of it (path.part-PID) is removed.
+    /// A single output file. Removes temporary files (path.part-PID) of runs that were killed.
     Result<void> file(const std::string& path, Signature);
-    /// The same of one that grows as path.part.
+    /// A single output file that grows as path.part.
     Result<void> growing_file(const std::string& path, Signature);
-    /// Outputs in a directory, of which its summary.json has listed those of an earlier run. What killed runs have left there of any
-    /// output is removed.
+    /// Outputs in a directory, whose summary.json lists the files of an earlier run. Removes temporary files of runs that were killed.
     Result<void> directory(const std::string& path, std::span<const std::string> names,
                            const std::function<bool(const std::string& name)>& is_listed, bool (*is_output)(std::string_view name),
                            Signature page);
 };
 
-/// The first bytes of a regular file, links followed; "" if it cannot be read.
+/// The first bytes of a regular file, following links. "" if it cannot be read.
 std::string beginning_of(const std::string& path);
 
-/// Removes what killed runs have left of this output: path.part-PID, of which no living process holds the lock.
+/// Removes temporary files of this output that runs left when they were killed: each path.part-PID that no process has locked.
 void remove_dead_parts(const std::string& path);
 
 }  // namespace corpuscle

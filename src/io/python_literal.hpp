@@ -1,5 +1,5 @@
 #pragma once
-// The few Python literals that an NPY header is written in: text, whole numbers, True and False, lists, tuples, a dictionary.
+// The Python literals that occur in an NPY header: strings, integers, True and False, lists, tuples, dictionaries.
 
 #include <cstdint>
 #include <optional>
@@ -13,8 +13,8 @@ struct Python {
     enum Kind { none, text, integer, truth, list, dictionary } kind = none;  // a tuple is a list
     std::string letters = {};
     std::int64_t number = 0;
-    std::vector<Python> items = {};  ///< a dictionary: key, value, key, value
-    std::string source = {};         ///< as it was written
+    std::vector<Python> items = {};  ///< for a dictionary: key, value, key, value
+    std::string source = {};         ///< the literal as written
 
     const Python* find(std::string_view key) const {
         for (std::size_t k = 0; kind == dictionary && k + 1 < items.size(); k += 2)
@@ -23,7 +23,7 @@ struct Python {
     }
 };
 
-/// Nothing if it is none of these, or if more than blanks stands behind it.
+/// Returns nullopt if the text is not one of these literals, or if anything but blanks follows it.
 std::optional<Python> parse_python(std::string_view);
 
 }  // namespace corpuscle

@@ -9,25 +9,25 @@
 namespace corpuscle {
 namespace {
 
-/// All of the first 256, then every second, every fourth ...
-bool looked_at(std::int64_t chunk) {
-    const auto far = static_cast<std::uint64_t>(std::max<std::int64_t>(chunk / 128, 1));
-    return chunk % static_cast<std::int64_t>(std::bit_floor(far)) == 0;
+/// True for all of the first 256 chunks, then for every second, every fourth ...
+bool is_examined(std::int64_t chunk) {
+    const auto spacing = static_cast<std::uint64_t>(std::max<std::int64_t>(chunk / 128, 1));
+    return chunk % static_cast<std::int64_t>(std::bit_floor(spacing)) == 0;
 }
 
-/// The median of seven by thirteen exchanges, without a branch.
+/// The median of seven by a branch-free sorting network of thirteen exchanges.
 inline double median_of_seven(const double* x) {
     double a = x[0], b = x[1], c = x[2], d = x[3], e = x[4], f = x[5], g = x[6];
     const auto order = [](double& low, double& high) {
-        const double least = low < high ? low : high, most = low < high ? high : low;
-        low = least, high = most;
+        const double smaller = low < high ? low : high, larger = low < high ? high : low;
+        low = smaller, high = larger;
     };
     order(a, f), order(a, d), order(b, g), order(c, e), order(a, b), order(d, f), order(c, g);
     order(c, d), order(d, g), order(e, f), order(b, e), order(b, d), order(d, e);
     return d;
 }
 
-constexpr std::int64_t chunk = 4096;  // readings, between which windows do not reach
+constexpr std::int64_t chunk = 4096;  // samples; windows do not extend over the end of a chunk
 
 }  // namespace
 
@@ -40,8 +40,8 @@ void StrayCheck::examine(std::span<const double> more) {
         const double middle = x[k + 3], left = middle - x[k + 2], right = middle - x[k + 4];
         off[k] = std::abs(middle - median_of_seven(x + k));
         const double nearer = std::abs(left) < std::abs(right) ? std::abs(left) : std::abs(right);
-        const double least = nearer < off[k] ? nearer : off[k];
-        alone[k] = left * right > 0 ? least : 0;
+        const double smallest = nearer < off[k] ? nearer : off[k];
+        alone[k] = left * right > 0 ? smallest : 0;
     }
     for (std::size_t k = 0; k < n; ++k) {
         if (off[k] > 0) off_.add(off[k]);
@@ -53,7 +53,7 @@ void StrayCheck::examine(std::span<const double> more) {
     if (n > 0) chunk_.erase(chunk_.begin(), chunk_.end() - 6);
 }
 
-/// Every so-manieth reading; when they are 128, every second of them goes.
+/// Retains every stride_-th sample. When there are 128, removes every second one and doubles the stride.
 void StrayCheck::keep(std::span<const double> x) {
     for (std::int64_t k = next_kept_ - seen_; k < static_cast<std::int64_t>(x.size()); k = next_kept_ - seen_) {
         kept_.push_back(x[static_cast<std::size_t>(k)]);
@@ -70,7 +70,7 @@ void StrayCheck::add(std::span<const double> x) {
         const std::int64_t number = seen_ / chunk, left = chunk - seen_ % chunk;
         const auto now = x.first(std::min(x.size(), static_cast<std::size_t>(left)));
         if (seen_ % chunk == 0) chunk_.clear();
-        if (looked_at(number)) examine(now);
+        if (is_examined(number)) examine(now);
         keep(now);
         seen_ += static_cast<std::int64_t>(now.size());
         x = x.subspan(now.size());
@@ -88,12 +88,12 @@ std::int64_t StrayCheck::count() const {
 }
 
 void SaturationCheck::add(std::span<const double> x) {
-    double most = -1e308;
-    double least = lowest_;
-    for (const double value : x) least = value < least ? value : least, most = value > most ? value : most;
-    lowest_ = least;
+    double max = -1e308;
+    double min = lowest_;
+    for (const double value : x) min = value < min ? value : min, max = value > max ? value : max;
+    lowest_ = min;
     seen_ += static_cast<std::int64_t>(x.size());
-    if (most < highest_) {  // none of these is of interest
+    if (max < highest_) {  // the block does not reach the maximum
         if (!x.empty()) run_ = 0;
         return;
     }
@@ -113,7 +113,7 @@ void SumCheck::add(const std::vector<std::vector<double>>& block, std::size_t ch
         for (std::size_t k = 0; k < block[c].size() && first_[c].size() < rows; ++k) first_[c].push_back(block[c][k]);
 }
 
-/// Whether channel `c` is, row by row, what `from` to `to` add up to; to the rounding of three digits.
+/// True if channel `c` is the sum of channels `from` to `to` in every row, to within 0.1 %.
 bool SumCheck::is_sum(std::size_t c, std::size_t from, std::size_t to) const {
     bool varies = false;
     for (std::size_t k = 0; k < first_[c].size(); ++k) {
@@ -125,16 +125,17 @@ bool SumCheck::is_sum(std::size_t c, std::size_t from, std::size_t to) const {
     return varies;
 }
 
-/// A channel is no sum of one like it and of others that say nothing: of a skin most sensors are like that.
+/// Requires at least two channels in a sum that are not zero. Otherwise a channel equal to another one would count as a sum, because
+/// most channels of a tactile skin are zero.
 std::vector<SumCheck::Sum> SumCheck::found() const {
     std::vector<Sum> sums;
-    std::vector<std::size_t> speaking(first_.size() + 1);  // channels below this one with a value other than 0
+    std::vector<std::size_t> active(first_.size() + 1);  // number of channels before this one with a value other than 0
     for (std::size_t c = 0; c < first_.size(); ++c)
-        speaking[c + 1] = speaking[c] + std::any_of(first_[c].begin(), first_[c].end(), [](double x) { return x != 0; });
+        active[c + 1] = active[c] + std::any_of(first_[c].begin(), first_[c].end(), [](double x) { return x != 0; });
     for (std::size_t c = 0; c < first_.size(); ++c)
         for (std::size_t from = 0; from < first_.size(); ++from)
             for (std::size_t to = from + 1; to < first_.size(); ++to)
-                if ((c < from || c > to) && speaking[to + 1] - speaking[from] > 1 && is_sum(c, from, to)) sums.push_back({c, from, to});
+                if ((c < from || c > to) && active[to + 1] - active[from] > 1 && is_sum(c, from, to)) sums.push_back({c, from, to});
     return sums;
 }
 
@@ -144,7 +145,7 @@ HumTable::HumTable(const Clock& clock) {
     if (rate < 2) return;
     const auto length = static_cast<std::size_t>(rate);
     for (std::size_t n = 0; n < length; ++n) {
-        const double at = static_cast<double>(n), window = 1 - num::cos_turns(at / static_cast<double>(length));  // Hann's, its mean 1
+        const double at = static_cast<double>(n), window = 1 - num::cos_turns(at / static_cast<double>(length));  // Hann, mean 1
         Turn turn{};
         for (std::size_t l = 0; l < lines; ++l) {
             const double f = mains[l / 3] + 6 * (static_cast<double>(l % 3) - 1), turns = f / rate * at;
@@ -157,9 +158,9 @@ HumTable::HumTable(const Clock& clock) {
 
 void HumCheck::end_second() {
     const auto n = static_cast<double>(table_.second.size());
-    if (looked_at(second_)) {
+    if (is_examined(second_)) {
         variance_ += squares_ / n - total_ / n * (total_ / n);
-        for (std::size_t l = 0; l < HumTable::lines; ++l) {  // of a line of amplitude A: A^2 / 2
+        for (std::size_t l = 0; l < HumTable::lines; ++l) {  // a sinusoid of amplitude A gives A^2 / 2
             const double re = sum_.re[l] / n, im = sum_.im[l] / n;
             power_[l] += 2 * (re * re + im * im);
         }
@@ -170,7 +171,7 @@ void HumCheck::end_second() {
 void HumCheck::add_folded(double x) {
     if (at_ == 0) first_ = x;
     const double y = x - first_;
-    if (looked_at(second_)) {
+    if (is_examined(second_)) {
         const auto& turn = table_.second[at_];
         for (std::size_t l = 0; l < HumTable::lines; ++l) sum_.re[l] += turn.re[l] * y, sum_.im[l] += turn.im[l] * y;
         total_ += y, squares_ += y * y;
@@ -196,9 +197,9 @@ bool HumCheck::stands_out(std::size_t which) const {
 HumCheck::Hum HumCheck::found() const {
     Hum best;
     for (std::size_t which = 0; which < 2; ++which)
-        if (const double share = variance_ > 0 ? std::min(1.0, power_[3 * which + 1] / variance_) : 0;
-            stands_out(which) && share > best.share)
-            best = {table_.mains[which], share};
+        if (const double fraction = variance_ > 0 ? std::min(1.0, power_[3 * which + 1] / variance_) : 0;
+            stands_out(which) && fraction > best.share)
+            best = {table_.mains[which], fraction};
     return best;
 }
 

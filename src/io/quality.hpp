@@ -1,6 +1,6 @@
 #pragma once
-// How well a channel was recorded, found while it is read, in little memory and whatever the blocks. Long recordings are looked at
-// second by second for the first minutes, then at seconds further and further apart.
+// Detectors of recording faults. They run while a channel is read, with bounded memory, and do not depend on the block size. In a
+// long recording every second is examined at first, later only one second in two, four and so on.
 
 #include <array>
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace corpuscle {
 
-/// Readings that stand alone: on one side of both neighbours and of the median of the seven about them, and far from all three. Torn
-/// readings do so (two in a row are not seen), or taps too short for the rate.
+/// Detects isolated outliers: samples that are far above or far below both neighbours and the median of seven samples. Causes are
+/// transmission errors (two in a row are not detected) or taps too short for the sample rate.
 class StrayCheck {
-    std::vector<double> chunk_;  // the last readings of the chunk at work, at most six
+    std::vector<double> chunk_;  // the last samples of the current chunk, at most six
     LogHistogram off_;           // distances from the median of seven
-    LogHistogram alone_;         // the least of the three distances
-    double least_alone_ = 0;     // the smallest but 0: what the sensor can tell apart
-    std::vector<double> kept_;   // readings ever further apart, for the quartiles
+    LogHistogram alone_;         // the smallest of the three distances
+    double least_alone_ = 0;     // the smallest distance above 0: the resolution of the sensor
+    std::vector<double> kept_;   // samples at increasing intervals, for the quartiles
     std::int64_t seen_ = 0, examined_ = 0, stride_ = 1, next_kept_ = 0;
 
     void examine(std::span<const double>);
@@ -29,11 +29,12 @@ class StrayCheck {
 public:
     void add(std::span<const double>);
     std::int64_t examined() const { return examined_; }
-    /// Of those examined: by more than eight times the usual distance, a tenth of the quartiles' distance, and four of the least steps.
+    /// The number of outliers among the examined samples. Their distance is more than eight times the median distance, a tenth of the
+    /// interquartile range, and four times the resolution.
     std::int64_t count() const;
 };
 
-/// A saturated sensor or converter comes back to its highest value and stays there.
+/// Detects a saturated sensor or converter, which returns to its highest value and stays there.
 class SaturationCheck {
     double highest_ = -1e308, lowest_ = 1e308;
     std::int64_t run_ = 0, runs_ = 0, at_highest_ = 0, seen_ = 0;
@@ -43,10 +44,10 @@ public:
     double highest() const { return highest_; }
     bool varies() const { return lowest_ < highest_; }
     double share() const { return seen_ > 0 ? static_cast<double>(at_highest_) / static_cast<double>(seen_) : 0; }
-    bool likely() const { return runs_ >= 3; }  ///< three times or more held for three readings or more
+    bool likely() const { return runs_ >= 3; }  ///< the highest value was held at least three times for three samples or more
 };
 
-/// Channels that are the sum of neighbouring ones, as totals in a table are: found in its first rows.
+/// Detects channels that are the sum of neighbouring channels, such as totals in a table. Uses the first rows.
 class SumCheck {
     static constexpr std::size_t most_channels = 64, rows = 64;
     std::vector<std::vector<double>> first_;
@@ -56,25 +57,25 @@ public:
     struct Sum {
         std::size_t channel, from, to;
     };
-    /// A block of rows, one vector a channel; `channels`: how many of the vectors are.
+    /// Adds a block with one vector for each channel. Only the first `channels` vectors are channels.
     void add(const std::vector<std::vector<double>>& block, std::size_t channels = most_channels + 1);
     std::vector<Sum> found() const;
 };
 
-/// What the channels of one clock share in looking for hum: windowed sines below, at and above 50 and 60 Hz, a second long.
+/// Tables that all channels of one clock share to detect hum: windowed sines below, at and above 50 and 60 Hz, one second long.
 struct HumTable {
     static constexpr std::size_t lines = 6;
     struct Turn {
         double re[lines], im[lines];
     };
     double mains[2] = {50, 60};
-    std::int64_t fold = 1;  ///< samples taken as one, so that a second has some thousand at the most
+    std::int64_t fold = 1;  ///< decimation factor, so that a second has about a thousand samples at most
     std::vector<Turn> second;
     explicit HumTable(const Clock&);
     bool sees(std::size_t which) const { return static_cast<double>(second.size()) > 2.2 * mains[which]; }
 };
 
-/// The share of a line at 50 or 60 Hz, if it stands out of its surroundings, in what varies within a second.
+/// Detects mains hum: the fraction of the variance within a second that is at 50 or 60 Hz, if it exceeds the adjacent frequencies.
 class HumCheck {
     const HumTable& table_;
     HumTable::Turn sum_{};
@@ -90,7 +91,7 @@ class HumCheck {
 public:
     explicit HumCheck(const HumTable& table) : table_(table) {}
     void add(std::span<const double>);
-    /// Which of the two mains there is, and its share; {0, 0}: none.
+    /// The mains frequency and its fraction of the variance. {0, 0} if there is no hum.
     struct Hum {
         double frequency = 0, share = 0;
     };

@@ -21,9 +21,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t most_channels = std::size_t{1} << 17;
+constexpr std::size_t max_channels = std::size_t{1} << 17;
 
-/// "press" of "trials/press.csv.gz"
+/// The name of a recording: "press" for "trials/press.csv.gz".
 std::string name_of_recording(const std::filesystem::path& path) {
     return (lower(path.extension().string()) == ".gz" ? path.stem().stem() : path.stem()).string();
 }
@@ -35,12 +35,12 @@ class Recording final : public Source {
     RowClock row_clock_;
     Clock clock_;
     std::vector<Channel> channels_;
-    std::unordered_map<std::string, int> called_;        // how many channels have a name
-    std::vector<std::string> remarks_, choice_remarks_;  // the latter: of the columns chosen
+    std::unordered_map<std::string, int> name_counts_;  // number of channels with each name
+    std::vector<std::string> notes_, selection_notes_;  // selection_notes_: about the selected columns
     std::unique_ptr<HumTable> hum_table_;
     std::optional<ForceRows> rows_;
-    std::int64_t row_number_ = 0, samples_ = 0;  // rows taken, samples given so far
-    // when resampling: the rows before and at the instant looked for
+    std::int64_t row_number_ = 0, samples_ = 0;  // rows read and samples returned so far
+    // for resampling: the rows before and at (or after) the next sample time
     std::vector<double> before_, at_;
     double t_before_ = 0, t_at_ = 0;
     std::int64_t next_ = 0;
@@ -50,11 +50,12 @@ class Recording final : public Source {
         if (!options_.layout.empty()) {
             auto layout = read_layout(options_.layout, *table_, time);
             if (!layout) return layout.error();
-            if (!layout->metres) remarks_.push_back("the layout gives no unit of length: only the pattern of the sensors is meant");
+            if (!layout->metres)
+                notes_.push_back("the layout has no unit of length, so only the relative positions of the sensors are used");
             if (options_.channels.empty()) return std::move(layout->sensors);
             chosen = std::move(layout->sensors);
         }
-        const auto columns = choose_columns(*table_, time, options_.channels, path_, &choice_remarks_);
+        const auto columns = choose_columns(*table_, time, options_.channels, path_, &selection_notes_);
         if (!columns) return columns.error();
         std::vector<Placed> out;
         for (const auto c : *columns) {
@@ -69,7 +70,7 @@ class Recording final : public Source {
         if (!rows) return rows.error();
         row_clock_ = std::move(*rows);
         clock_ = row_clock_.clock;
-        remarks_.insert(remarks_.end(), row_clock_.remarks.begin(), row_clock_.remarks.end());
+        notes_.insert(notes_.end(), row_clock_.remarks.begin(), row_clock_.remarks.end());
         if (!options_.resample) return {};
         const auto even = clock_of(*options_.resample, clock_.t0);
         if (!even) return even.error();
@@ -81,15 +82,15 @@ class Recording final : public Source {
         const auto& column = table_->columns()[placed.column];
         if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
         if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
-            remarks_.push_back(
-                fmt::format("the header says '{}' is in {}; read as {}, as --unit says", column.name, column.unit, *options_.unit));
+            notes_.push_back(
+                fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options_.unit, column.name, column.unit));
         const auto& name = placed.name.empty() ? column.name : placed.name;
-        const int same = ++called_[name];
+        const int same = ++name_counts_[name];
         channels_.push_back(
             {static_cast<std::uint32_t>(channels_.size()), same == 1 ? name : fmt::format("{} ({})", name, same), placed.position});
     }
 
-    /// Newtons per unit of each channel, before anything is read: a unit that is no force is soon told.
+    /// Newtons per unit of each channel. Computed before reading, so that a unit that is not a force is reported at once.
     Result<std::vector<double>> gains_of(const std::vector<Placed>& chosen) const {
         std::vector<double> gains;
         for (const auto& placed : chosen) {
@@ -100,7 +101,7 @@ class Recording final : public Source {
         return gains;
     }
 
-    /// Of a table without names for its columns, which knows no better: more channels than samples are likely to be samples.
+    /// Warns if there are more channels than samples and the columns have no names: the table may have to be transposed.
     void doubt_orientation(Quality& quality) const {
         const auto& columns = table_->columns();
         const auto samples = samples_;
@@ -112,12 +113,12 @@ class Recording final : public Source {
         };
         if (table_->orientation_is_known() || !std::all_of(columns.begin(), columns.end(), is_numbered)) return;
         quality.warnings.push_back(
-            fmt::format("{} columns, and only {} rows: --transpose takes each row as a channel, --no-transpose says "
-                        "that each is a sample",
+            fmt::format("{} columns, but only {} rows. Use --transpose if each row is a channel, or --no-transpose if each row is "
+                        "a sample",
                         columns.size(), samples));
     }
 
-    /// A time with the unit or the afferent that fired then.
+    /// True if the table has the columns of a spike file: a time, and the afferent or unit that fired.
     bool holds_spikes(std::optional<std::size_t> time) const {
         const auto& columns = table_->columns();
         return time && options_.channels.empty() && columns.size() <= 3 && std::any_of(columns.begin(), columns.end(), [](const Column& c) {
@@ -130,10 +131,10 @@ class Recording final : public Source {
         std::vector<std::string> unitless;
         for (const auto& placed : chosen) add_channel(placed, unitless);
         if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
-        if (!unitless.empty()) remarks_.push_back(fmt::format("no unit for {}: taken as newtons", fmt::join(unitless, ", ")));
+        if (!unitless.empty()) notes_.push_back(fmt::format("no unit for {}: assuming newtons", fmt::join(unitless, ", ")));
     }
 
-    /// The filters run on the rows, if these are evenly spaced, else on what is made of them.
+    /// The filters run on the rows if these are evenly spaced, and otherwise on the resampled rows.
     Result<std::vector<ChannelPath>> paths_of(const std::vector<double>& gains) {
         hum_table_ = std::make_unique<HumTable>(clock_);
         const bool even = !row_clock_.by_times;
@@ -197,22 +198,22 @@ public:
     Result<void> open() {
         const auto time = choose_time(*table_, options_.time, path_);
         if (!time) return time.error();
-        remarks_ = table_->remarks();
+        notes_ = table_->remarks();
         if (*time && *time == table_->time_column())
-            for (auto& remark : table_->time_remarks()) remarks_.push_back(std::move(remark));
-        if (holds_spikes(*time)) return bad_input("this is a file of spikes, not of force; 'corpuscle compare' reads it", {path_});
+            for (auto& note : table_->time_remarks()) notes_.push_back(std::move(note));
+        if (holds_spikes(*time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
         const auto chosen = choose(*time);
         if (!chosen) return chosen.error();
-        if (chosen->size() > most_channels)
-            return bad_input(
-                fmt::format("{} channels are more than {} at a time; --channel 1-1000 takes some of them", chosen->size(), most_channels),
-                {path_});
+        if (chosen->size() > max_channels)
+            return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen->size(),
+                                         max_channels),
+                             {path_});
         const auto gains = gains_of(*chosen);
         if (!gains) return gains.error();
         std::vector<std::size_t> columns;
         for (const auto& p : *chosen) columns.push_back(p.column);
         if (auto ok = set_clock(*time, columns); !ok) return ok;
-        remarks_.insert(remarks_.end(), choice_remarks_.begin(), choice_remarks_.end());
+        notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
         add_channels(*chosen);
         auto paths = paths_of(*gains);
         if (!paths) return paths.error();
@@ -243,10 +244,10 @@ public:
         return all;
     }
     std::string sentence() const override {
-        return fmt::format("{} of {}, at {:g} Hz", channels_.size() == 1 ? "a channel" : fmt::format("{} channels", channels_.size()),
+        return fmt::format("{} of {} at {:g} Hz", channels_.size() == 1 ? "a channel" : fmt::format("{} channels", channels_.size()),
                            std::filesystem::path(path_).filename().string(), clock_.rate());
     }
-    std::vector<std::string> remarks() const override { return remarks_; }
+    std::vector<std::string> remarks() const override { return notes_; }
     Quality quality() const override {
         auto found = verdict(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
         doubt_orientation(found);
@@ -261,7 +262,8 @@ public:
             rows_->paths()[c].complete(force);
             if (const auto bad = first_not_finite(force); bad < force.size())
                 return bad_input(
-                    fmt::format("'{}': sample {} comes out as no finite number: a reading is too large for --scale or the filters",
+                    fmt::format("'{}': sample {} is not finite after processing: a value in the file is too large for --scale or the "
+                                "filters",
                                 channels_[c].name, samples_ + static_cast<std::int64_t>(bad)),
                     {path_});
         }
@@ -281,11 +283,12 @@ const Format& format_of_recording(const std::string& path) {
 }  // namespace
 
 Result<std::unique_ptr<Source>> open_recording(const std::string& path, const RecordingOptions& options) {
-    if (options.unit && options.scale && *options.unit != "raw") return bad_usage("--unit and --scale both say what is read: give one");
+    if (options.unit && options.scale && *options.unit != "raw")
+        return bad_usage("--unit and --scale exclude each other: both convert the values to newtons");
     const auto& format = format_of_recording(path);
     if (options.table.skip > 0 && format.name != "text")
-        return bad_usage(fmt::format("--skip {}: lines are of files of text, and {} is {}", options.table.skip, path, format.name));
-    if (format.name != "text") {  // MATLAB's older files are called as its HDF5 files are
+        return bad_usage(fmt::format("--skip {}: only text files have lines to skip, and {} is {}", options.table.skip, path, format.name));
+    if (format.name != "text") {  // older MATLAB files have the same extension as its HDF5 files
         const auto first = first_bytes_of_input(path, 512);
         if (auto refusal = foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
     }

@@ -1,5 +1,5 @@
 #pragma once
-// A recording as a source of force: which columns, in which unit, on which clock.
+// A recording as a source of force: its columns, units and clock.
 
 #include <functional>
 #include <memory>
@@ -14,32 +14,32 @@
 
 namespace corpuscle {
 
-/// What becomes of a field that is no number, and of a reading outside the range.
+/// The treatment of non-numeric fields and of samples outside the range.
 enum class BadFields { error, drop, interpolate };
 
 struct RecordingOptions {
-    TableOptions table = {};                              ///< which array of the file
-    std::vector<std::string> channels = {};               ///< names, numbers or ranges ("fbg11", "3", "2-5"); empty: all but the time
-    std::optional<std::string> time = {};                 ///< the time column's name or number, or "none"; else as the file shows it
-    std::optional<std::string> time_unit = {};            ///< of the time column; else the header's, else seconds
-    std::optional<double> rate = {};                      ///< Hz: samples are this evenly spaced, whatever the time column says
-    std::optional<double> resample = {};                  ///< Hz: interpolated to this rate by straight lines
-    std::optional<std::string> unit = {};                 ///< "N", "mN", "gf", "kgf" or "raw"; else the header's
-    std::optional<double> scale = {};                     ///< what is read, times this, is newtons
-    bool absolute = false;                                ///< of what is read, before all else
-    double offset = 0;                                    ///< what is read where there is no force
-    std::optional<std::pair<double, double>> range = {};  ///< what may be read; the rest is bad
-    std::optional<BadFields> bad_fields = {};             ///< none said: fields that are no numbers are errors, the rest is interpolated
+    TableOptions table = {};
+    std::vector<std::string> channels = {};               ///< names, numbers or ranges ("fbg11", "3", "2-5"); empty: all except the time
+    std::optional<std::string> time = {};                 ///< name or number of the time column, or "none"; default: as in the file
+    std::optional<std::string> time_unit = {};            ///< default: the unit in the header, or seconds
+    std::optional<double> rate = {};                      ///< Hz; takes the samples as evenly spaced and ignores the times
+    std::optional<double> resample = {};                  ///< Hz; interpolates linearly to this rate
+    std::optional<std::string> unit = {};                 ///< "N", "mN", "gf", "kgf" or "raw"; default: the unit in the header
+    std::optional<double> scale = {};                     ///< newtons per unit of the values in the file
+    bool absolute = false;                                ///< takes the absolute value first
+    double offset = 0;                                    ///< the value in the file at zero force
+    std::optional<std::pair<double, double>> range = {};  ///< valid values in the file; others are bad
+    std::optional<BadFields> bad_fields = {};             ///< default: a non-numeric field is an error, other bad values are interpolated
     std::optional<Despike> despike = {};
     std::vector<double> notch = {};      ///< Hz
     std::optional<double> lowpass = {};  ///< Hz
-    std::string layout = {};             ///< a file that names the sensors and says where they sit; "": none
-    /// Called once a block of a first pass through the file with the share done; false stops it.
+    std::string layout = {};             ///< path of a file with the names and positions of the sensors; "": none
+    /// Called for each block of the first pass through the file, with the fraction done. Returning false stops it.
     std::function<bool(double)> keep_on = [](double) { return true; };
 };
 
-/// Opens a file in one of the formats (formats.hpp). A unit that is no force needs a scale; an uneven clock needs `rate` or
-/// `resample`. The file is read twice if it has a time column: once for its clock.
+/// Opens a recording in one of the formats of recording_formats.hpp. A unit that is not a force requires a scale. An uneven clock
+/// requires `rate` or `resample`. A file with a time column is read twice, first to determine its clock.
 Result<std::unique_ptr<Source>> open_recording(const std::string& path, const RecordingOptions&);
 
 }  // namespace corpuscle

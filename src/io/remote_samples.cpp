@@ -15,18 +15,18 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t most_numbers_in_answer = std::size_t{1} << 17;  // unless a row has more
+constexpr std::size_t max_numbers_in_response = std::size_t{1} << 17;  // at least one row is sent
 
 class RemoteSamples final : public Samples {
     std::string path_, library_;
     HelperProcess helper_;
-    SamplesFacts facts_;
+    SamplesFacts info_;
 
-    Result<void> fetch_piece(const FetchRequest& request, std::size_t done, std::vector<std::vector<double>>& out) {
+    Result<void> fetch_part(const FetchRequest& request, std::size_t done, std::vector<std::vector<double>>& out) {
         helper_.ask(encode(request));
-        auto answer = helper_.answer(path_, library_);
-        if (!answer) return answer.error();
-        return decode_rows(*answer, done, request.rows, out, path_);
+        auto response = helper_.answer(path_, library_);
+        if (!response) return response.error();
+        return decode_rows(*response, done, request.rows, out, path_);
     }
 
 public:
@@ -35,30 +35,30 @@ public:
 
     Result<void> open(const TableOptions& options) {
         helper_.ask(encode(OpenRequest{path_, options}));
-        auto answer = helper_.answer(path_, library_);
-        if (!answer) return answer.error();
-        auto facts = decode_facts(*answer, path_);
-        if (!facts) return facts.error();
-        facts_ = *std::move(facts);
+        auto response = helper_.answer(path_, library_);
+        if (!response) return response.error();
+        auto info = decode_facts(*response, path_);
+        if (!info) return info.error();
+        info_ = *std::move(info);
         return {};
     }
 
-    const SamplesFacts& facts() const override { return facts_; }
+    const SamplesFacts& facts() const override { return info_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
-        const std::size_t most = std::max<std::size_t>(1, most_numbers_in_answer / std::max<std::size_t>(1, wanted.size()));
+        const std::size_t max_rows = std::max<std::size_t>(1, max_numbers_in_response / std::max<std::size_t>(1, wanted.size()));
         FetchRequest request{0, 0, {wanted.begin(), wanted.end()}};
         for (std::size_t done = 0; done < rows; done += request.rows) {
             request.first = static_cast<std::uint64_t>(first) + done;
-            request.rows = std::min(most, rows - done);
-            if (auto ok = fetch_piece(request, done, out); !ok) return ok;
+            request.rows = std::min(max_rows, rows - done);
+            if (auto ok = fetch_part(request, done, out); !ok) return ok;
         }
         return {};
     }
 };
 
-/// An open file, for as long as it takes to hand it on.
+/// An open file descriptor, until it is passed to the child.
 class OpenedFile {
     int number_;
 

@@ -1,20 +1,20 @@
 #pragma once
-// Samples read by a helper program.
+// Samples that a helper program reads.
 
 #include "io/samples.hpp"
 
 namespace corpuscle {
 
-/// The helper program that reads a kind of file.
+/// The helper program for one file format.
 struct Reader {
     std::string program;  ///< "corpuscle-hdf5"
-    std::string library;  ///< begins a sentence about what went wrong: "the HDF5 library"
+    std::string library;  ///< the library's name, with which error messages begin: "the HDF5 library"
 };
 
-/// Starts the program; it reads this file until the samples are destroyed.
+/// Starts the program, which reads this file until the samples are destroyed.
 SamplesResult remote_samples(const std::string& path, const Reader&, const TableOptions& = {});
 
-/// The same through the program at this path.
+/// The same with the program at the path `program`.
 SamplesResult remote_samples_by(const std::string& program, const std::string& path, const Reader&, const TableOptions& = {});
 
 }  // namespace corpuscle

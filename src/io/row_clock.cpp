@@ -19,13 +19,13 @@ std::string steps(const ClockCheck& c) {
     return fmt::format("steps from {} to {}", format_quantity(c.least_step(), "s"), format_quantity(c.longest_step(), "s"));
 }
 
-struct Times : ClockCheck {
-    std::optional<Error> twice;  ///< where a time first stands twice
+struct TimeCheck : ClockCheck {
+    std::optional<Error> duplicate;  ///< an error for the first time that occurs twice
 };
 
-/// One pass over the times; they may go back only where the rows' own times do not matter.
-Result<Times> check_times(Table& table, Rows rows, const RowClock& clock, const RecordingOptions& options) {
-    Times check;
+/// Reads all times once. They may decrease only if --rate replaces them.
+Result<TimeCheck> check_times(Table& table, Rows rows, const RowClock& clock, const RecordingOptions& options) {
+    TimeCheck check;
     std::vector<std::vector<double>> block;
     for (double last = 0;;) {
         const auto count = rows.next(block);
@@ -39,13 +39,13 @@ Result<Times> check_times(Table& table, Rows rows, const RowClock& clock, const 
             }
             if (check.count() > 0 && t < last && !options.rate) {
                 const auto trials = table.one_trial(rows.table_row(k));
-                return bad_input(fmt::format("time goes back, from {:g} s to {:g} s{}", last, t,
-                                             trials.empty() ? "; --rate takes the rows as evenly spaced" : ": " + trials),
+                return bad_input(fmt::format("the time decreases from {:g} s to {:g} s{}", last, t,
+                                             trials.empty() ? "; use --rate to take the rows as evenly spaced" : ": " + trials),
                                  rows.place(k));
             }
-            if (check.count() > 0 && t == last && !check.twice)
-                check.twice =
-                    bad_input(fmt::format("the time {:g} s stands twice; --rate takes the rows as evenly spaced", t), rows.place(k));
+            if (check.count() > 0 && t == last && !check.duplicate)
+                check.duplicate =
+                    bad_input(fmt::format("the time {:g} s occurs twice; use --rate to take the rows as evenly spaced", t), rows.place(k));
             check.add(last = t);
         }
         if (!options.keep_on(table.done())) return Error{Code::interrupted, "interrupted"};
@@ -54,89 +54,91 @@ Result<Times> check_times(Table& table, Rows rows, const RowClock& clock, const 
     return check;
 }
 
-std::string uneven(const std::string& name, const ClockCheck& c) {
+std::string uneven_message(const std::string& name, const ClockCheck& c) {
     const double mean = 1 / c.mean_step();
     return fmt::format(
-        "the times in '{}' are not evenly spaced: mean rate {}, {}, samples off their place by up to {}. Say --rate {:.5g}Hz to take the "
-        "samples as evenly spaced{}",
+        "the times in '{}' are not evenly spaced: mean rate {}, {}, jitter up to {}. Use --rate {:.5g}Hz to take the samples as evenly "
+        "spaced{}",
         name, hertz(mean), steps(c), format_quantity(c.spread(), "s"), mean,
         c.least_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean)))
                            : "");
 }
 
-/// The clock that `rate` gives, with what the times say against it.
-Result<Clock> by_rate(double rate, const std::string& name, const ClockCheck& times, std::vector<std::string>& remarks) {
+/// The clock of the given rate. Adds a note if the times contradict it.
+Result<Clock> clock_by_rate(double rate, const std::string& name, const ClockCheck& times, std::vector<std::string>& notes) {
     if (times.count() > 1 && times.least_step() < 0)
-        remarks.push_back(
-            fmt::format("the times in '{}' go back (by {} or less), as those of several trials one under another do; --rate takes all "
-                        "rows as one recording",
+        notes.push_back(
+            fmt::format("the times in '{}' decrease (by up to {}), as in a file with several trials; with --rate all rows are one "
+                        "recording",
                         name, format_quantity(-times.least_step(), "s")));
     else if (times.count() > 1 && std::abs(times.mean_step() * rate - 1) > 0.01)
-        remarks.push_back(
-            fmt::format("--rate says {}, the times in '{}' say {} on the mean", hertz(rate), name, hertz(1 / times.mean_step())));
+        notes.push_back(
+            fmt::format("--rate is {}, but the mean rate of the times in '{}' is {}", hertz(rate), name, hertz(1 / times.mean_step())));
     else if (times.count() > 1 && !times.even())
-        remarks.push_back(
-            fmt::format("the uneven times in '{}' ({}) were replaced by an even clock of {}", name, steps(times), hertz(rate)));
+        notes.push_back(fmt::format("the uneven times in '{}' ({}) were replaced by an even clock of {}", name, steps(times), hertz(rate)));
     return clock_of(rate, times.first());
 }
 
-/// The clock that the times themselves give; by_times if they are to be interpolated.
-Result<Clock> by_own_times(const std::string& name, const Times& times, const RecordingOptions& options, RowClock& out) {
-    if (times.count() == 1) return bad_input("one sample has no rate of its own; say --rate, such as --rate 1kHz");
-    if (!(times.mean_step() > 0)) return bad_input(fmt::format("the times in '{}' do not advance; say --rate, such as --rate 1kHz", name));
+/// The clock that follows from the times. Sets out.uses_row_times if the rows must be interpolated.
+Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, const RecordingOptions& options, RowClock& out) {
+    if (times.count() == 1) return bad_input("a single sample has no rate; give one, such as --rate 1kHz");
+    if (!(times.mean_step() > 0))
+        return bad_input(fmt::format("the times in '{}' do not increase; give a rate, such as --rate 1kHz", name));
     if (times.even()) return times.clock();
-    if (!options.resample) return bad_input(uneven(name, times));
-    if (times.twice) return *times.twice;
+    if (!options.resample) return bad_input(uneven_message(name, times));
+    if (times.duplicate) return *times.duplicate;
     out.by_times = true;
     out.remarks.push_back(
         fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, steps(times), hertz(*options.resample)));
     return clock_of(*options.resample, times.first());
 }
 
-/// With --rate the times need not be readable: what was wrong with them is told, and the rows count from 0 s.
-Result<RowClock> without_times(Table& table, double rate, const Error& why, RowClock& out) {
+/// With --rate the times need not be readable. Notes the problem, and the rows start at 0 s.
+Result<RowClock> without_times(Table& table, double rate, const Error& problem, RowClock& out) {
     if (auto ok = table.rewind(); !ok) return ok.error();
-    out.remarks.push_back(
-        fmt::format("the times were not read ({}); the rows count from 0 s", why.sentence.substr(0, why.sentence.find("; --"))));
+    out.remarks.push_back(fmt::format("the times were ignored ({}); the recording starts at 0 s",
+                                      problem.sentence.substr(0, std::min({problem.sentence.find("; --"), problem.sentence.find("; use "),
+                                                                           problem.sentence.find("; give ")}))));
     const auto clock = clock_of(rate);
     if (!clock) return clock.error();
     out.clock = *clock;
     return out;
 }
 
-/// Times without a unit are seconds; a rate that no sensor of force has is told.
+/// Times without a unit are taken as seconds. Adds a note if that gives an implausible rate for a force sensor.
 void doubt_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, bool is_dated,
-                   std::vector<std::string>& remarks) {
+                   std::vector<std::string>& notes) {
     const double rate = clock.rate();
     if (!column.unit.empty() || options.time_unit || options.rate || is_dated || (rate >= 5 && rate <= 1e6)) return;
     const auto [unit, word] = rate > 1e6     ? std::pair{"min", "minutes"}
                               : rate >= 5e-3 ? std::pair{"ms", "milliseconds"}
                               : rate >= 5e-6 ? std::pair{"us", "microseconds"}
                                              : std::pair{"ns", "nanoseconds"};
-    remarks.push_back(fmt::format("no unit for '{}': taken as seconds, which makes {}; say --time-unit {} if they are {}{}", column.name,
-                                  hertz(rate), unit, word, rate > 1e6 ? ", or the true rate with --rate" : ""));
+    notes.push_back(fmt::format("no unit for '{}': assuming seconds, which gives a rate of {}; use --time-unit {} if they are {}{}",
+                                column.name, hertz(rate), unit, word, rate > 1e6 ? ", or give the true rate with --rate" : ""));
 }
 
-/// Days as spreadsheets count them (1968 to 2118) or MATLAB does (1889 to 2160), where the same numbers as seconds would make more than
-/// 100 kHz.
+/// Recognises serial days of spreadsheets (1968 to 2118) or MATLAB (1889 to 2160), if the same numbers in seconds would give a rate
+/// above 100 kHz.
 bool find_serial_days(const std::vector<double>& times, double step, const std::string& name, RowClock& out) {
     const double first = times[0];
     const bool spreadsheet = first >= 25'000 && first < 80'000, matlab = first >= 690'000 && first < 790'000;
     if (!(spreadsheet || matlab) || !(step > 0 && step < 1e-5)) return false;
     constexpr double day = 86'400;
     out.seconds_per_unit = day, out.origin = first;
-    out.remarks.push_back(fmt::format("the times in '{}' are days as {} counts them; 0 s is {}, the first of them", name,
+    out.remarks.push_back(fmt::format("the times in '{}' are serial days of {}; 0 s is {}, the first time", name,
                                       spreadsheet ? "a spreadsheet" : "MATLAB",
                                       format_instant((first - (spreadsheet ? 25'569 : 719'529)) * day)));
     return true;
 }
 
-/// Times since 1970 (2001 to 2065), by their size and step: in s, ms, us or ns, and counted from the first. Also serial days.
+/// Recognises times since 1970 (from 2001 to 2065) in s, ms, us or ns by their magnitude and step, and serial days. The first time
+/// becomes 0 s.
 Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit_is_known, RowClock& out) {
     std::vector<std::vector<double>> first(1);
     const auto rows = table.read({column}, 64, first);
     if (auto ok = table.rewind(); !ok) return ok;
-    if (!rows) return {};  // the error is met again where all are read
+    if (!rows) return {};  // check_times() will report the error
     std::vector<double> times;
     for (std::size_t k = 0; k < *rows; ++k)
         if (std::isfinite(first[0][k])) times.push_back(first[0][k]);
@@ -147,7 +149,7 @@ Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit
         const double factor = unit_is_known ? unit : seconds, since = times[0] * factor;
         if (!(since >= 1e9 && since < 3e9 && step >= 0 && step * factor <= 10)) continue;
         out.seconds_per_unit = factor, out.origin = times[0];
-        out.remarks.push_back(fmt::format("the times in '{}' are {} since 1970; 0 s is {} (UTC), the first of them",
+        out.remarks.push_back(fmt::format("the times in '{}' are {} since 1970; 0 s is {} (UTC), the first time",
                                           table.columns()[column].name, unit_is_known ? "counted" : name, format_instant(since)));
         return {};
     }
@@ -165,7 +167,7 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
             std::vector<std::string> names;
             for (const auto& c : table.columns()) names.push_back(c.name);
             if (names.size() > 12) names.resize(12), names.push_back("...");
-            return bad_input(fmt::format("there is no time column (there are {}); name it with --time, or say --rate, such as --rate 1kHz",
+            return bad_input(fmt::format("no time column found (columns: {}); name one with --time, or give a rate, such as --rate 1kHz",
                                          fmt::join(names, ", ")),
                              {path});
         }
@@ -176,31 +178,31 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     }
     out.column = column;
     if (!options.time && table.time_is_guessed())
-        out.remarks.push_back("no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
+        out.remarks.push_back("no header: the first column increases evenly and is taken as the time (use --time none if it is a channel)");
     const auto unit = seconds_per_unit(table.columns()[*out.column], options, path);
     const bool drop = options.bad_fields == BadFields::drop;
     if (unit) {
         const auto& heading = table.columns()[*column];
         out.seconds_per_unit = *unit;
         if (options.time_unit && !heading.unit.empty() && *options.time_unit != heading.unit)
-            out.remarks.push_back(fmt::format("the header says '{}' is in {}; read as {}, as --time-unit says", heading.name, heading.unit,
-                                              *options.time_unit));
-        Rows rows(table, options, {}, column);  // says whether gaps are allowed
+            out.remarks.push_back(
+                fmt::format("--time-unit {} overrides the unit of '{}' in the header, {}", *options.time_unit, heading.name, heading.unit));
+        Rows rows(table, options, {}, column);  // sets whether the table allows gaps
         if (!heading.stamps)
             if (auto ok = find_epoch(table, *column, *unit, options.time_unit || !heading.unit.empty(), out); !ok) return ok.error();
     }
     const auto times = unit ? check_times(table, Rows(table, options, drop ? channels : std::vector<std::size_t>(), column), out, options)
-                            : Result<Times>(unit.error());
+                            : Result<TimeCheck>(unit.error());
     if (!times && times.error().code == Code::interrupted) return times.error();
     if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
     if (times->count() < 1 && options.rate && drop)
-        return without_times(table, *options.rate, bad_input(fmt::format("'{}' holds none", table.columns()[*column].name)), out);
+        return without_times(table, *options.rate, bad_input(fmt::format("'{}' holds no times", table.columns()[*column].name)), out);
     out.drops_untimed = drop;
-    if (times->gaps() * 20 < times->count()) out.gaps = times->gaps();  // more than that is how this clock runs
+    if (times->gaps() * 20 < times->count()) out.gaps = times->gaps();  // more gaps than that are normal for this clock
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.column].name;
-    auto clock = options.rate ? by_rate(*options.rate, name, *times, out.remarks) : by_own_times(name, *times, options, out);
+    auto clock = options.rate ? clock_by_rate(*options.rate, name, *times, out.remarks) : clock_by_times(name, *times, options, out);
     if (!clock) return bad_input(clock.error().sentence, clock.error().place.file.empty() ? Place{path} : clock.error().place);
     out.clock = *clock;
     doubt_seconds(table.columns()[*out.column], options, out.clock, out.origin != 0, out.remarks);

@@ -1,5 +1,5 @@
 #pragma once
-// When each row of a table was sampled: from its time column, or from the rate that the user gives.
+// Determines when each row of a table was sampled, from its time column or from the rate that the user gives.
 
 #include <optional>
 #include <string>
@@ -11,11 +11,11 @@
 namespace corpuscle {
 
 struct RowClock {
-    std::optional<std::size_t> column;  ///< of the time
-    double seconds_per_unit = 1;        ///< of that column
-    double origin = 0;                  ///< of that column, in its unit: what counts as 0 s
-    bool by_times = false;              ///< rows stand at their own uneven times; else on the clock
-    bool drops_untimed = false;         ///< rows whose time is not readable are left out
+    std::optional<std::size_t> column;  ///< the time column
+    double seconds_per_unit = 1;        ///< unit of the time column
+    double origin = 0;                  ///< the time in that column that becomes 0 s
+    bool by_times = false;              ///< true: rows have their own, uneven times; false: rows follow `clock`
+    bool drops_untimed = false;         ///< rows without a readable time are dropped
     Clock clock;
     std::int64_t gaps = 0;  ///< steps longer than one and a half times the median step
     std::vector<std::string> remarks;
@@ -23,8 +23,8 @@ struct RowClock {
     double seconds(double time) const { return (time - origin) * seconds_per_unit; }
 };
 
-/// Reads the table once for its times, if it has some, and rewinds it. An uneven clock needs `rate` or `resample`.
-/// Rows that are dropped for what stands in `channels` do not count.
+/// Reads all times of the table, if it has a time column, and rewinds it. An uneven clock requires `rate` or `resample`.
+/// Rows that are dropped because of a bad value in `channels` do not count.
 Result<RowClock> find_row_clock(Table&, const RecordingOptions&, const std::string& path, std::optional<std::size_t> time,
                                 const std::vector<std::size_t>& channels);
 

@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-/// Fewer rows at a time where there are many columns: some 32 MB, whatever their number.
+/// The number of rows per block. It is smaller for many columns, so that a block takes about 32 MB at most.
 std::size_t rows_for(std::size_t columns) { return std::clamp<std::size_t>((std::size_t{1} << 22) / (columns + 1), 1, rows_a_block); }
 
 }  // namespace
@@ -18,7 +18,7 @@ Rows::Rows(Table& table, const RecordingOptions& options, std::vector<std::size_
     table_.allow_gaps(options_.bad_fields.value_or(BadFields::error) != BadFields::error);
 }
 
-/// Readings out of range become gaps, or an error if the user asked for errors.
+/// Values out of range become gaps, or an error with --bad-fields error.
 Result<void> Rows::take_out(std::size_t rows, std::vector<std::vector<double>>& block) {
     if (!options_.range) return {};
     const auto [low, high] = *options_.range;
@@ -35,7 +35,7 @@ Result<void> Rows::take_out(std::size_t rows, std::vector<std::vector<double>>& 
     return {};
 }
 
-/// Moves the rows without gaps together; gives their number.
+/// Removes rows with gaps from the block. Returns the number of remaining rows.
 std::size_t Rows::keep_whole(std::size_t rows, std::vector<std::vector<double>>& block) {
     std::size_t kept = 0;
     places_.clear();

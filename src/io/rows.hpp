@@ -1,6 +1,6 @@
 #pragma once
-// The rows of a table as they are to be used: absolute values, what is out of range taken out, bad rows refused, dropped or left
-// as gaps (NaN).
+// Reads the rows of a table: takes absolute values, removes values out of range, and rejects bad rows, drops them or marks them as
+// gaps (NaN).
 
 #include <vector>
 
@@ -11,24 +11,24 @@ namespace corpuscle {
 class Rows {
     Table& table_;
     const RecordingOptions& options_;
-    std::vector<std::size_t> columns_;  // channels, then the time if there is one
+    std::vector<std::size_t> columns_;  // the channels, followed by the time column if there is one
     std::size_t channels_;
-    std::vector<std::size_t> places_;  // in the table's last block, of the rows kept
+    std::vector<std::size_t> places_;  // index of each row in the table's last block
 
     bool drops() const { return options_.bad_fields == BadFields::drop; }
     Result<void> take_out(std::size_t rows, std::vector<std::vector<double>>& block);
     std::size_t keep_whole(std::size_t rows, std::vector<std::vector<double>>& block);
 
 public:
-    /// With a time column, its readings stand behind the channels'.
+    /// If there is a time column, it follows the channels in each block.
     Rows(Table&, const RecordingOptions&, std::vector<std::size_t> channels, std::optional<std::size_t> time);
 
-    /// The next rows, at most `rows_a_block`; none at the end. Every vector of the block is cut to their number.
+    /// Reads the next rows, at most `rows_per_block`, and resizes the vectors of the block to their number. Returns 0 at the end.
     Result<std::size_t> next(std::vector<std::vector<double>>& block);
 
-    /// Where row `row` of the last block stands.
+    /// The location of row `row` of the last block.
     Place place(std::size_t row) const { return table_.place(table_row(row)); }
-    /// Its number in the table's last block.
+    /// The index of row `row` in the table's last block.
     std::size_t table_row(std::size_t row) const { return drops() ? places_[row] : row; }
 
     std::int64_t out_of_range = 0, dropped = 0;

@@ -13,30 +13,30 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::uint64_t most_columns = std::uint64_t{1} << 20;
-constexpr std::size_t most_numbers_looked_at = std::size_t{1} << 22;
+constexpr std::uint64_t max_columns = std::uint64_t{1} << 20;
+constexpr std::size_t max_inspected_numbers = std::size_t{1} << 22;
 
 class SamplesTable final : public Table {
     std::string path_;
     std::unique_ptr<Samples> samples_;
     std::vector<Column> columns_;
     ColumnRoles roles_;
-    std::int64_t block_ = 0, next_ = 0;  // rows: where the last block begins, and where the next
+    std::int64_t block_ = 0, next_ = 0;  // first row of the last block and of the next block
 
-    const SamplesFacts& facts() const { return samples_->facts(); }
+    const SamplesFacts& info() const { return samples_->facts(); }
 
-    /// Infinities are gaps, too.
+    /// Turns infinities into gaps too. Without allowed gaps, returns an error.
     Result<void> check(std::vector<double>& values, std::size_t column) {
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (std::isfinite(values[k])) continue;
             const auto field = gaps_allowed_ ? std::nullopt : samples_->place_of(next_ + static_cast<std::int64_t>(k), column);
             if (field)
-                return bad_input(fmt::format("field {} is no number; --bad-fields interpolate fills it in, --bad-fields drop leaves this "
-                                             "sample out of every channel",
+                return bad_input(fmt::format("field {} is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop "
+                                             "to skip this sample in all channels",
                                              field->field),
                                  field->place);
             if (!gaps_allowed_)
-                return bad_input(fmt::format("row {}: column '{}': {} where a number should be", next_ + static_cast<std::int64_t>(k) + 1,
+                return bad_input(fmt::format("row {}: column '{}': {} where a number is expected", next_ + static_cast<std::int64_t>(k) + 1,
                                              columns()[column].name, values[k]),
                                  {path_});
             values[k] = std::numeric_limits<double>::quiet_NaN();
@@ -46,12 +46,12 @@ class SamplesTable final : public Table {
 
 public:
     SamplesTable(std::string path, std::unique_ptr<Samples> samples)
-        : path_(std::move(path)), samples_(std::move(samples)), columns_(facts().columns), roles_{.time = facts().time} {}
+        : path_(std::move(path)), samples_(std::move(samples)), columns_(info().columns), roles_{.time = info().time} {}
 
-    /// By the names of the columns and their first rows, as of a file of text.
+    /// Determines the roles of the columns from their names and first rows, as for a text file.
     Result<void> find_roles() {
         if (!are_named(columns_)) return {};
-        const auto rows = std::min({rows_looked_at, static_cast<std::size_t>(facts().rows), most_numbers_looked_at / columns_.size()});
+        const auto rows = std::min({rows_looked_at, static_cast<std::size_t>(info().rows), max_inspected_numbers / columns_.size()});
         std::vector<std::size_t> all(columns_.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         std::vector<std::vector<double>> numbers(columns_.size(), std::vector<double>(rows));
@@ -59,23 +59,23 @@ public:
         std::vector<FirstFields> first(columns_.size());
         for (std::size_t c = 0; c < first.size(); ++c)
             for (const double x : numbers[c]) first[c].add_number(x);
-        roles_ = assign_roles(columns_, first, true, facts().time);
+        roles_ = assign_roles(columns_, first, true, info().time);
         return {};
     }
 
     const std::vector<Column>& columns() const override { return columns_; }
-    std::optional<double> rate() const override { return facts().rate > 0.0 ? facts().rate : std::nullopt; }
+    std::optional<double> rate() const override { return info().rate > 0.0 ? info().rate : std::nullopt; }
     bool orientation_is_known() const override { return true; }
-    std::vector<std::string> remarks() const override { return facts().remarks; }
+    std::vector<std::string> remarks() const override { return info().remarks; }
     std::optional<std::size_t> time_column() const override { return roles_.time; }
     bool time_is_guessed() const override { return roles_.time_is_guessed; }
     std::vector<std::string> time_remarks() const override { return roles_.remarks; }
-    double done() const override { return static_cast<double>(next_) / static_cast<double>(facts().rows); }
+    double done() const override { return static_cast<double>(next_) / static_cast<double>(info().rows); }
     Place place(std::size_t row) const override { return {path_, block_ + static_cast<long>(row) + 1}; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
 
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
-        const auto count = static_cast<std::size_t>(std::min(static_cast<std::int64_t>(rows), facts().rows - next_));
+        const auto count = static_cast<std::size_t>(std::min(static_cast<std::int64_t>(rows), info().rows - next_));
         for (auto& column : out) column.resize(count);
         if (count == 0 || wanted.empty()) return count;
         if (auto ok = samples_->fetch(next_, count, wanted, out); !ok) return ok.error();
@@ -89,32 +89,32 @@ public:
 
 class WithTimes final : public Samples {
     std::unique_ptr<Samples> times_, samples_;
-    SamplesFacts facts_;
+    SamplesFacts info_;
 
 public:
     WithTimes(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples)
-        : times_(std::move(times)), samples_(std::move(samples)), facts_(samples_->facts()) {
-        facts_.columns.insert(facts_.columns.begin(), times_->facts().columns[0]);
-        facts_.time = 0;
-        facts_.remarks.insert(facts_.remarks.end(), times_->facts().remarks.begin(), times_->facts().remarks.end());
+        : times_(std::move(times)), samples_(std::move(samples)), info_(samples_->facts()) {
+        info_.columns.insert(info_.columns.begin(), times_->facts().columns[0]);
+        info_.time = 0;
+        info_.remarks.insert(info_.remarks.end(), times_->facts().remarks.begin(), times_->facts().remarks.end());
     }
 
-    const SamplesFacts& facts() const override { return facts_; }
+    const SamplesFacts& facts() const override { return info_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         std::vector<std::size_t> others;
-        std::vector<std::vector<double>> some;
-        const auto trade = [&] {  // the columns of the samples, out of `out` and back into it
+        std::vector<std::vector<double>> values;
+        const auto exchange = [&] {  // moves the columns of the samples between `out` and `values`
             for (std::size_t i = 0, k = 0; i < wanted.size(); ++i)
-                if (wanted[i] != 0) std::swap(some[k++], out[i]);
+                if (wanted[i] != 0) std::swap(values[k++], out[i]);
         };
         for (const auto c : wanted)
             if (c != 0) others.push_back(c - 1);
-        some.resize(others.size());
-        trade();
-        auto ok = others.empty() ? Result<void>() : samples_->fetch(first, rows, others, some);
-        trade();
+        values.resize(others.size());
+        exchange();
+        auto ok = others.empty() ? Result<void>() : samples_->fetch(first, rows, others, values);
+        exchange();
         std::vector<std::vector<double>> time(1, std::vector<double>(others.size() < wanted.size() ? rows : 0));
         if (ok && !time[0].empty()) ok = times_->fetch(first, rows, std::vector<std::size_t>{0}, time);
         for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -123,27 +123,27 @@ public:
     }
 };
 
-std::string listed(std::span<const ArrayFacts> arrays) {
-    constexpr std::size_t most = 24;
+std::string list_arrays(std::span<const ArrayFacts> arrays) {
+    constexpr std::size_t limit = 24;
     std::vector<std::string> texts;
-    for (const auto& a : arrays.first(std::min(arrays.size(), most))) texts.push_back(described(a));
-    return fmt::format("{}{}", fmt::join(texts, ", "), arrays.size() > most ? " ..." : "");
+    for (const auto& a : arrays.first(std::min(arrays.size(), limit))) texts.push_back(described(a));
+    return fmt::format("{}{}", fmt::join(texts, ", "), arrays.size() > limit ? " ..." : "");
 }
 
-bool usable(const ArrayFacts& a) { return a.numeric && (a.shape.size() == 1 || a.shape.size() == 2); }
+bool is_usable(const ArrayFacts& a) { return a.numeric && (a.shape.size() == 1 || a.shape.size() == 2); }
 
-bool single(const ArrayFacts& a) {
+bool is_single_value(const ArrayFacts& a) {
     return std::all_of(a.shape.begin(), a.shape.end(), [](auto n) { return n == 1; });
 }
 
-/// Times and rates belong to another array.
-bool accessory(const ArrayFacts& a) {
+/// True for arrays of times and rates, which belong to another array.
+bool is_accessory(const ArrayFacts& a) {
     const auto name = last_name(a.name);
-    return names_time(parse_heading(name).name) || (single(a) && (names_rate(name) || a.shape.empty()));
+    return names_time(parse_heading(name).name) || (is_single_value(a) && (names_rate(name) || a.shape.empty()));
 }
 
-/// Which of an array's dimensions is time.
-Result<void> turn(Extent& e, const ArrayFacts& a, const std::string& path, const ExtentHints& hints) {
+/// Decides which dimension of an array is time.
+Result<void> orient(Extent& e, const ArrayFacts& a, const std::string& path, const ExtentHints& hints) {
     const auto flip = [&e] { std::swap(e.rows, e.columns), e.lying = !e.lying; };
     if (e.rows == 1 && e.columns > 1 && hints.transpose != false) return flip(), Result<void>{};
     if (hints.by_columns && e.columns > 1) flip();
@@ -153,26 +153,27 @@ Result<void> turn(Extent& e, const ArrayFacts& a, const std::string& path, const
     if (is_length(e.rows) || (hints.channels == e.columns && !is_length(e.columns))) return {};
     if (is_length(e.columns) || hints.channels == e.rows) {
         flip();
-        e.remark = fmt::format("{}: taken as {} channels of {} samples, as {} beside it say; --no-transpose takes each row as a sample",
-                               described(a), e.columns, e.rows, is_length(e.rows) ? "the times" : "the names");
+        e.remark = fmt::format("{}: taken as {} channels of {} samples, to match {}; use --no-transpose if each row is a sample",
+                               described(a), e.columns, e.rows, is_length(e.rows) ? "the times" : "the channel names");
         return {};
     }
     return bad_input(
-        fmt::format("{}: {} channels of only {} samples? --transpose takes each row as a channel, --no-transpose each row as a "
+        fmt::format("{}: {} channels of only {} samples? Use --transpose if each row is a channel, or --no-transpose if each row is a "
                     "sample",
                     described(a), e.columns, e.rows),
         {path});
 }
 
-/// Does the path end in these names?
+/// True if the last components of `path` are `names`.
 bool ends_in(std::string_view path, std::string_view names) {
     return path == names || (path.ends_with(names) && path.size() > names.size() && path[path.size() - names.size() - 1] == '/');
 }
 
-/// The arrays that `wanted` can mean: its whole path (with or without the first slash), else the end of one; of a group its `data`.
-std::vector<std::size_t> arrays_meant(std::string_view wanted, std::span<const ArrayFacts> arrays) {
+/// The arrays that match `wanted`: the complete path (with or without the first slash), otherwise the end of a path. A group stands for
+/// its member `data`.
+std::vector<std::size_t> matching_arrays(std::string_view wanted, std::span<const ArrayFacts> arrays) {
     if (wanted.starts_with('/')) wanted.remove_prefix(1);
-    const auto such = [&](const auto& fits) {
+    const auto find_all = [&](const auto& fits) {
         std::vector<std::size_t> found;
         for (std::size_t k = 0; k < arrays.size(); ++k) {
             std::string_view name = arrays[k].name;
@@ -182,25 +183,26 @@ std::vector<std::size_t> arrays_meant(std::string_view wanted, std::span<const A
         return found;
     };
     const auto data = std::string(wanted) + "/data";
-    if (auto exact = such([&](auto name) { return name == wanted; }); !exact.empty()) return exact;
-    if (auto group = such([&](auto name) { return name == data; }); !group.empty()) return group;
-    return such([&](auto name) { return ends_in(name, wanted) || ends_in(name, data); });
+    if (auto exact = find_all([&](auto name) { return name == wanted; }); !exact.empty()) return exact;
+    if (auto group = find_all([&](auto name) { return name == data; }); !group.empty()) return group;
+    return find_all([&](auto name) { return ends_in(name, wanted) || ends_in(name, data); });
 }
 
-Result<std::size_t> array_called(const std::string& wanted, std::span<const ArrayFacts> arrays, const std::string& path) {
+Result<std::size_t> array_by_name(const std::string& wanted, std::span<const ArrayFacts> arrays, const std::string& path) {
     std::vector<std::string_view> names;
     for (const auto& a : arrays) names.push_back(a.name);
-    const auto meant = arrays_meant(wanted, arrays);
-    if (meant.size() > 1) {
+    const auto matches = matching_arrays(wanted, arrays);
+    if (matches.size() > 1) {
         std::vector<ArrayFacts> several;
-        for (const auto k : meant) several.push_back(arrays[k]);
-        return bad_input(fmt::format("several arrays end in '{}'; say which with --dataset PATH: {}", wanted, listed(several)), {path});
+        for (const auto k : matches) several.push_back(arrays[k]);
+        return bad_input(fmt::format("several arrays match '{}'; select one with --dataset PATH: {}", wanted, list_arrays(several)),
+                         {path});
     }
-    if (meant.empty())
-        return bad_input(fmt::format("no array '{}'{}; there are: {}", wanted, did_you_mean(wanted, names), listed(arrays)), {path});
-    const auto k = meant[0];
-    if (usable(arrays[k])) return k;
-    return bad_input(fmt::format("{}: a recording is numbers in one dimension, or in two: rows and channels", described(arrays[k])),
+    if (matches.empty())
+        return bad_input(fmt::format("no array '{}'{}; arrays: {}", wanted, did_you_mean(wanted, names), list_arrays(arrays)), {path});
+    const auto k = matches[0];
+    if (is_usable(arrays[k])) return k;
+    return bad_input(fmt::format("{}: a recording must be numeric with one dimension, or two (rows and channels)", described(arrays[k])),
                      {path});
 }
 
@@ -208,17 +210,18 @@ Result<std::size_t> only_array(std::span<const ArrayFacts> arrays, const std::st
     std::vector<std::size_t> able, likely;
     std::vector<ArrayFacts> candidates;
     for (std::size_t k = 0; k < arrays.size(); ++k) {
-        if (!usable(arrays[k])) continue;
+        if (!is_usable(arrays[k])) continue;
         able.push_back(k);
-        if (!accessory(arrays[k])) likely.push_back(k), candidates.push_back(arrays[k]);
+        if (!is_accessory(arrays[k])) likely.push_back(k), candidates.push_back(arrays[k]);
     }
     if (likely.size() == 1) return likely[0];
     if (likely.empty() && able.size() == 1) return able[0];
     if (!likely.empty())
-        return bad_input(fmt::format("several arrays could be the recording; say which with --dataset NAME: {}", listed(candidates)),
+        return bad_input(fmt::format("several arrays could be the recording; select one with --dataset NAME: {}", list_arrays(candidates)),
                          {path});
-    return bad_input(fmt::format("no array that could be the recording: numbers in one or two dimensions; there are: {}", listed(arrays)),
-                     {path});
+    return bad_input(
+        fmt::format("no array can be the recording, which must be numeric with one or two dimensions; arrays: {}", list_arrays(arrays)),
+        {path});
 }
 
 }  // namespace
@@ -237,12 +240,12 @@ std::unique_ptr<Samples> with_times(std::unique_ptr<Samples> times, std::unique_
 
 std::string described(const ArrayFacts& a) {
     const auto shape = a.shape.empty() ? "scalar" : fmt::format("{}", fmt::join(a.shape, " x "));
-    return fmt::format("{} ({}{})", a.name.empty() ? "the array" : a.name, shape, a.numeric ? "" : ", no numbers");
+    return fmt::format("{} ({}{})", a.name.empty() ? "the array" : a.name, shape, a.numeric ? "" : ", not numeric");
 }
 
 Result<std::size_t> choose_array(std::span<const ArrayFacts> arrays, const std::optional<std::string>& wanted, const std::string& path) {
     if (arrays.empty()) return bad_input("there is no array in this file", {path});
-    return wanted ? array_called(*wanted, arrays, path) : only_array(arrays, path);
+    return wanted ? array_by_name(*wanted, arrays, path) : only_array(arrays, path);
 }
 
 bool names_rate(std::string_view name) {
@@ -254,11 +257,11 @@ std::string_view last_name(std::string_view path) { return path.substr(path.rfin
 
 Result<Extent> extent_of(const ArrayFacts& a, const std::string& path, const ExtentHints& hints) {
     if (a.shape.empty() || a.shape.size() > 2)
-        return bad_input(fmt::format("{}: a recording has one dimension, or two: rows and channels", described(a)), {path});
+        return bad_input(fmt::format("{}: a recording must have one dimension, or two (rows and channels)", described(a)), {path});
     Extent e{a.shape[0], a.shape.size() == 2 ? a.shape[1] : 1};
-    if (e.rows == 0 || e.columns == 0) return bad_input(fmt::format("{}: there are no samples in it", described(a)), {path});
-    if (auto ok = a.shape.size() == 2 ? turn(e, a, path, hints) : Result<void>(); !ok) return ok.error();
-    if (e.columns > most_columns) return bad_input(fmt::format("{}: more than {} channels", described(a), most_columns), {path});
+    if (e.rows == 0 || e.columns == 0) return bad_input(fmt::format("{}: it has no samples", described(a)), {path});
+    if (auto ok = a.shape.size() == 2 ? orient(e, a, path, hints) : Result<void>(); !ok) return ok.error();
+    if (e.columns > max_columns) return bad_input(fmt::format("{}: more than {} channels", described(a), max_columns), {path});
     return e;
 }
 

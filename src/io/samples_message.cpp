@@ -5,17 +5,17 @@
 namespace corpuscle {
 namespace {
 
-Error broken_answer(const std::string& path) { return bad_input("the answer of the process that reads it is broken", {path}); }
+Error broken_response(const std::string& path) { return bad_input("invalid response of the helper process that reads this file", {path}); }
 
-/// The error at the beginning of an answer, if it is one.
+/// The error in a response, if it is one.
 std::optional<Error> error_in(Message& m, const std::string& path) {
     std::uint64_t code = 1;
-    if (!m.get(code)) return broken_answer(path);
+    if (!m.get(code)) return broken_response(path);
     if (code == 0) return {};
     Error error;
     error.code = static_cast<Code>(code);
     const bool known = error.code == Code::bad_input || error.code == Code::bad_usage || error.code == Code::interrupted;
-    if (!known || !m.get(error.sentence) || !m.get(error.place.file)) return broken_answer(path);
+    if (!known || !m.get(error.sentence) || !m.get(error.place.file)) return broken_response(path);
     return error;
 }
 
@@ -35,12 +35,12 @@ void put_texts(Message& m, const std::vector<std::string>& texts) {
 
 bool get_texts(Message& m, std::vector<std::string>& texts) {
     std::uint64_t count = 0;
-    bool whole = m.get(count);
-    for (std::string text; whole && texts.size() < count;) {
-        whole = m.get(text);
+    bool is_complete = m.get(count);
+    for (std::string text; is_complete && texts.size() < count;) {
+        is_complete = m.get(text);
         texts.push_back(text);
     }
-    return whole;
+    return is_complete;
 }
 
 }  // namespace
@@ -85,16 +85,16 @@ Message encode(const Error& error) {
     return m;
 }
 
-Message encode(const SamplesFacts& facts) {
+Message encode(const SamplesFacts& info) {
     Message m;
     m.put(0);
-    m.put(static_cast<std::uint64_t>(facts.rows));
-    const double rate = facts.rate.value_or(0);
+    m.put(static_cast<std::uint64_t>(info.rows));
+    const double rate = info.rate.value_or(0);
     m.put(&rate, sizeof rate);
-    put_optional(m, facts.time);
-    m.put(facts.columns.size());
-    for (const auto& c : facts.columns) m.put(c.name), m.put(c.unit);
-    put_texts(m, facts.remarks);
+    put_optional(m, info.time);
+    m.put(info.columns.size());
+    for (const auto& c : info.columns) m.put(c.name), m.put(c.unit);
+    put_texts(m, info.remarks);
     return m;
 }
 
@@ -106,26 +106,26 @@ Message encode(const std::vector<std::vector<double>>& columns) {
 }
 
 Result<SamplesFacts> decode_facts(Message& m, const std::string& path) {
-    SamplesFacts facts;
+    SamplesFacts info;
     if (auto error = error_in(m, path)) return *std::move(error);
     std::uint64_t rows = 0, columns = 0;
     double rate = 0;
-    bool whole = m.get(rows) && m.get(&rate, sizeof rate) && get_optional(m, facts.time) && m.get(columns);
-    facts.rows = static_cast<std::int64_t>(rows);
-    if (rate != 0) facts.rate = rate;
-    for (std::uint64_t k = 0; whole && k < columns; ++k) {
+    bool is_complete = m.get(rows) && m.get(&rate, sizeof rate) && get_optional(m, info.time) && m.get(columns);
+    info.rows = static_cast<std::int64_t>(rows);
+    if (rate != 0) info.rate = rate;
+    for (std::uint64_t k = 0; is_complete && k < columns; ++k) {
         Column c;
-        whole = m.get(c.name) && m.get(c.unit);
-        facts.columns.push_back(std::move(c));
+        is_complete = m.get(c.name) && m.get(c.unit);
+        info.columns.push_back(std::move(c));
     }
-    if (!whole || !get_texts(m, facts.remarks) || (facts.time && *facts.time >= facts.columns.size())) return broken_answer(path);
-    return facts;
+    if (!is_complete || !get_texts(m, info.remarks) || (info.time && *info.time >= info.columns.size())) return broken_response(path);
+    return info;
 }
 
 Result<void> decode_rows(Message& m, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path) {
     if (auto error = error_in(m, path)) return *std::move(error);
     for (auto& column : out)
-        if (!m.get(column.data() + at, rows * sizeof(double))) return broken_answer(path);
+        if (!m.get(column.data() + at, rows * sizeof(double))) return broken_response(path);
     return {};
 }
 

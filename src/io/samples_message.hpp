@@ -1,5 +1,5 @@
 #pragma once
-// What a helper program is asked and answers: samples, as messages.
+// The messages between this process and a helper program that reads samples.
 
 #include "io/message.hpp"
 #include "io/samples.hpp"
@@ -8,11 +8,11 @@ namespace corpuscle {
 
 /// The first message to the program.
 struct OpenRequest {
-    std::string path;  ///< for messages only: the file is open already
+    std::string path;  ///< for error messages only: the file is open already
     TableOptions options;
 };
 
-/// The others: rows from a number on, of columns.
+/// All further messages: `rows` rows of the columns `wanted`, from row `first` on.
 struct FetchRequest {
     std::uint64_t first = 0, rows = 0;
     std::vector<std::size_t> wanted = {};
@@ -23,14 +23,14 @@ Message encode(const FetchRequest&);
 bool decode(Message&, OpenRequest&);
 bool decode(Message&, FetchRequest&);
 
-// Answers. Each begins with 0, or is an error.
+// Responses. Each begins with 0, or is an error.
 Message encode(const Error&);
 Message encode(const SamplesFacts&);
 Message encode(const std::vector<std::vector<double>>& columns);
 
-// Answers as the parent reads them; `path` is for errors. The program may be broken: any bytes give values or an error.
+// Decode responses; `path` is for errors. The child is not trusted: any bytes give values or an error.
 Result<SamplesFacts> decode_facts(Message&, const std::string& path);
-/// Rows from number `at` on of each column of `out`.
+/// Decodes `rows` rows into each column of `out`, from row `at` on.
 Result<void> decode_rows(Message&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path);
 
 }  // namespace corpuscle

@@ -14,7 +14,7 @@ constexpr std::string_view unit_names[] = {"unit",  "unit_id", "cluster",       
                                            "cell",  "cell_id", "spike_clusters", "id",         "ids",      "label",  "train",
                                            "units", "index",   "address",        "spike_unit", "senders"};
 
-bool names_spike_time(std::string_view name) {
+bool is_spike_time_name(std::string_view name) {
     return names_time(name) || name == "spike_time" || name == "spike_times" || name == "spiketime" || name == "spiketimes" ||
            name == "spike time";
 }
@@ -27,8 +27,8 @@ std::string listed_headings(const std::vector<std::string>& headings) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The column asked for by its heading, its name or its number.
-std::optional<std::size_t> asked_column(const std::vector<std::string>& headings, const std::string& wanted) {
+/// The column requested by its heading, its name or its number.
+std::optional<std::size_t> requested_column(const std::vector<std::string>& headings, const std::string& wanted) {
     for (std::size_t c = 0; c < headings.size(); ++c)
         if (headings[c] == wanted || (!headings[c].empty() && parse_heading(headings[c]).name == wanted)) return c;
     std::size_t number = 0;
@@ -42,14 +42,15 @@ std::optional<std::size_t> asked_column(const std::vector<std::string>& headings
 Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column) {
     std::optional<std::size_t> time, unit;
     SpikeColumnsFound out;
-    for (const auto& [option, asked, to] : {std::tuple{"--time", &wanted.time, &time}, {"--unit", &wanted.unit, &unit}}) {
-        if (!*asked) continue;
-        *to = asked_column(headings, **asked);
-        if (!*to) return bad_input(fmt::format("{} {}: there is no such column; there are {}", option, **asked, listed_headings(headings)));
+    for (const auto& [option, requested, to] : {std::tuple{"--time", &wanted.time, &time}, {"--unit", &wanted.unit, &unit}}) {
+        if (!*requested) continue;
+        *to = requested_column(headings, **requested);
+        if (!*to)
+            return bad_input(fmt::format("{} {}: there is no such column; columns: {}", option, **requested, listed_headings(headings)));
     }
     for (std::size_t c = 0; c < headings.size(); ++c) {
         const auto name = lower(parse_heading(headings[c]).name);
-        if (!time && names_spike_time(name)) time = c;
+        if (!time && is_spike_time_name(name)) time = c;
         if (name == "afferent" && !wanted.unit) out.afferent = c;
         if (name == "channel") out.channel = c;
     }
@@ -60,18 +61,16 @@ Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& hea
     if (out.channel == out.afferent) out.channel.reset();
     if (!time && headings.size() == 1 && headings[0].empty()) time = 0;
     if (!time)
-        return bad_input(
-            fmt::format("no column of spike times; one is to be called time_s (or time, t [ms] ...), or named with --time; there are {}",
-                        listed_headings(headings)));
+        return bad_input(fmt::format("no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time; columns: {}",
+                                     listed_headings(headings)));
     if (!out.afferent && !out.channel && headings.size() > 1)
         return bad_input(
-            fmt::format("no column that says whose each spike is; one is to be called unit, afferent or channel, or named with --unit; "
-                        "there are {}",
+            fmt::format("no column identifies the trains; call one unit, afferent or channel, or name it with --unit; columns: {}",
                         listed_headings(headings)));
     out.time = *time;
     const auto in = parse_heading(headings[*time]).unit;
     const auto seconds = in.empty() ? std::optional(1.0) : seconds_in(in);
-    if (!seconds) return column = *time + 1, bad_input(fmt::format("'{}' is no unit of time; write s, ms, us or min", in));
+    if (!seconds) return column = *time + 1, bad_input(fmt::format("'{}' is not a unit of time; use s, ms, us or min", in));
     out.seconds = *seconds;
     return out;
 }

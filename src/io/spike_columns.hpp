@@ -1,5 +1,5 @@
 #pragma once
-// Which columns of a table of spikes hold the times and tell trains apart.
+// Finds the columns of a table of spikes that hold the times and identify the trains.
 
 #include <cstddef>
 #include <optional>
@@ -12,11 +12,12 @@ namespace corpuscle {
 
 struct SpikeColumnsFound {
     std::size_t time = 0;
-    double seconds = 1;  ///< that one unit of it is
+    double seconds = 1;  ///< unit of the time column
     std::optional<std::size_t> afferent = {}, channel = {};
 };
 
-/// `headings`: as they stand in the file; "" if it has none. An error says which are missing, and where a wrong one stands in `column`.
+/// `headings` are the header fields of the file, "" without a header. If a column is missing or wrong, returns an error and stores the
+/// index of a wrong one in `column`.
 Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column);
 
 }  // namespace corpuscle

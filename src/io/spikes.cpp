@@ -12,7 +12,7 @@
 namespace corpuscle {
 namespace {
 
-/// "ch2" before "ch10": runs of digits by their value, all else by its bytes.
+/// Natural order: "ch2" before "ch10". Compares runs of digits by value, and other characters by byte.
 bool natural_less(std::string_view a, std::string_view b) {
     const auto digits = [](std::string_view s) { return std::min(s.find_first_not_of("0123456789"), s.size()); };
     while (!a.empty() && !b.empty()) {
@@ -58,10 +58,10 @@ std::string csv_field(const std::string& text) {
 
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& columns) {
     const auto first = first_bytes_of_input(path, 512);
-    for (const auto& [begin, what] : {std::pair{"\x89HDF", "an HDF5 file"}, {"RIFF", "a sound"}, {"fLaC", "a sound"}})
+    for (const auto& [begin, what] : {std::pair{"\x89HDF", "an HDF5 file"}, {"RIFF", "a sound file"}, {"fLaC", "a sound file"}})
         if (first.starts_with(begin))
-            return bad_input(fmt::format("this is {}, no file of spikes: these are CSV, JSON lines, .npy, .npz or address events", what),
-                             {path});
+            return bad_input(
+                fmt::format("this is {}, not a spike file; supported are CSV, JSON lines, .npy, .npz and address events", what), {path});
     if (first.starts_with("PK") && (first.find(".npy") != first.npos || path.ends_with(".npz"))) return read_npz_spikes(path);
     if (first.starts_with("\x93NUMPY")) return read_npy_spikes(path, columns);
     return first.starts_with(address_events::magic) ? read_aer_spikes(path)

@@ -1,5 +1,5 @@
 #pragma once
-// Files of spikes, read: our own CSV, NPZ and address events, and those of others that are alike.
+// Reads spike files: Corpuscle's CSV, NPZ and address events, and similar files of other programs.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace corpuscle {
 
-/// The spikes of one unit, as a file names it. Other people's units are numbers or words: they stand as afferents, without a channel.
+/// A spike train with its name in the file. In files of other programs the unit or cluster is the afferent, and the channel is "".
 struct NamedTrain {
     std::string afferent, channel;
     std::vector<double> times;  ///< s, in order
@@ -17,20 +17,21 @@ struct NamedTrain {
     std::string name() const { return channel.empty() ? afferent : afferent + "," + channel; }
 };
 
-/// A name as a field of a CSV file.
+/// A name as a CSV field, quoted if necessary.
 std::string csv_field(const std::string& name);
 
-/// Which columns of a table of spikes are meant, by name or number; else those that are called so.
+/// Columns of a table of spikes, by name or number. Default: found by their headings.
 struct SpikeColumns {
     std::optional<std::string> time = {}, unit = {};
 };
 
-/// Every train of a file, in the order of their names, numbers in them by value. An NPZ is recognised by its first bytes: ours,
-/// or any that SpikeInterface writes (a unit's segments after the first are its channels "segment 2" ...); so are address events, ours
-/// and AEDAT 2 (doc/events.md), and NumPy's arrays of times in seconds. Anything else is a table of text, or JSON with a record a spike: a
-/// column of times (time_s, t [ms], spike_times ...; seconds if it does not say) and, to tell trains apart, columns called afferent or
-/// unit (cluster, neuron ...), and channel; only a lone column of times needs none, nor a header. A train without spikes stands only in
-/// an NPZ of ours.
+/// All trains of a file, sorted by name, with numbers in names sorted by value. Formats recognised by their first bytes:
+/// - NPZ of Corpuscle or of SpikeInterface, where segments after the first become channels "segment 2" ...
+/// - address events of Corpuscle and AEDAT 2 (doc/events.md)
+/// - NPY arrays of times in seconds
+/// Any other file is a text table, or JSON with one record for each spike. It has a column of times (time_s, t [ms], spike_times ...;
+/// seconds if there is no unit). The columns afferent or unit (cluster, neuron ...) and channel identify the train. A single column of
+/// times needs neither these nor a header. Only an NPZ of Corpuscle contains trains without spikes.
 Result<std::vector<NamedTrain>> read_spikes(const std::string& path, const SpikeColumns& = {});
 
 }  // namespace corpuscle

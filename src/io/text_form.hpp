@@ -1,6 +1,6 @@
 #pragma once
-// How the table in a file of text lies: where its rows begin, what separates the fields, what the header says. Loggers put lines of
-// their own before it, a row of units under the header, the header into a comment.
+// Detects the layout of a text table: its first row, separator and header. Loggers write extra lines before the table, a row of units
+// under the header, or the header as a comment.
 
 #include "io/column_roles.hpp"
 #include "io/dialect.hpp"
@@ -13,28 +13,29 @@ struct TextForm {
     Dialect dialect;
     std::vector<Column> columns;
     ColumnRoles roles;
-    std::optional<TimeStamp> first_stamp = {};  ///< of the time, or of the first column that holds some
-    std::optional<double> rate = {};            ///< Hz, if the file says it
+    std::optional<TimeStamp> first_stamp = {};  ///< of the time column, or of the first column with time stamps
+    std::optional<double> rate = {};            ///< Hz, if the file contains it
     std::vector<std::string> remarks = {};
-    long first_row = 1;                    ///< its line
-    bool named = false;                    ///< by a header
-    bool last_may_be_missing = false;      ///< the last field of a row, with its separator
-    bool rows_have_names = false;          ///< the first field of each
-    std::vector<std::string> first_fields = {};  ///< of the first row
-    std::vector<std::size_t> trials = {};  ///< columns that may tell trials apart, the likeliest first
+    long first_row = 1;                    ///< line number of the first row
+    bool named = false;                    ///< the columns are named by a header
+    bool last_may_be_missing = false;      ///< the last field of a row and its separator may be missing
+    bool rows_have_names = false;          ///< the first field of each row is its name
+    std::vector<std::string> first_fields = {};  ///< fields of the first row
+    std::vector<std::size_t> trials = {};  ///< columns that may identify trials, the most likely first
 };
 
-/// Reads the head of the file and rewinds it. `skip`: lines that are not looked at. `rows_are_channels`: they may begin with a name.
+/// Reads the beginning of the file and rewinds it. Ignores the first `skip` lines. If `rows_are_channels`, rows may begin with a name.
 Result<TextForm> find_text_form(Lines&, std::size_t skip, bool rows_are_channels);
 
-/// A line that is empty or begins with # or %.
+/// True if a line is blank or begins with # or %.
 inline bool is_comment(std::string_view line) {
     for (const char c : line)
         if (c != ' ' && c != '\t') return c == '#' || c == '%';
     return true;
 }
 
-/// Splits as the dialect does; a separator at the end of a line makes no column. `columns`: how many there are to be, 0: not known.
+/// Splits a line into fields. A separator at the end of the line does not add a field. `columns` is the expected number of fields, 0 if
+/// unknown.
 void split_row(const Dialect&, std::string_view line, std::size_t columns, Fields& out);
 
 }  // namespace corpuscle

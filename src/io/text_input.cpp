@@ -25,14 +25,15 @@ class PlainText final : public TextInput {
     std::unique_ptr<std::FILE, Close> file_;
     double size_ = 0, read_ = 0;  // bytes
 
-    Result<std::size_t> fetch(char* to, std::size_t most) override {
-        const auto got = read_input(file_.get(), {to, most}, path_);
+    Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
+        const auto got = read_input(file_.get(), {to, max_bytes}, path_);
         if (got) read_ += static_cast<double>(*got);
         return got;
     }
 
     Result<void> restart() override {
-        if (std::fseek(file_.get(), 0, SEEK_SET) != 0) return bad_input("this input cannot be read twice; save it to a file", {path_});
+        if (std::fseek(file_.get(), 0, SEEK_SET) != 0)
+            return bad_input("this input cannot be read twice; save it to a file first", {path_});
         read_ = 0;
         return {};
     }
@@ -51,7 +52,7 @@ class GzipText final : public TextInput {
     std::unique_ptr<TextInput> packed_;
     std::vector<unsigned char> block_ = std::vector<unsigned char>(packed_block);
     z_stream stream_{};
-    bool within_ = false, packed_ended_ = false;  // within_: a member has begun and not ended
+    bool within_ = false, packed_ended_ = false;  // within_: inside a gzip member
 
     Result<void> refill() {
         const auto got = packed_->read(reinterpret_cast<char*>(block_.data()), block_.size());
@@ -61,30 +62,30 @@ class GzipText final : public TextInput {
         return {};
     }
 
-    /// Zeros may follow the last member, as tapes have them.
+    /// Skips zeros after the last member, which tapes add.
     void skip_zeros() {
         while (stream_.avail_in > 0 && *stream_.next_in == 0) ++stream_.next_in, --stream_.avail_in;
     }
 
-    Result<std::size_t> fetch(char* to, std::size_t most) override {
-        stream_.next_out = reinterpret_cast<Bytef*>(to), stream_.avail_out = static_cast<uInt>(most);
+    Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
+        stream_.next_out = reinterpret_cast<Bytef*>(to), stream_.avail_out = static_cast<uInt>(max_bytes);
         while (stream_.avail_out > 0) {
             if (stream_.avail_in == 0 && !packed_ended_)
                 if (auto ok = refill(); !ok) return ok.error();
             if (!within_) skip_zeros();
             if (stream_.avail_in == 0 && packed_ended_) {
-                if (within_) return bad_input("this gzip file ends too early: a part of it is missing", {path_});
+                if (within_) return bad_input("this gzip file is incomplete", {path_});
                 break;
             }
             if (stream_.avail_in == 0) continue;
             within_ = true;
             const int status = ::inflate(&stream_, Z_NO_FLUSH);
             if (status == Z_STREAM_END)
-                within_ = false, ::inflateReset(&stream_);  // another member may follow, as 'cat a.gz b.gz' makes it
+                within_ = false, ::inflateReset(&stream_);  // another member may follow, as written by 'cat a.gz b.gz'
             else if (status != Z_OK && status != Z_BUF_ERROR)
-                return bad_input("this gzip file is damaged: what it holds cannot be unpacked", {path_});
+                return bad_input("this gzip file is damaged: it cannot be decompressed", {path_});
         }
-        return most - stream_.avail_out;
+        return max_bytes - stream_.avail_out;
     }
 
     Result<void> restart() override {
@@ -105,7 +106,7 @@ public:
     std::vector<std::string> commands() const override { return {"zcat"}; }
 };
 
-void append_letter(std::string& out, unsigned long c) {
+void append_code_point(std::string& out, unsigned long c) {
     const auto byte = [&](unsigned long b) { out += static_cast<char>(b); };
     if (c < 0x80) return byte(c);
     if (c < 0x800) return byte(0xc0 | c >> 6), byte(0x80 | (c & 0x3f));
@@ -118,21 +119,21 @@ class Utf16Text final : public TextInput {
     std::unique_ptr<TextInput> units_;
     bool big_endian_;
     std::string out_;
-    std::size_t given_ = 0;   // of out_
-    unsigned long high_ = 0;  // a surrogate that waits for its other half
+    std::size_t given_ = 0;   // bytes of out_ that have been returned
+    unsigned long high_ = 0;  // a high surrogate without its low surrogate yet
     bool ended_ = false;
 
     void take(unsigned long unit) {
         const bool low = unit >= 0xdc00 && unit < 0xe000;
         if (high_ != 0) {
-            append_letter(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
+            append_code_point(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
             high_ = 0;
             if (low) return;
         }
         if (unit >= 0xd800 && unit < 0xdc00)
             high_ = unit;
         else
-            append_letter(out_, low ? 0xfffd : unit);
+            append_code_point(out_, low ? 0xfffd : unit);
     }
 
     Result<void> refill() {
@@ -141,24 +142,24 @@ class Utf16Text final : public TextInput {
         if (!got) return got.error();
         out_.clear(), given_ = 0;
         ended_ = *got < sizeof block;
-        if (*got % 2 != 0) return bad_input("this UTF-16 text ends within a letter: a part of it is missing", {path_});
+        if (*got % 2 != 0) return bad_input("this UTF-16 text is incomplete: it ends within a character", {path_});
         for (std::size_t k = 0; k < *got; k += 2) {
             const auto a = static_cast<unsigned char>(block[k]), b = static_cast<unsigned char>(block[k + 1]);
             take(big_endian_ ? a * 256UL + b : b * 256UL + a);
         }
-        if (ended_ && high_ != 0) append_letter(out_, 0xfffd), high_ = 0;
+        if (ended_ && high_ != 0) append_code_point(out_, 0xfffd), high_ = 0;
         return {};
     }
 
-    Result<std::size_t> fetch(char* to, std::size_t most) override {
+    Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
         std::size_t count = 0;
-        while (count < most) {
+        while (count < max_bytes) {
             if (given_ == out_.size()) {
                 if (ended_) break;
                 if (auto ok = refill(); !ok) return ok.error();
                 continue;
             }
-            const std::size_t n = std::min(most - count, out_.size() - given_);
+            const std::size_t n = std::min(max_bytes - count, out_.size() - given_);
             std::memcpy(to + count, out_.data() + given_, n);
             count += n, given_ += n;
         }
@@ -181,7 +182,7 @@ public:
     }
 };
 
-/// 'L' or 'B' for UTF-16 by its mark, or because every other byte is 0; else 0.
+/// 'L' or 'B' for UTF-16 with a byte order mark, or if every other byte is 0. Otherwise '\0'.
 char utf16_order(std::string_view first) {
     if (first.starts_with("\xff\xfe")) return 'L';
     if (first.starts_with("\xfe\xff")) return 'B';
@@ -194,12 +195,12 @@ char utf16_order(std::string_view first) {
 
 }  // namespace
 
-Result<std::size_t> TextInput::read(char* to, std::size_t most) {
-    const std::size_t n = std::min(most, ahead_.size());
+Result<std::size_t> TextInput::read(char* to, std::size_t max_bytes) {
+    const std::size_t n = std::min(max_bytes, ahead_.size());
     std::memcpy(to, ahead_.data(), n);
     ahead_.erase(0, n);
-    if (n == most) return n;
-    const auto more = fetch(to + n, most - n);
+    if (n == max_bytes) return n;
+    const auto more = fetch(to + n, max_bytes - n);
     if (!more) return more.error();
     return n + *more;
 }
@@ -225,21 +226,21 @@ Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path) {
     auto plain = std::make_unique<PlainText>(path);
     if (!plain->is_open()) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     std::unique_ptr<TextInput> input = std::move(plain);
-    constexpr std::size_t enough = 512;
-    auto first = input->peek(enough);
+    constexpr std::size_t signature_bytes = 512;
+    auto first = input->peek(signature_bytes);
     const bool packed = first && first->starts_with("\x1f\x8b");
     if (packed) {
         input = std::make_unique<GzipText>(path, std::move(input));
-        first = input->peek(enough);
+        first = input->peek(signature_bytes);
     }
     if (!first) return first.error();
     const auto foreign = foreign_format(*first, path);
     if (const auto refusal = foreign.empty() ? misnamed_format(*first, path) : foreign; !refusal.empty())
-        return bad_input(packed ? "what this gzip file holds is no text; unpack it first: " + unpack_command("gzip", ".gz", path) : refusal,
-                         {path});
+        return bad_input(
+            packed ? "this gzip file does not contain text; decompress it first: " + unpack_command("gzip", ".gz", path) : refusal, {path});
     if (const char order = utf16_order(*first))
         return std::unique_ptr<TextInput>(std::make_unique<Utf16Text>(path, std::move(input), order == 'B'));
-    if (first->find('\0') != first->npos) return bad_input("this is no text: it has NUL bytes, as binary files have", {path});
+    if (first->find('\0') != first->npos) return bad_input("not a text file: it contains NUL bytes, as binary files do", {path});
     return input;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The bytes of a file of text as UTF-8: as they stand, out of gzip, out of UTF-16. Memory is bounded whatever the file unpacks to.
+// Reads a text file as UTF-8: plain, compressed with gzip, or UTF-16. Memory is bounded whatever the uncompressed size.
 
 #include <cstddef>
 #include <memory>
@@ -12,25 +12,26 @@
 namespace corpuscle {
 
 class TextInput {
-    std::string ahead_;  // read already, not yet given
+    std::string ahead_;  // bytes read by peek() but not yet by read()
 
-    /// Up to `most` bytes; fewer than asked for only at the end.
-    virtual Result<std::size_t> fetch(char* to, std::size_t most) = 0;
+    /// Reads up to `max_bytes` bytes. Returns fewer only at the end.
+    virtual Result<std::size_t> fetch(char* to, std::size_t max_bytes) = 0;
     virtual Result<void> restart() = 0;
 
 public:
     virtual ~TextInput() = default;
-    Result<std::size_t> read(char* to, std::size_t most);
-    /// The first bytes, which stay to be read; fewer than `count` only if there are not so many.
+    Result<std::size_t> read(char* to, std::size_t max_bytes);
+    /// Returns the next bytes without consuming them. Fewer than `count` only at the end.
     Result<std::string_view> peek(std::size_t count);
     Result<void> rewind();
-    /// The share of the file's own bytes that has been read, 0 to 1.
+    /// The fraction of the file's bytes that has been read, 0 to 1.
     virtual double done() const = 0;
-    /// Commands that make this text of the file's bytes, one after another: "zcat", "iconv -f UTF-16LE -t UTF-8".
+    /// Shell commands that convert the file to this text, in order: "zcat", "iconv -f UTF-16LE -t UTF-8".
     virtual std::vector<std::string> commands() const { return {}; }
 };
 
-/// Refuses, by name and with a way to convert it, what is no text: workbooks, other programs' binary files, archives.
+/// A file that is not text (workbooks, binary files of other programs, archives) is an error, which names its format and a command to
+/// convert it.
 Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path);
 
 }  // namespace corpuscle

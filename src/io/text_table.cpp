@@ -25,18 +25,18 @@ class TextTable final : public Table {
     bool rows_are_channels_;
     Fields fields_;
     std::vector<long> numbers_;         // line numbers of the last block's rows
-    std::vector<double*> to_;           // of each column: where its block of numbers goes, or nowhere
-    std::size_t wanted_end_ = 0;        // behind the last column wanted
-    double last_stamp_ = 0, days_ = 0;  // s: of the time of day read last, and the days that have passed
-    bool quoted_rows_ = false, quoted_separators_ = false;  // of the rows that find_trials() saw
+    std::vector<double*> to_;           // for each column: the destination of its numbers, or null
+    std::size_t wanted_end_ = 0;        // one past the last requested column
+    double last_stamp_ = 0, days_ = 0;  // s: the last time of day, and the days that have passed
+    bool quoted_rows_ = false, quoted_separators_ = false;  // found by find_trials()
 
-    Error at(std::string sentence, long column = 0) const {
-        return bad_input(std::move(sentence), {lines_.path(), lines_.number(), column});
+    Error error_at(std::string message, long column = 0) const {
+        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
     }
 
-    std::string called(std::size_t c) const { return form_.named ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
+    std::string column_label(std::size_t c) const { return form_.named ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
 
-    /// The next line that holds data.
+    /// Reads the next line that holds data.
     Result<bool> next_row(std::string_view& line) {
         for (;;) {
             const auto more = lines_.next(line);
@@ -45,7 +45,7 @@ class TextTable final : public Table {
         }
     }
 
-    /// Seconds from the first stamp; times of day go on after midnight.
+    /// Seconds from the first time stamp. Times of day continue after midnight.
     std::optional<double> stamp_in(std::size_t c) {
         const auto stamp = parse_time_stamp(fields_[c]);
         if (!stamp || !form_.first_stamp || stamp->dated != form_.first_stamp->dated) return {};
@@ -56,14 +56,14 @@ class TextTable final : public Table {
         return last_stamp_ = t;
     }
 
-    /// What to do about a field that cannot be read.
+    /// Options that help with a field that cannot be read.
     std::string remedy(std::size_t c) const {
         const bool first = lines_.number() <= form_.first_row;
         if (c == time_)
-            return fmt::format("; {}--rate, such as --rate 1kHz, takes the rows as evenly spaced, --time names another column",
-                               first ? "" : "--bad-fields drop leaves its row out, ");
-        return fmt::format("; --bad-fields interpolate fills it in, --bad-fields drop leaves its row out{}",
-                           first ? ", --skip LINES passes over lines before the table" : "");
+            return fmt::format("; use {}--rate, such as --rate 1kHz, to take the rows as evenly spaced, or --time to name another column",
+                               first ? "" : "--bad-fields drop to skip the row, ");
+        return fmt::format("; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip the row{}",
+                           first ? ", or --skip LINES to skip lines before the table" : "");
     }
 
     Result<double> number_in(std::string_view line, std::size_t c) {
@@ -75,32 +75,32 @@ class TextTable final : public Table {
         }
         if (gaps_allowed_) return std::numeric_limits<double>::quiet_NaN();
         const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;
-        const auto what = fields_[c].empty() ? std::string("nothing") : fmt::format("'{}'", fields_[c].substr(0, 40));
+        const auto found = fields_[c].empty() ? std::string("an empty field") : fmt::format("'{}'", fields_[c].substr(0, 40));
         const auto advice = columns_[c].stamps ? "" : advice_for(fields_[c]);
-        return at(fmt::format("column {}: {} where a {} should be{}", called(c), what, columns_[c].stamps ? "time" : "number",
-                              advice.empty() ? remedy(c) : "; it has " + advice),
-                  column);
+        return error_at(fmt::format("column {}: {} where a {} is expected{}", column_label(c), found,
+                                    columns_[c].stamps ? "time" : "number", advice.empty() ? remedy(c) : "; it contains " + advice),
+                        column);
     }
 
-    /// What is unusual in a field that should be a number, and what makes a file of it that is read; "" if that is not known.
+    /// The unusual feature of a field that should be a number, and how to convert the file. "" if it is not recognised.
     std::string advice_for(std::string_view field) const {
         const auto advice = advice_on(field);
         if (advice.what.empty()) return "";
         const auto command = advice.filter.empty() ? "" : lines_.copy_command(advice.filter, "-plain");
-        if (!command.empty()) return fmt::format("{}; make a file without it: {}", advice.what, command);
+        if (!command.empty()) return fmt::format("{}; convert the file: {}", advice.what, command);
         return fmt::format("{}; {}", advice.what, advice.remedy.empty() ? "save the table without it" : advice.remedy);
     }
 
-    void tell_first_words() {
-        constexpr std::size_t enough = 8;  // one of them is told, if no column holds numbers
-        std::size_t told = 0;
-        for (std::size_t c = 0; c < std::min(columns_.size(), form_.first_fields.size()) && told < enough; ++c) {
+    void store_evidence() {
+        constexpr std::size_t max_evidence = 8;  // only one is reported, and only if no column holds numbers
+        std::size_t count = 0;
+        for (std::size_t c = 0; c < std::min(columns_.size(), form_.first_fields.size()) && count < max_evidence; ++c) {
             const auto& word = form_.first_fields[c];
             if (!columns_[c].left_out.starts_with("holds words") || word.empty()) continue;
-            ++told;
+            ++count;
             const auto advice = advice_for(word);
-            columns_[c].evidence = fmt::format("line {} says '{}'{}{}", form_.first_row, word.substr(0, 40),
-                                               advice.empty() ? " there" : ", which has ", advice);
+            columns_[c].evidence = fmt::format("line {} has '{}'{}{}", form_.first_row, word.substr(0, 40),
+                                               advice.empty() ? "" : ", which contains ", advice);
         }
     }
 
@@ -109,8 +109,8 @@ class TextTable final : public Table {
         if (form_.last_may_be_missing && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
     }
 
-    /// Without a header: does the first column rise by like steps over the first rows?
-    Result<void> look_for_time() {
+    /// For a table without a header: takes the first column as the time if it increases in similar steps over the first rows.
+    Result<void> find_unnamed_time() {
         if (!columns_[0].left_out.empty()) return {};
         std::vector<std::vector<double>> first(1);
         const auto rows = read({0}, 64, first);
@@ -131,14 +131,14 @@ class TextTable final : public Table {
         wanted_end_ = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end()) + 1;
     }
 
-    /// Whether what is left of a line holds so many fields, none of them in quotes or empty at the end.
+    /// True if the rest of a line has `fields` fields, without quotes and without an empty field at the end.
     bool ends_after(const char* p, const char* end, std::size_t fields) const {
         const auto left = static_cast<std::size_t>(end - p);
         return left > 0 && end[-1] != dialect_.separator && !std::memchr(p, '"', left) &&
                static_cast<std::size_t>(std::count(p, end, dialect_.separator)) + 1 == fields;
     }
 
-    /// A line as most are, read in one go; false if it needs a closer look.
+    /// A fast path for common lines. Returns false if the line needs the general parser.
     bool read_plain_row(std::string_view line, std::size_t row) const {
         const char *p = line.data(), *const end = p + line.size();
         const char separator = dialect_.separator;
@@ -165,15 +165,16 @@ class TextTable final : public Table {
         if (read_plain_row(line, row)) return {};
         if (form_.last_may_be_missing && line.starts_with("Channels")) {
             const auto command = lines_.copy_command(fmt::format("head -n {}", lines_.number() - 1), "-first");
-            return at(fmt::format("another segment of the measurement begins here, and one is read; keep the first{}{}",
+            return error_at(fmt::format("another segment of the measurement begins here, but only one can be read; keep the first{}{}",
                                   command.empty() ? "" : ": ", command));
         }
         split(line);
         if (fields_.size() != columns_.size()) {
             if (!gaps_allowed_)
-                return at(
-                    fmt::format("{} columns where {} should be; --bad-fields drop leaves such rows out", fields_.size(), columns_.size()));
-            for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // which field is whose is not known
+                return error_at(
+                    fmt::format("{} columns where {} are expected; use --bad-fields drop to skip such rows", fields_.size(),
+                                columns_.size()));
+            for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // fields cannot be assigned to columns
             return {};
         }
         for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -184,16 +185,16 @@ class TextTable final : public Table {
         return {};
     }
 
-    struct Trial {
-        std::size_t column;  ///< that tells trials apart
-        std::string first;   ///< the field of the first row
-        bool changes;        ///< at the row where time goes back; else it has been the same up to there
+    struct TrialColumn {
+        std::size_t column;  ///< the column that identifies trials
+        std::string first;   ///< its field in the first row
+        bool changes;        ///< true: changes at the row where the time decreases; false: constant up to that row
     };
 
-    /// The columns that tell the trial that begins in this line from the first, from another pass through the rows; none if no column
+    /// The columns that distinguish the trial that begins in line `begins` from the first trial. Reads the rows again. Empty if no column
     /// changes there.
-    Result<std::vector<Trial>> find_trials(long begins) {
-        std::vector<Trial> found;
+    Result<std::vector<TrialColumn>> find_trials(long begins) {
+        std::vector<TrialColumn> found;
         if (form_.trials.empty()) return found;
         if (auto ok = lines_.rewind(); !ok) return ok.error();
         std::vector<std::string> first, last, now;
@@ -221,16 +222,16 @@ class TextTable final : public Table {
             if (changes || (constant[k] && names_trial(columns_[form_.trials[k]].name)))
                 found.push_back({form_.trials[k], first[k], changes});
         }
-        // The likeliest column that changes is enough beside those that have not changed yet but may.
-        const auto one = std::find_if(found.begin(), found.end(), [](const Trial& t) { return t.changes; });
-        if (one == found.end()) return std::vector<Trial>();
+        // Keep the most likely column that changes, and the constant columns, which may change later.
+        const auto one = std::find_if(found.begin(), found.end(), [](const TrialColumn& t) { return t.changes; });
+        if (one == found.end()) return std::vector<TrialColumn>();
         const auto which = one->column;
-        std::erase_if(found, [&](const Trial& t) { return t.changes && t.column != which; });
+        std::erase_if(found, [&](const TrialColumn& t) { return t.changes && t.column != which; });
         return found;
     }
 
-    /// The awk that keeps the head and the rows of the first trial; "" where awk does not see the fields as they are.
-    std::string trial_filter(const std::vector<Trial>& trials) const {
+    /// An awk command that keeps the lines before the table and the rows of the first trial. "" if awk cannot split the fields.
+    std::string trial_filter(const std::vector<TrialColumn>& trials) const {
         const char separator = dialect_.separator;
         if (std::string_view("\"'\\^]").find(separator) != std::string_view::npos || quoted_separators_) return "";
         std::string wanted;
@@ -245,7 +246,7 @@ class TextTable final : public Table {
                                   dialect_.number(t.first, number) ? t.first : "\"" + t.first + "\"");
         }
         const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F' *[{}] *'", separator);
-        // The end of a line as Windows writes it would be a part of the last field, quotes a part of any.
+        // Remove CR, which would be part of the last field, and quotes, which would be part of any field.
         return quoted_rows_ ? fmt::format("awk{} '{{sub(/\\r$/, \"\"); row=$0; gsub(/\"/, \"\")}} NR<{} || ({}) {{print row}}'", fields,
                                           form_.first_row, wanted)
                             : fmt::format("awk{} '{{sub(/\\r$/, \"\")}} NR<{} || ({})'", fields, form_.first_row, wanted);
@@ -273,9 +274,9 @@ public:
         form_ = std::move(*form);
         dialect_ = form_.dialect, columns_ = form_.columns, time_ = form_.roles.time;
         if (!form_.named && !time_ && !form_.rows_have_names)
-            if (auto ok = look_for_time(); !ok) return ok;
+            if (auto ok = find_unnamed_time(); !ok) return ok;
         name_columns();
-        tell_first_words();
+        store_evidence();
         return {};
     }
 
@@ -297,12 +298,11 @@ public:
     std::string one_trial(std::size_t row) override {
         auto trials = find_trials(place(row).line);
         if (!trials || trials->empty()) return "";
-        const auto telling = std::find_if(trials->begin(), trials->end(), [](const Trial& t) { return t.changes; });
+        const auto telling = std::find_if(trials->begin(), trials->end(), [](const TrialColumn& t) { return t.changes; });
         const auto filter = trial_filter(*trials);
         const auto command = filter.empty() ? filter : lines_.copy_command(filter, "-trial1");
         return fmt::format(
-            "the rows of several trials stand one under another, told apart by '{}', and one is read at a time; make a "
-            "file of {}{}",
+            "the file has several trials, identified by '{}', but only one can be read at a time; make a file of {}{}",
             columns_[telling->column].name, command.empty() ? "each" : "one: ", command);
     }
 
@@ -345,7 +345,7 @@ public:
 }  // namespace
 
 Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const TableOptions& options) {
-    if (options.dataset) return bad_usage(fmt::format("--dataset {}: a file of text has only one table", *options.dataset));
+    if (options.dataset) return bad_usage(fmt::format("--dataset {}: a text file has only one table", *options.dataset));
     auto lines = Lines::open(path);
     if (!lines) return lines.error();
     const auto json = begins_like_json(*lines);

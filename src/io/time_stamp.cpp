@@ -9,20 +9,20 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::int64_t a_second = 1'000'000'000, a_day = 86'400 * a_second;  // ns
+constexpr std::int64_t second_ns = 1'000'000'000, day_ns = 86'400 * second_ns;  // ns
 
-/// Takes what a stamp is made of from the front of a text; `good` as long as it was there.
+/// Parses the parts of a time stamp from the front of a text. `good` becomes false if a required part is missing.
 struct StampReader {
     std::string_view rest;
     bool good = true;
 
     static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-    int digits(std::size_t least, std::size_t most) {
+    int digits(std::size_t min_count, std::size_t max_count) {
         std::size_t n = 0;
         int value = 0;
-        while (n < most && n < rest.size() && is_digit(rest[n])) value = value * 10 + (rest[n++] - '0');
-        good = good && n >= least;
+        while (n < max_count && n < rest.size() && is_digit(rest[n])) value = value * 10 + (rest[n++] - '0');
+        good = good && n >= min_count;
         rest.remove_prefix(n);
         return value;
     }
@@ -40,7 +40,7 @@ std::optional<std::int64_t> day_of(int year, int month, int day) {
     return c::sys_days(date).time_since_epoch().count();
 }
 
-/// "2026-03-01", "2026/03/01", "01.03.2026"; nothing is taken if there is none.
+/// Parses "2026-03-01", "2026/03/01" or "01.03.2026". Consumes nothing if there is no date.
 std::optional<std::int64_t> take_date(StampReader& in) {
     StampReader r = in;
     const std::size_t digits = std::min(r.rest.find_first_not_of("0123456789"), r.rest.size());
@@ -64,27 +64,27 @@ std::optional<std::int64_t> take_date(StampReader& in) {
     return day;
 }
 
-/// "12:00:00.125" in nanoseconds.
+/// Parses "12:00:00.125" to nanoseconds.
 std::optional<std::int64_t> take_time_of_day(StampReader& r) {
     const int hour = r.digits(1, 2);
     r.need(':');
     const int minute = r.digits(2, 2);
     r.need(':');
-    const int whole = r.digits(2, 2);
-    if (!r.good || hour > 23 || minute > 59 || whole > 60) return {};
+    const int second = r.digits(2, 2);
+    if (!r.good || hour > 23 || minute > 59 || second > 60) return {};
     std::int64_t fraction = 0;
-    if (r.take('.') || r.take(',') || r.take(':')) {  // the last as some loggers write milliseconds
-        std::int64_t unit = a_second;
+    if (r.take('.') || r.take(',') || r.take(':')) {  // some loggers write a colon before the milliseconds
+        std::int64_t unit = second_ns;
         while (!r.rest.empty() && StampReader::is_digit(r.rest[0])) {
             if (unit > 1) fraction += (unit /= 10) * (r.rest[0] - '0');
             r.rest.remove_prefix(1);
         }
-        if (unit == a_second) return {};
+        if (unit == second_ns) return {};
     }
-    return (hour * 3600LL + minute * 60LL + whole) * a_second + fraction;
+    return (hour * 3600LL + minute * 60LL + second) * second_ns + fraction;
 }
 
-/// "Z", "+01:00", "+0100", "+01": nanoseconds ahead of universal time.
+/// Parses "Z", "+01:00", "+0100" or "+01" to nanoseconds ahead of UTC.
 std::optional<std::int64_t> take_zone(StampReader& r) {
     if (r.take('Z') || r.take('z')) return 0;
     const bool west = r.rest.starts_with('-');
@@ -94,7 +94,7 @@ std::optional<std::int64_t> take_zone(StampReader& r) {
     r.take(':');
     const int minutes = r.rest.empty() ? 0 : r.digits(2, 2);
     if (!r.good || hours > 14 || minutes > 59) return {};
-    const std::int64_t ahead = (hours * 3600LL + minutes * 60LL) * a_second;
+    const std::int64_t ahead = (hours * 3600LL + minutes * 60LL) * second_ns;
     return west ? -ahead : ahead;
 }
 
@@ -112,8 +112,8 @@ std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
     const auto ahead = take_zone(r);
     if (!ahead || !r.rest.empty()) return {};
     TimeStamp out{day.value_or(0), *time - *ahead, day.has_value()};
-    for (; out.nanoseconds < 0; out.nanoseconds += a_day) --out.day;
-    for (; out.nanoseconds >= a_day; out.nanoseconds -= a_day) ++out.day;
+    for (; out.nanoseconds < 0; out.nanoseconds += day_ns) --out.day;
+    for (; out.nanoseconds >= day_ns; out.nanoseconds -= day_ns) ++out.day;
     return out;
 }
 
@@ -124,7 +124,7 @@ bool is_date(std::string_view text) {
 
 double seconds_between(const TimeStamp& from, const TimeStamp& to) {
     const double days = static_cast<double>(to.day - from.day);
-    if (std::abs(days) < 1e5) return static_cast<double>((to.day - from.day) * a_day + (to.nanoseconds - from.nanoseconds)) / 1e9;
+    if (std::abs(days) < 1e5) return static_cast<double>((to.day - from.day) * day_ns + (to.nanoseconds - from.nanoseconds)) / 1e9;
     return days * 86'400 + static_cast<double>(to.nanoseconds - from.nanoseconds) / 1e9;
 }
 

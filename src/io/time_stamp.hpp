@@ -1,5 +1,5 @@
 #pragma once
-// Dates and times of day as text: ISO 8601 and what loggers write like it.
+// Dates and times of day as text: ISO 8601 and similar formats of loggers.
 
 #include <cstdint>
 #include <optional>
@@ -8,24 +8,25 @@
 
 namespace corpuscle {
 
-/// An instant. Without a date it lies on day 0 of an unknown count.
+/// A point in time. Without a date, the day is 0 and has no meaning.
 struct TimeStamp {
-    std::int64_t day = 0;          ///< since 1970-01-01, of universal time if a zone is given
-    std::int64_t nanoseconds = 0;  ///< of the day
+    std::int64_t day = 0;          ///< days since 1970-01-01, in UTC if a time zone is given
+    std::int64_t nanoseconds = 0;  ///< since the start of the day
     bool dated = false;
 };
 
-/// "2026-03-01T12:00:00.000Z", "2026-03-01 12:00:00,5", "2026/03/01 12:00:00", "01.03.2026 12:00:00", "12:00:00.000": a time of day to
-/// the second or finer, with a date before it or none, and a zone behind it (Z, +01:00) or none. Not 03/01/2026: which is the month?
+/// Parses "2026-03-01T12:00:00.000Z", "2026-03-01 12:00:00,5", "2026/03/01 12:00:00", "01.03.2026 12:00:00", "12:00:00.000": a time of
+/// day with seconds, an optional date before it, and an optional time zone (Z, +01:00) after it. 03/01/2026 is not accepted, because
+/// day and month are ambiguous.
 std::optional<TimeStamp> parse_time_stamp(std::string_view text);
 
-/// "2026-03-01" alone.
+/// True for a date without a time: "2026-03-01".
 bool is_date(std::string_view text);
 
-/// The seconds from one to another, to the nanosecond within months.
+/// The difference in seconds. Exact to the nanosecond for differences of months.
 double seconds_between(const TimeStamp& from, const TimeStamp& to);
 
-/// "2026-03-01 12:00:00.000": seconds since 1970 in universal time, to the millisecond.
+/// Formats seconds since 1970 as "2026-03-01 12:00:00.000", in UTC, to the millisecond.
 std::string format_instant(double seconds_since_1970);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The trains of a file while it is read, and the kinds of file.
+// Collects the spike trains of a file by name, and declares the readers of the spike formats.
 
 #include <map>
 #include <utility>

@@ -10,23 +10,23 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t most_numbers_turned = std::size_t{1} << 27;  // a gigabyte
+constexpr std::size_t max_transposed_numbers = std::size_t{1} << 27;  // one gigabyte
 
 class MemorySamples final : public Samples {
-    SamplesFacts facts_;
+    SamplesFacts info_;
     std::vector<std::vector<double>> channels_;
-    std::vector<Place> places_;  // of the rows that are the channels
-    std::size_t names_;          // fields in front of the samples
+    std::vector<Place> locations_;  // locations of the rows, which are the channels
+    std::size_t names_;             // number of fields before the samples
 
 public:
-    MemorySamples(SamplesFacts facts, std::vector<std::vector<double>> channels, std::vector<Place> places, std::size_t names)
-        : facts_(std::move(facts)), channels_(std::move(channels)), places_(std::move(places)), names_(names) {}
+    MemorySamples(SamplesFacts info, std::vector<std::vector<double>> channels, std::vector<Place> locations, std::size_t names)
+        : info_(std::move(info)), channels_(std::move(channels)), locations_(std::move(locations)), names_(names) {}
 
     std::optional<FieldPlace> place_of(std::int64_t row, std::size_t column) const override {
-        return FieldPlace{places_[column], static_cast<std::size_t>(row) + names_ + 1};
+        return FieldPlace{locations_[column], static_cast<std::size_t>(row) + names_ + 1};
     }
 
-    const SamplesFacts& facts() const override { return facts_; }
+    const SamplesFacts& facts() const override { return info_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
@@ -46,28 +46,28 @@ Result<std::unique_ptr<Table>> transposed(std::unique_ptr<Table> table, const st
     std::vector<std::size_t> all(table->columns().size() - names);
     std::iota(all.begin(), all.end(), names);
     std::vector<std::vector<double>> block(all.size()), channels;
-    std::vector<Place> places;
-    table->allow_gaps(true);  // checked again when the channels are read
+    std::vector<Place> locations;
+    table->allow_gaps(true);  // gaps are checked when the channels are read
     for (;;) {
         const auto rows = table->read(all, 64, block);
         if (!rows) return rows.error();
         if (*rows == 0) break;
         for (std::size_t k = 0; k < *rows; ++k) {
             channels.emplace_back(all.size());
-            places.push_back(table->place(k));
+            locations.push_back(table->place(k));
             for (std::size_t c = 0; c < all.size(); ++c) channels.back()[c] = block[c][k];
         }
-        if (channels.size() * all.size() > most_numbers_turned)
-            return bad_input(fmt::format("--transpose: more than {} numbers are too many to turn; save the table with a row a sample",
-                                         most_numbers_turned),
+        if (channels.size() * all.size() > max_transposed_numbers)
+            return bad_input(fmt::format("--transpose: the table has more than {} numbers; save it with one row for each sample instead",
+                                         max_transposed_numbers),
                              {path});
     }
-    SamplesFacts facts;
-    facts.rows = static_cast<std::int64_t>(all.size());
-    facts.columns = columns_named_after("", channels.size());
-    for (std::size_t c = 0; c < std::min(channels.size(), row_names->size()); ++c) facts.columns[c] = parse_heading((*row_names)[c]);
+    SamplesFacts info;
+    info.rows = static_cast<std::int64_t>(all.size());
+    info.columns = columns_named_after("", channels.size());
+    for (std::size_t c = 0; c < std::min(channels.size(), row_names->size()); ++c) info.columns[c] = parse_heading((*row_names)[c]);
     return table_of(
-        std::unique_ptr<Samples>(std::make_unique<MemorySamples>(std::move(facts), std::move(channels), std::move(places), names)), path);
+        std::unique_ptr<Samples>(std::make_unique<MemorySamples>(std::move(info), std::move(channels), std::move(locations), names)), path);
 }
 
 }  // namespace corpuscle

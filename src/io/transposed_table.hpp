@@ -1,11 +1,11 @@
 #pragma once
-// A table turned: its rows as channels. For text, which has no other way to be read along its rows.
+// Transposes a table, so that its rows become channels. For text, which cannot be read row by row as channels otherwise.
 
 #include "io/table.hpp"
 
 namespace corpuscle {
 
-/// Reads the whole table into memory, so it must not be large; the columns are called ch1, ch2 ...
+/// Reads the entire table into memory, so the table must not be large. The columns are called ch1, ch2 ... unless the rows have names.
 Result<std::unique_ptr<Table>> transposed(std::unique_ptr<Table>, const std::string& path);
 
 }  // namespace corpuscle

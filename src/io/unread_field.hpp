@@ -1,5 +1,5 @@
 #pragma once
-// Fields that are meant as numbers but are not written as they are read here: what is unusual in them, and how to rewrite them.
+// Advice on fields that are meant as numbers but are written in a format that is not supported.
 
 #include <string>
 #include <string_view>
@@ -7,9 +7,9 @@
 namespace corpuscle {
 
 struct FieldAdvice {
-    std::string what = {};    ///< what the field has, as "a separator of thousands"; "": nothing that is known
-    std::string filter = {};  ///< a shell's command that rewrites such a text; "": there is no safe one
-    std::string remedy = {};  ///< what to do where there is no command
+    std::string what = {};    ///< the unusual feature, such as "a thousands separator"; "": not recognised
+    std::string filter = {};  ///< a shell command that converts such a text; "": there is no safe one
+    std::string remedy = {};  ///< the remedy if there is no command
 };
 
 FieldAdvice advice_on(std::string_view field);

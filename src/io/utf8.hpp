@@ -7,7 +7,7 @@ namespace corpuscle {
 
 bool is_utf8(std::string_view);
 
-/// Text as UTF-8: as it is if it is that already, else read as Latin-1 (Windows-1252), as instruments and spreadsheets write it.
+/// Text as UTF-8. Text that is not valid UTF-8 is converted from Windows-1252, which instruments and spreadsheets write.
 std::string utf8_text(std::string_view);
 
 }  // namespace corpuscle

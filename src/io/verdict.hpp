@@ -1,5 +1,5 @@
 #pragma once
-// What was found of a recording, in words: a sentence a fault, with what to say against it; a warning where the answer is doubtful.
+// The quality report of a recording: one message for each fault, with a remedy. It is a warning if the response is doubtful.
 
 #include <vector>
 

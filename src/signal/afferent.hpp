@@ -1,5 +1,5 @@
 #pragma once
-// The boundary everything stands on: an afferent answers a block of force with spikes. Virtual once a block.
+// The interface of an afferent: it responds to a block of force with spikes. One virtual call per block.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,69 +15,71 @@
 
 namespace corpuscle {
 
-/// An inner quantity that an afferent can show: a component of its current, its membrane.
+/// A recordable quantity of an afferent, such as its membrane potential or a component of its current.
 struct Probe {
     std::string_view name, unit;
 };
 
-/// An inner quantity that stays between two values as long as the afferent does what it was designed for.
+/// The interval in which a recordable quantity stays while the afferent works as designed.
 struct Range {
-    std::string_view of, unit;  ///< "v(vf)", "V"
+    std::string_view of, unit;  ///< the quantity and its unit: "v(vf)", "V"
     double low, high;
-    std::string_view meaning;  ///< of being outside; "" if nobody says
+    std::string_view meaning;  ///< what a violation means; "" if it is not documented
 };
 
-/// How often one was outside.
+/// Counts the samples at which a quantity was outside its valid range.
 struct Outside {
-    std::int64_t samples = 0, first = -1;  ///< first: the number of the first such sample; -1: none
+    std::int64_t samples = 0, first = -1;  ///< first: the index of the first such sample; -1: none
 };
 
-/// "v(vf) was outside 100 mV to 600 mV for 120 ms of 1 s, first at 310 ms: the sensor's current is ..."; times in seconds.
+/// A message such as "v(vf) was outside 100 mV to 600 mV for 120 ms of 1 s, first at 310 ms: ...". Times are in seconds.
 std::string outside_sentence(const Range&, double outside, double of, double first);
 
-/// All that an afferent carries from block to block. Copy it to try twice; pack it to resume elsewhere.
+/// Everything an afferent keeps from block to block. Copy it to simulate twice from one point; pack it to resume elsewhere.
 struct State {
-    std::string format;          ///< what the values mean, with its version: "sa1b+lif-b/1"
-    std::int64_t step = 0;       ///< samples answered so far
+    std::string format;          ///< identifies the meaning of the values and its version: "sa1b+lif-b/1"
+    std::int64_t step = 0;       ///< number of samples simulated so far
     std::vector<double> values;  ///< SI
 };
 
+/// The state as bytes, with a checksum.
 std::vector<std::byte> pack(const State&);
+/// Reads the bytes of pack(). Damaged bytes and unknown versions are errors.
 Result<State> unpack(std::span<const std::byte>);
 
-/// What a circuit took while it was at work.
+/// Energy that a circuit used during a simulation.
 struct Spent {
-    double seconds = 0;
-    double supplies = 0, sensor = 0;  ///< J that its sources delivered, and of that what its sensor's current took
+    double seconds = 0;               ///< simulated time
+    double supplies = 0, sensor = 0;  ///< J: delivered by all sources, and the part of it drawn by the sensor's current
     Spent& operator+=(const Spent& more) {
         seconds += more.seconds, supplies += more.supplies, sensor += more.sensor;
         return *this;
     }
 };
 
-/// Where an afferent puts its answer.
+/// The output of one call of Afferent::respond(): the caller's arrays to fill, and counters that are added to.
 struct Answer {
-    std::vector<Spike>& spikes;  ///< appended in time order; the unit is the caller's
+    std::vector<Spike>& spikes;  ///< spikes are appended in time order, with the caller's afferent index
     std::uint32_t unit = 0;
-    /// If not empty: one array a probe, each as long as the block of force, to be filled.
+    /// If not empty: one array for each probe, as long as the block of force, to be filled.
     std::span<double* const> probes = {};
-    std::span<Outside> outside = {};                       ///< if not empty: one a range, added to
-    std::int64_t capped = 0;                               ///< steps whose spikes were more than the cap allows
-    std::int64_t clipped = 0;                              ///< samples beyond what a sensor's electronics or a converter can tell
-    std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words, kept at the largest
-    std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of a circuit: in time, those taken again, and Newton's
+    std::span<Outside> outside = {};                       ///< if not empty: one counter for each range
+    std::int64_t capped = 0;                               ///< steps that reached the limit of spikes per step
+    std::int64_t clipped = 0;                              ///< samples beyond the range of a sensor's electronics or converter
+    std::int64_t overflowed = 0;                           ///< fixed-point results of a digital afferent that were saturated
+    std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of a circuit: time steps, rejected steps, Newton iterations
     Spent spent = {};
 };
 
-/// Which of several channels that share their electronics: a converter takes them in turn.
+/// The position of a channel among several that share one converter, which samples them in turn.
 struct Turn {
     std::uint32_t channel = 0, of = 1;
 };
 
-/// The place of the first number that is infinite or none; the size if there is none such.
+/// The index of the first value that is infinite or NaN; the size if all are finite.
 std::size_t first_not_finite(std::span<const double>);
 
-/// Refuses a state that is another afferent's, and a force that is not finite.
+/// Returns an error if the state belongs to another afferent, or if a force is not finite.
 Result<void> check_block(std::string_view name, std::string_view format, std::size_t values, const State&, std::span<const double> force);
 
 class Afferent {
@@ -88,16 +90,16 @@ public:
     virtual ~Afferent() = default;
     virtual std::span<const Probe> probes() const = 0;
     virtual std::span<const Range> ranges() const { return {}; }
-    /// The state before the first sample. The first sample also sets the force that went before it.
+    /// The state before the first sample. The force before the first sample is taken to be the first sample's.
     virtual State start(Turn = {}) const = 0;
-    /// How many samples the answer is behind the force: a block answers that many samples before those it hands in, and so do its
-    /// probes. Who wants to hear a force to its end hands in so many samples more.
+    /// Latency in samples: the spikes and probes of a block belong to the force that many samples earlier.
+    /// To get the complete response, append delay() samples of force.
     virtual std::int64_t delay() const { return 0; }
-    /// Answers the next block (force in newtons, one sample a T). Blocks of any size give the same spikes.
+    /// Simulates the next block (force in newtons, one sample per T). The spikes do not depend on the block size.
     virtual Result<void> respond(std::span<const double> force, State&, Answer&) const = 0;
 };
 
-/// What afferents are made from that are no models of equations: a netlist.
+/// Creates afferents that are not built-in models, for example from a netlist.
 class Design {
 public:
     Design() = default;
@@ -105,10 +107,11 @@ public:
     Design& operator=(const Design&) = delete;
     virtual ~Design() = default;
     virtual std::string_view kind() const = 0;   ///< "netlist"
-    virtual std::string_view title() const = 0;  ///< what it says of itself
-    /// What is set of it and is no number: {"corner", "ss"}.
+    virtual std::string_view title() const = 0;  ///< the title line of the netlist
+    /// Settings that are not numbers, e.g. {"corner", "ss"}.
     virtual std::vector<std::pair<std::string, std::string>> words() const { return {}; }
-    /// For samples dt apart, s; sampled: spikes come on the samples; copy: its number among copies that may differ, from 1, or 0.
+    /// Creates an afferent for a sample period of `dt` s. If `sampled`, spikes occur only at sample times. `copy` selects one of
+    /// several copies that may differ, counted from 1; 0 is the nominal one.
     virtual std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy) const = 0;
 };
 

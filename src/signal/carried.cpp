@@ -9,7 +9,7 @@ namespace corpuscle {
 Result<std::string> carried_text(const std::string& path) {
     for (const auto& f : embedded_file_table)
         if (f.path == path) return std::string(f.begin, f.end);
-    return bad_input(fmt::format("the program does not carry '{}'", path), {path});
+    return bad_input(fmt::format("there is no embedded file '{}'", path), {path});
 }
 
 std::vector<std::string_view> carried_files() {

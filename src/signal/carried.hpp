@@ -1,5 +1,5 @@
 #pragma once
-// The files that the program carries with it, as they were when it was built (cmake/carried.cmake): netlists, cards, populations.
+// Files embedded in the program when it was built: netlists, process cards, populations.
 
 #include <string>
 #include <string_view>
@@ -9,10 +9,10 @@
 
 namespace corpuscle {
 
-/// The text of one of them, by its path: "circuits/bias.cir".
+/// The text of an embedded file, by its path: "circuits/bias.cir".
 Result<std::string> carried_text(const std::string& path);
 
-/// Their paths: "process/tsmc180.lib".
+/// The paths of all embedded files, such as "process/tsmc180.lib".
 std::vector<std::string_view> carried_files();
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// A checksum against damage, not against forgery.
+// A checksum that detects damage. It is not secure against forgery.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,12 +9,13 @@
 
 namespace corpuscle {
 
-/// 64 bits over a sequence of bytes, eight at a time. Each step is a bijection of the value so far, so bytes that differ in one word
-/// alone never have the same checksum. Of bytes that are added in pieces, all pieces but the last are multiples of eight bytes.
+/// A 64-bit checksum of a byte sequence, computed eight bytes at a time. Each step is a bijection of the value so far, so sequences
+/// that differ in a single add_word never have the same checksum. If bytes are added in chunks, all chunks except the last must be
+/// multiples of eight bytes.
 class Checksum {
     std::uint64_t value_ = 0xcbf29ce484222325U;
 
-    void word(std::uint64_t w) {
+    void add_word(std::uint64_t w) {
         value_ = (value_ ^ w) * 0x100000001b3U;
         value_ ^= value_ >> 32;
     }
@@ -24,16 +25,16 @@ public:
         const auto* at = static_cast<const unsigned char*>(data);
         for (std::uint64_t w = 0; size >= sizeof w; at += sizeof w, size -= sizeof w) {
             std::memcpy(&w, at, sizeof w);
-            word(w);
+            add_word(w);
         }
-        for (; size > 0; ++at, --size) word(*at);
+        for (; size > 0; ++at, --size) add_word(*at);
     }
-    /// A text with its length, so that neighbours cannot trade letters.
+    /// Adds a text and its length, so that moving letters between adjacent texts changes the checksum.
     void add(std::string_view text) {
-        word(text.size());
+        add_word(text.size());
         add(text.data(), text.size());
     }
-    void add(std::uint64_t x) { word(x); }
+    void add(std::uint64_t x) { add_word(x); }
     void add(double x) { add(&x, sizeof x); }
     std::uint64_t value() const { return value_; }
 };

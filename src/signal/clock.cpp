@@ -7,8 +7,8 @@ namespace corpuscle {
 
 Result<Clock> clock_of(double rate, double t0, double tolerance) {
     if (!(rate >= 1e-6 && rate <= 1e12)) return bad_input(fmt::format("a rate of {:g} Hz is outside [1e-06, 1e+12]", rate));
-    if (const double whole = std::round(rate); whole >= 1 && std::abs(whole - rate) <= tolerance * rate)
-        return Clock{static_cast<std::int64_t>(whole), 1, t0};
+    if (const double rounded = std::round(rate); rounded >= 1 && std::abs(rounded - rate) <= tolerance * rate)
+        return Clock{static_cast<std::int64_t>(rounded), 1, t0};
     // Continued fraction: p1/q1 are the convergents of the rate.
     double x = rate, p0 = 1, q0 = 0, p1 = std::floor(x), q1 = 1;
     while (std::abs(p1 / q1 - rate) > tolerance * rate) {

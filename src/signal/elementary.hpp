@@ -1,6 +1,6 @@
 #pragma once
-// exp, log, sin, cos from + - * / and bit moves alone, so that every processor, instruction set and lane width
-// gives the same bytes; the C library's differ from machine to machine. Error at most a few units in the last place.
+// exp, log, sin and cos from + - * / and bit operations only. Every processor, instruction set and lane width gives the same bytes;
+// the C library's functions differ between machines. The error is at most a few units in the last place.
 
 #include "signal/number.hpp"
 
@@ -11,13 +11,13 @@ Dual log(Dual x);
 Dual sin_turns(Dual x);
 Dual cos_turns(Dual x);
 
-/// e^x. x beyond +-exp_reach (700) is taken as that.
+/// e^x, with x limited to +- exp_limit (700 for double).
 template <class T>
 T exp(T x) {
     x = num::min(num::max(x, T(-exp_reach<T>)), T(exp_reach<T>));
     const T k = num::nearest(x * T(1.4426950408889634));
-    const T r = (x - k * T(6.93147180369123816490e-01)) - k * T(1.90821492927058770002e-10);  // ln 2 in two pieces
-    // Taylor to r^13; |r| <= 0.347, so what is left out is below 4e-18. Pairs first (Estrin): short chains, not one long one.
+    const T r = (x - k * T(6.93147180369123816490e-01)) - k * T(1.90821492927058770002e-10);  // ln 2 as a sum of two constants
+    // Taylor series to r^13; |r| <= 0.347, so the remainder is below 4e-18. Estrin's scheme gives short dependency chains.
     const T r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
     const auto pair = [r](double low, double high) { return T(1.0 / low) + T(1.0 / high) * r; };
     const T low = pair(2.0, 6.0) + pair(24.0, 120.0) * r2, middle = pair(720.0, 5040.0) + pair(40320.0, 362880.0) * r2;
@@ -56,9 +56,9 @@ T cos_taylor(T y) {
 }
 }  // namespace detail
 
-// A sign is changed by a multiplication: of some lanes, -x is 0 - x, and loses the sign of a zero.
+// Signs are changed by multiplying by -1: some lanes compute -x as 0 - x, which loses the sign of a zero.
 
-/// sin of `turns` whole turns, sin(2 pi turns), for |turns| < 2^49; exact at quarter turns.
+/// sin(2 pi turns) for |turns| < 2^49; exact at quarter turns.
 template <class T>
 T sin_turns(T turns) {
     const T quarter = num::nearest(turns * T(4.0));
@@ -80,16 +80,16 @@ T cos_turns(T turns) {
     return num::select(num::abs(num::abs(q) - T(1.0)) < T(0.5), odd, even);
 }
 
-/// (e^x - 1) / x, also where x is small and the difference would lose its digits; 1 at x = 0.
+/// (e^x - 1) / x without loss of digits for small x; 1 at x = 0.
 template <class T>
 T exprel(T x) {
-    T series = T(1.0 / 5040);  // to x^6: what is left out is below 3e-19 for |x| < 0.01, and 6e-9 for 0.3
+    T series = T(1.0 / 5040);  // to x^6: the remainder is below 3e-19 for |x| < 0.01, and below 6e-9 for 0.3
     for (const double f : {720.0, 120.0, 24.0, 6.0, 2.0, 1.0}) series = series * x + T(1.0 / f);
     const auto small = num::abs(x) < T(series_reach<T>);
     return num::select(small, series, (num::exp(x) - T(1.0)) / num::select(small, T(1.0), x));
 }
 
-// The slopes of a dual, by the rules of calculus; its value is the double's to the last bit.
+// The derivatives for dual numbers. The value equals that of the double to the last bit.
 inline Dual exp(Dual x) {
     const double e = exp(x.v);
     return {e, e * x.d};

@@ -1,5 +1,5 @@
 #pragma once
-// One kind of error, and a result that holds a value or an error. The library prints nothing and never ends the process.
+// The error type, and a result type that holds a value or an error. The library prints nothing and never ends the process.
 
 #include <string>
 #include <utility>
@@ -7,13 +7,14 @@
 
 namespace corpuscle {
 
-/// The numbers are the program's exit status.
+/// Kinds of error. The numbers are the exit statuses of the program.
 enum class Code { bad_input = 1, bad_usage = 2, not_converged = 3, interrupted = 130 };
 
+/// A place in a text file.
 struct Place {
     std::string file;
-    long line = 0;    ///< 1-based; 0: no line
-    long column = 0;  ///< 1-based, in bytes; 0: no column
+    long line = 0;    ///< 1-based; 0: unknown
+    long column = 0;  ///< 1-based, in bytes; 0: unknown
 };
 
 struct Error {
@@ -21,40 +22,40 @@ struct Error {
     std::string sentence;  ///< names the thing, the value and what would be right
     Place place = {};
 
-    /// "file:line:column: sentence", as compilers write it.
+    /// "file:line:column: message", as compilers write it.
     std::string text() const;
 };
 
-inline Error bad_input(std::string sentence, Place place = {}) { return {Code::bad_input, std::move(sentence), std::move(place)}; }
-inline Error bad_usage(std::string sentence) { return {Code::bad_usage, std::move(sentence)}; }
+inline Error bad_input(std::string message, Place location = {}) { return {Code::bad_input, std::move(message), std::move(location)}; }
+inline Error bad_usage(std::string message) { return {Code::bad_usage, std::move(message)}; }
 
-/// A value or the error that stood in its way.
+/// A value, or the error that prevented it.
 template <class T>
 class [[nodiscard]] Result {
-    std::variant<T, Error> held_;
+    std::variant<T, Error> value_or_error_;
 
 public:
-    Result(T value) : held_(std::move(value)) {}
-    Result(Error error) : held_(std::move(error)) {}
-    explicit operator bool() const { return held_.index() == 0; }
-    T& operator*() & { return std::get<0>(held_); }
-    T&& operator*() && { return std::get<0>(std::move(held_)); }
-    const T& operator*() const& { return std::get<0>(held_); }
-    T* operator->() { return &std::get<0>(held_); }
-    const T* operator->() const { return &std::get<0>(held_); }
-    const Error& error() const { return std::get<1>(held_); }
+    Result(T value) : value_or_error_(std::move(value)) {}
+    Result(Error error) : value_or_error_(std::move(error)) {}
+    explicit operator bool() const { return value_or_error_.index() == 0; }
+    T& operator*() & { return std::get<0>(value_or_error_); }
+    T&& operator*() && { return std::get<0>(std::move(value_or_error_)); }
+    const T& operator*() const& { return std::get<0>(value_or_error_); }
+    T* operator->() { return &std::get<0>(value_or_error_); }
+    const T* operator->() const { return &std::get<0>(value_or_error_); }
+    const Error& error() const { return std::get<1>(value_or_error_); }
 };
 
 /// Success without a value, or the error.
 template <>
 class [[nodiscard]] Result<void> {
-    std::variant<std::monostate, Error> held_;
+    std::variant<std::monostate, Error> value_or_error_;
 
 public:
     Result() = default;
-    Result(Error error) : held_(std::move(error)) {}
-    explicit operator bool() const { return held_.index() == 0; }
-    const Error& error() const { return std::get<1>(held_); }
+    Result(Error error) : value_or_error_(std::move(error)) {}
+    explicit operator bool() const { return value_or_error_.index() == 0; }
+    const Error& error() const { return std::get<1>(value_or_error_); }
 };
 
 }  // namespace corpuscle

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-std::size_t edits_between(std::string_view a, std::string_view b) {
+std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -24,25 +24,25 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::optional<Error> outside(std::string_view of, const Row& row, double value) {
+std::optional<Error> outside(std::string_view owner, const Row& row, double value) {
     if (value >= row.low && value <= row.high) return {};
-    return bad_input(fmt::format("{}: {} = {:g}{}{} is outside [{:g}, {:g}]", of, row.name, value, row.unit.empty() ? "" : " ", row.unit,
+    return bad_input(fmt::format("{}: {} = {:g}{}{} is outside [{:g}, {:g}]", owner, row.name, value, row.unit.empty() ? "" : " ", row.unit,
                                  row.low, row.high));
 }
 
-std::optional<Error> out_of_order(std::string_view of, std::string_view lesser, double less, std::string_view greater, double more,
-                                  bool or_equal) {
-    if (or_equal ? less <= more : less < more) return {};
-    return bad_input(
-        fmt::format("{}: {} = {:g} must {} {} = {:g}", of, lesser, less, or_equal ? "not be above" : "be below", greater, more));
+std::optional<Error> out_of_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
+                                  double upper, bool or_equal) {
+    if (or_equal ? lower <= upper : lower < upper) return {};
+    return bad_input(fmt::format("{}: {} = {:g} must {} {} = {:g}", owner, lower_name, lower, or_equal ? "not be above" : "be below",
+                                 upper_name, upper));
 }
 
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names) {
     if (typed.empty() || typed.size() > 64) return "";
     std::string_view best;
-    std::size_t least = std::max<std::size_t>(1, typed.size() / 2) + 1;
+    std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 2) + 1;
     for (const auto name : names)
-        if (const auto n = edits_between(typed, name); n < least) least = n, best = name;
+        if (const auto n = edit_distance(typed, name); n < best_distance) best_distance = n, best = name;
     return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
 }
 

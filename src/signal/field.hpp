@@ -1,5 +1,5 @@
 #pragma once
-// A parameter is said once, in its row: command line, JSON, reference, checks and defaults are made from it.
+// Parameters are declared once, in a table row. Command line, JSON, reference, checks and defaults are generated from that row.
 
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace corpuscle {
 
-/// One parameter of P: the row from which everything about it is made.
+/// Declares one parameter of the struct P.
 template <class P>
 struct Field {
     std::string_view name;
@@ -19,11 +19,11 @@ struct Field {
     std::string_view unit;  ///< SI, "" for a plain number
     double low, high;       ///< the allowed range, ends included
     std::string_view sentence;
-    std::string_view source = {};  ///< where the default comes from, if not from where the model does
-    bool one_for_all = false;      ///< copies of an afferent share it: a choice of how they are computed or measured
+    std::string_view source = {};  ///< source of the default, if it is not the model's source
+    bool one_for_all = false;      ///< true if all copies of an afferent share the value, as for numerical or measurement options
 };
 
-/// Two parameters of which one must stay below the other.
+/// Requires that one parameter is below another.
 template <class P>
 struct Below {
     std::string_view lesser;
@@ -33,23 +33,23 @@ struct Below {
     bool or_equal = false;
 };
 
-/// A row without its struct: what lists, pages and settings need.
+/// A parameter without its struct type, for lists, pages and settings.
 struct Row {
     std::string_view name, unit;
     double initial;  ///< the default
     double low, high;
     std::string_view sentence;
-    std::string_view source;   ///< of the default; "": the source of the whole card
-    bool one_for_all = false;  ///< copies of an afferent share it
+    std::string_view source;   ///< source of the default; "": that of the catalogue entry
+    bool one_for_all = false;  ///< true if all copies of an afferent share the value
 };
 
-/// Something with a name and parameters, as catalogues show it.
+/// An entry of a catalogue: a name, a description and parameters.
 struct Card {
     std::string_view name, sentence, source;
     std::vector<Row> rows;
 };
 
-/// A parameter with the value it is to take, in SI.
+/// A parameter and its new value, in SI.
 struct Setting {
     std::string_view name;
     double value;
@@ -63,29 +63,29 @@ std::vector<Row> rows_of(std::span<const Field<P>> fields) {
     return rows;
 }
 
-template <class M>  // a model or a stimulus: name, sentence, source, Params, fields
+template <class M>  // a model or a stimulus with name, description, source, Params and fields
 Card card_of() {
     return {M::name, M::sentence, M::source, rows_of<typename M::Params>(M::fields)};
 }
 
-/// Refuses a value outside the row's range: "lif-b: C_m = -1 F is outside [1e-15, 1]".
-std::optional<Error> outside(std::string_view of, const Row&, double value);
+/// Returns an error if the value is outside the parameter's range: "lif-b: C_m = -1 F is outside [1e-15, 1]".
+std::optional<Error> outside(std::string_view owner, const Row&, double value);
 
-/// Refuses two parameters in the wrong order: "lif-b: V_reset = 0.6 must be below V_th = 0.5".
-std::optional<Error> out_of_order(std::string_view of, std::string_view lesser, double less, std::string_view greater, double more,
-                                  bool or_equal);
+/// Returns an error if two parameters are in the wrong order: "lif-b: V_reset = 0.6 must be below V_th = 0.5".
+std::optional<Error> out_of_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
+                                  double upper, bool or_equal);
 
 template <class P>
-std::optional<Error> out_of_order(std::string_view of, std::span<const Below<P>> orders, const P& p) {
-    for (const auto& o : orders)
-        if (auto wrong = out_of_order(of, o.lesser, p.*o.less, o.greater, p.*o.more, o.or_equal)) return wrong;
+std::optional<Error> out_of_order(std::string_view owner, std::span<const Below<P>> constraints, const P& p) {
+    for (const auto& c : constraints)
+        if (auto error = out_of_order(owner, c.lesser, p.*c.less, c.greater, p.*c.more, c.or_equal)) return error;
     return {};
 }
 
-/// The name among `names` that is closest to a mistyped one, as "; did you mean 'out'?", or "".
+/// Suggests the name that is closest to a mistyped one, as "; did you mean 'out'?". "" if none is close.
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names);
 
-/// Sets what the settings name. Those that P does not have are left alone: they may belong to a partner.
+/// The default parameters with the settings applied. Settings for other parameters are ignored: they may belong to a partner model.
 template <class P>
 P with(std::span<const Field<P>> fields, std::span<const Setting> settings) {
     P p;

@@ -29,27 +29,27 @@ InputFiles& input_files() {
 
 /// Device and inode of a regular file.
 std::optional<std::pair<dev_t, ino_t>> identity_of(const std::string& path) {
-    struct ::stat facts = {};
-    const bool found = path == "-" ? ::fstat(0, &facts) == 0 : ::stat(path.c_str(), &facts) == 0;
-    if (!found || !S_ISREG(facts.st_mode)) return {};
-    return std::pair{facts.st_dev, facts.st_ino};
+    struct ::stat file_status = {};
+    const bool found = path == "-" ? ::fstat(0, &file_status) == 0 : ::stat(path.c_str(), &file_status) == 0;
+    if (!found || !S_ISREG(file_status.st_mode)) return {};
+    return std::pair{file_status.st_dev, file_status.st_ino};
 }
 
 std::atomic<bool (*)()> interruption = nullptr;
 
 bool is_interrupted() {
-    const auto asked = interruption.load();
-    return asked && asked();
+    const auto check = interruption.load();
+    return check && check();
 }
 
-constexpr int patience_ms = 100;  // from a signal that comes just before a wait until it is heard
+constexpr int poll_ms = 100;  // longest delay until a signal is noticed that arrives just before the wait
 
-/// read(), which waits no longer than until an interruption; -1: errno, EINTR stands for one.
+/// Like read(), but returns -1 with errno EINTR at an interruption.
 ssize_t read_when_ready(int file, std::span<char> to) {
     for (;;) {
         if (is_interrupted()) return errno = EINTR, -1;
         pollfd ready = {file, POLLIN, 0};
-        const int count = ::poll(&ready, 1, patience_ms);
+        const int count = ::poll(&ready, 1, poll_ms);
         if (count == 0 || (count < 0 && errno == EINTR)) continue;
         const auto got = ::read(file, to.data(), to.size());
         if (got >= 0 || (errno != EINTR && errno != EAGAIN)) return got;
@@ -72,11 +72,11 @@ std::optional<std::string> input_at(const std::string& path) {
     const auto at = input_files().paths.find(*identity);
     if (at == input_files().paths.end()) return {};
     if (identity_of(at->second) == identity) return at->second;
-    input_files().paths.erase(at);  // that input has gone since, and its inode was given to another file
+    input_files().paths.erase(at);  // the input was deleted, and its inode now belongs to another file
     return {};
 }
 
-void set_interruption(bool (*asked)()) { interruption = asked; }
+void set_interruption(bool (*is_interrupted)()) { interruption = is_interrupted; }
 
 std::FILE* open_input(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -87,9 +87,9 @@ std::FILE* open_input(const std::string& path) {
 }
 
 Result<std::size_t> read_input(std::FILE* file, std::span<char> to, const std::string& name) {
-    struct ::stat facts = {};
+    struct ::stat file_status = {};
     const auto error = [&] { return bad_input(std::string("cannot be read: ") + std::strerror(errno), {name}); };
-    if (::fstat(::fileno(file), &facts) == 0 && S_ISREG(facts.st_mode)) {
+    if (::fstat(::fileno(file), &file_status) == 0 && S_ISREG(file_status.st_mode)) {
         const auto got = std::fread(to.data(), 1, to.size(), file);
         if (got < to.size() && std::ferror(file)) return error();
         return got;
@@ -105,10 +105,10 @@ Result<std::size_t> read_input(std::FILE* file, std::span<char> to, const std::s
     return filled;
 }
 
-Result<std::string> read_whole_input(const std::string& path, std::size_t most_bytes, const std::string& what) {
-    struct ::stat facts = {};
-    if (::stat(path.c_str(), &facts) == 0 && S_ISDIR(facts.st_mode))
-        return bad_input(fmt::format("this is a directory, not a {}", what), {path});
+Result<std::string> read_whole_input(const std::string& path, std::size_t max_bytes, const std::string& kind) {
+    struct ::stat file_status = {};
+    if (::stat(path.c_str(), &file_status) == 0 && S_ISDIR(file_status.st_mode))
+        return bad_input(fmt::format("this is a directory, not a {}", kind), {path});
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
     if (!file)
         return bad_input(fmt::format("cannot be read: {}", errno == ENOENT ? "there is no such file" : std::strerror(errno)), {path});
@@ -117,14 +117,14 @@ Result<std::string> read_whole_input(const std::string& path, std::size_t most_b
         const auto got = read_input(file.get(), block, path);
         if (!got) return got.error();
         text.append(block.data(), *got);
-        if (text.size() > most_bytes) return bad_input(fmt::format("is no {}: it is larger than {} MB", what, most_bytes >> 20), {path});
+        if (text.size() > max_bytes) return bad_input(fmt::format("not a {}: it is larger than {} MB", kind, max_bytes >> 20), {path});
         if (*got < block.size()) return text;
     }
 }
 
 std::string first_bytes_of_input(const std::string& path, std::size_t count) {
-    struct ::stat facts = {};
-    if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return {};
+    struct ::stat file_status = {};
+    if (::stat(path.c_str(), &file_status) != 0 || !S_ISREG(file_status.st_mode)) return {};
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);
     std::string first(count, '\0');
     first.resize(file ? std::fread(first.data(), 1, count, file.get()) : 0);

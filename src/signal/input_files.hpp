@@ -1,6 +1,6 @@
 #pragma once
-// Files that are read. This process remembers them by device and inode, so that no output takes the place of one; and where a read must
-// wait (a pipe, a terminal), an interruption ends it.
+// Input files. The process remembers them by device and inode, so that no output file replaces one of them. A read that must wait
+// (for a pipe or a terminal) ends at an interruption.
 
 #include <cstdio>
 #include <optional>
@@ -11,25 +11,26 @@
 
 namespace corpuscle {
 
-/// "-" stands for standard input. A path at which there is no regular file is left out.
+/// Remembers a file as an input. "-" is standard input. A path without a regular file is ignored.
 void remember_input(const std::string& path);
 
-/// The path by which the file at `path` was read, under this name or another one; none: it was not.
+/// The path by which the file at `path` was read, possibly under another name. nullopt if it was not read.
 std::optional<std::string> input_at(const std::string& path);
 
-/// Asked while a read waits, and by nothing else; without one, reads wait for ever.
+/// Sets the function that is called while a read waits. If it returns true, the read ends. Without it, reads wait without limit.
 void set_interruption(bool (*is_interrupted)());
 
-/// fopen() for reading, of a file that is remembered; never waits, not even for the writer of a named pipe. Null: errno says why.
+/// Opens a file for reading and remembers it. Never waits, not even for the writer of a named pipe. On failure returns null and sets
+/// errno.
 std::FILE* open_input(const std::string& path);
 
-/// fread(), but that an interruption is an error. Fewer bytes than asked for: the end. No other way of reading may be mixed with it.
+/// Like fread(), but an interruption is an error. Fewer bytes than requested mark the end. Do not mix it with other ways of reading.
 Result<std::size_t> read_input(std::FILE*, std::span<char>, const std::string& name);
 
-/// All of a file of at most `most_bytes`; `what` it should be is named if it is larger ("population file").
-Result<std::string> read_whole_input(const std::string& path, std::size_t most_bytes, const std::string& what);
+/// Reads an entire file. A file larger than `max_bytes` is an error, which names the expected `kind` ("population file").
+Result<std::string> read_whole_input(const std::string& path, std::size_t max_bytes, const std::string& kind);
 
-/// The first bytes of a regular file; "" of what can be read only once, such as a pipe, and of a file that cannot be opened.
+/// The first bytes of a regular file. "" for a pipe or similar, which can be read only once, and for a file that cannot be opened.
 std::string first_bytes_of_input(const std::string& path, std::size_t count);
 
 }  // namespace corpuscle

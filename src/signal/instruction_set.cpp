@@ -25,14 +25,14 @@ std::span<const InstructionSet> instruction_sets() {
 
 Result<InstructionSet> instruction_set() {
     const auto sets = instruction_sets();
-    const char* wish = std::getenv("CORPUSCLE_ISA");
-    if (!wish || !*wish) return sets.back();
+    const char* requested = std::getenv("CORPUSCLE_ISA");
+    if (!requested || !*requested) return sets.back();
     std::string known;
     for (const auto set : sets) {
-        if (name_of(set) == wish) return set;
+        if (name_of(set) == requested) return set;
         known += fmt::format("{}{}", known.empty() ? "" : ", ", name_of(set));
     }
-    return bad_usage(fmt::format("CORPUSCLE_ISA={}: this machine has {}", wish, known));
+    return bad_usage(fmt::format("CORPUSCLE_ISA={}: this machine supports {}", requested, known));
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Which of the instruction sets that lanes are compiled for this machine has.
+// The instruction sets that SIMD lanes are compiled for, and which of them this machine supports.
 
 #include <span>
 #include <string_view>
@@ -10,18 +10,18 @@ namespace corpuscle {
 
 enum class InstructionSet {
     scalar,    ///< no lanes: one afferent at a time
-    baseline,  ///< what every processor of this kind has
+    baseline,  ///< supported by every processor of this architecture
     avx2,      ///< x86-64-v3
     avx512,    ///< x86-64-v4
 };
 
 std::string_view name_of(InstructionSet);
 
-/// Those this machine can run, the least first.
+/// The instruction sets that this machine supports, from narrowest to widest.
 std::span<const InstructionSet> instruction_sets();
 
-/// The best this machine has; or what the environment's CORPUSCLE_ISA names (scalar, baseline, avx2, avx512), which changes no
-/// answer. Refuses a word that is none of these, and a set this machine lacks.
+/// The widest set that this machine supports, or the set that the environment variable CORPUSCLE_ISA names (scalar, baseline, avx2,
+/// avx512). Results do not depend on the set. An unknown or unsupported name is an error.
 Result<InstructionSet> instruction_set();
 
 }  // namespace corpuscle

@@ -1,6 +1,6 @@
 #pragma once
-// SIMD lanes as a kind of number: what number.hpp offers for double, for xsimd's batches of double and float. Included by
-// number.hpp alone, and only in files compiled for one instruction set (see cmake/lanes.cmake).
+// SIMD lanes as a number type: the operations of number.hpp for xsimd's batches of double and float. Only number.hpp includes this
+// file, and only in files compiled for one instruction set (see cmake/lanes.cmake).
 
 #include <xsimd/xsimd.hpp>
 
@@ -8,8 +8,7 @@
 #include <cstdint>
 
 #ifdef __AVX512F__
-// xsimd negates for AVX-512 by 0 - x, which gives 0 where -0 is right. On every other instruction set, and for a double, only the sign
-// changes.
+// On AVX-512 xsimd negates by 0 - x, which gives 0 instead of -0. Other instruction sets and double change only the sign bit.
 template <>
 inline xsimd::batch<double> xsimd::batch<double>::operator-() const noexcept {
     return -data;
@@ -22,7 +21,7 @@ inline xsimd::batch<float> xsimd::batch<float>::operator-() const noexcept {
 
 namespace corpuscle::num {
 
-/// As many numbers as a register of this instruction set holds.
+/// One register of this instruction set.
 template <class V>
 using Lanes = xsimd::batch<V>;
 
@@ -39,7 +38,8 @@ template <class V>
 bool all(xsimd::batch_bool<V> m) {
     return xsimd::all(m);
 }
-/// Whether any of several masks has a lane. (For AVX-512 two at once: or-ing them would send each through a general register.)
+/// True if any lane of several masks is set. AVX-512 tests two masks at once, because a bitwise or would move each mask through a
+/// general register.
 template <std::size_t J, class V>
 [[gnu::always_inline]] inline bool any_of(const xsimd::batch_bool<V> (&m)[J]) {
     bool any = false;
@@ -67,7 +67,7 @@ Lanes<V> sqrt(Lanes<V> x) {
     return xsimd::sqrt(x);
 }
 
-/// a > b ? a : b and a < b ? a : b: what the instructions do, with equal zeros and what is no number, too.
+/// a > b ? a : b and a < b ? a : b, which is what the instructions do, also for equal zeros and NaN.
 template <class V>
 Lanes<V> max(Lanes<V> a, Lanes<V> b) {
     return xsimd::max(a, b);
@@ -77,7 +77,7 @@ Lanes<V> min(Lanes<V> a, Lanes<V> b) {
     return xsimd::min(a, b);
 }
 
-/// A bit for each lane, the first lowest.
+/// The mask as an integer: one bit for each lane, the first lane lowest.
 template <class V>
 std::uint64_t bits(xsimd::batch_bool<V> m) {
 #if defined(__AVX512F__)
@@ -96,7 +96,7 @@ std::uint64_t bits(xsimd::batch_bool<V> m) {
 #endif
 }
 
-/// Integers of 16 bits, as many as there are lanes.
+/// Loads one 16-bit integer for each lane.
 template <class V>
 Lanes<V> of_words(const std::int16_t* words) {
 #if defined(__AVX512F__)
@@ -116,7 +116,7 @@ Lanes<V> of_words(const std::int16_t* words) {
 #endif
 }
 
-/// Floats, as many as there are lanes.
+/// Loads one float for each lane.
 template <class V>
 Lanes<V> of_floats(const float* floats) {
 #if defined(__AVX512F__)
@@ -147,7 +147,8 @@ inline xsimd::batch_bool<float> none<Lanes<float>>() {
     return xsimd::batch_bool<float>(false);
 }
 
-/// The same bits read as numbers of type To. (xsimd 12 and later names the element's type, xsimd 8 the batch's.)
+/// Reinterprets the bits as elements of type To. The template argument is the element type in xsimd 12 and later, the batch type in
+/// xsimd 8.
 template <class To, class V>
 xsimd::batch<To> bits_as(xsimd::batch<V> x) {
     if constexpr (requires {
@@ -158,7 +159,7 @@ xsimd::batch<To> bits_as(xsimd::batch<V> x) {
         return xsimd::bitwise_cast<xsimd::batch<To>>(x);
 }
 
-// How each precision is laid out in its bits; the rest of the arithmetic below follows from it.
+// The bit layout of each precision, which the functions below use.
 template <class V>
 struct Layout;
 template <>
@@ -181,7 +182,7 @@ Lanes<V> nearest(Lanes<V> x) {
 }
 template <class V>
 Lanes<V> times_power_of_two(Lanes<V> x, Lanes<V> k) {
-    using Bits = typename Layout<V>::Bits;  // an integer below 2^52 added to 2^52 stands in the lowest bits
+    using Bits = typename Layout<V>::Bits;  // 2^52 plus a smaller integer has that integer in its lowest bits
     const auto shifted = bits_as<Bits>(k + Lanes<V>(Layout<V>::integers_from + V(Layout<V>::bias)));
     return x * bits_as<V>(shifted << Layout<V>::digits);
 }

@@ -1,7 +1,7 @@
 #pragma once
-// The kinds of number that a model's text runs on, and the few operations it may use on them.
+// The number types that a model's equations run on, and the few operations that they may use.
 // A model writes num::select, num::any, num::exp ..., always qualified: unqualified names are ambiguous on
-// SIMD batches. A further kind of number joins by adding its overloads here, before any model is included.
+// SIMD batches. To add a number type, add its overloads here, before any model is included.
 
 #include <bit>
 #include <cmath>
@@ -15,13 +15,13 @@ template <class T>
 struct MaskOf {
     using type = bool;
 };
-/// e^x is not followed beyond +-this: nothing needs more, and no infinity can arise.
+/// exp() limits its argument to +- this value, so that it never returns infinity.
 template <class T>
 inline constexpr double exp_reach = 700;
-/// Below this a difference e^x - 1 loses digits, and a short series does not.
+/// For a smaller |x| a short series replaces e^x - 1, which would lose digits.
 template <class T>
 inline constexpr double series_reach = 0.01;
-/// What a comparison of two T gives: bool, or a mask of lanes.
+/// The type of a comparison of two T: bool, or a mask of lanes.
 template <class T>
 using Mask = typename MaskOf<T>::type;
 
@@ -45,13 +45,13 @@ inline double nearest(double x) {
 }
 /// x 2^k for an integral k with a normal result.
 inline double times_power_of_two(double x, double k) { return x * std::bit_cast<double>((static_cast<std::int64_t>(k) + 1023) << 52); }
-/// For a normal x > 0: the mantissa in [1, 2), and the power of two that goes with it.
+/// mantissa() and exponent() split a normal x > 0 into a factor in [1, 2) and a power of two.
 inline double mantissa(double x) {
     return std::bit_cast<double>((std::bit_cast<std::uint64_t>(x) & 0x000fffffffffffffU) | 0x3ff0000000000000U);
 }
 inline double exponent(double x) { return static_cast<double>(static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023); }
 
-// ---- dual: a value and its slope along one chosen direction ----
+// ---- dual number: a value and its derivative along one direction ----
 
 struct Dual {
     double v = 0, d = 0;
@@ -77,13 +77,13 @@ inline Dual sqrt(Dual x) {
 }
 inline double value(Dual x) { return x.v; }
 
-/// No lane.
+/// A mask with no lane set.
 template <class T>
 Mask<T> none() {
     return T(0.0) > T(0.0);
 }
 
-// ---- for every kind ----
+// ---- every number type ----
 
 template <class T>
 T max(T a, T b) {
@@ -97,7 +97,7 @@ template <class T>
 T abs(T a) {
     return num::select(a < T(0.0), -a, a);
 }
-/// max{x, 0}, the thesis's rectifier (eq. 4).
+/// max{x, 0}, the rectifier of the thesis (eq. 4).
 template <class T>
 T positive(T x) {
     return num::max(x, T(0.0));

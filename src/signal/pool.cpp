@@ -19,18 +19,18 @@ Pool::~Pool() {
     for (auto& h : helpers_) h.join();
 }
 
-void Pool::each(std::size_t count, const Piece& piece) {
-    if (helpers_.empty()) {  // without a lock: somebody may be in a hurry
-        for (std::size_t k = 0; k < count; ++k) piece(k, 0);
+void Pool::each(std::size_t count, const Piece& task) {
+    if (helpers_.empty()) {  // without a lock, to keep the overhead small
+        for (std::size_t k = 0; k < count; ++k) task(k, 0);
         return;
     }
-    const bool alone = count < 2;
+    const bool is_single = count < 2;
     {
         const std::lock_guard lock(guard_);
-        piece_ = &piece, count_ = count, next_ = 0;
-        if (!alone) ++round_, helping_ = helpers_.size();
+        piece_ = &task, count_ = count, next_ = 0;
+        if (!is_single) ++round_, helping_ = helpers_.size();
     }
-    if (!alone) begun_.notify_all();
+    if (!is_single) begun_.notify_all();
     work(0);
     std::unique_lock lock(guard_);
     ended_.wait(lock, [this] { return helping_ == 0; });

@@ -1,6 +1,6 @@
 #pragma once
-// Threads that share out numbered pieces of work. The pieces are cut by whoever hands them in, not by the number of threads, so
-// that no result depends on it.
+// A thread pool that runs numbered tasks. The caller divides the work into tasks, not the pool, so results do not depend on the
+// number of threads.
 
 #include <atomic>
 #include <condition_variable>
@@ -15,10 +15,10 @@ namespace corpuscle {
 
 class Pool {
 public:
-    /// A piece's number, and that of the thread it runs on, below threads(): for scratch memory.
+    /// Called with the task's index and the index of its thread, below threads(), which can select scratch memory.
     using Piece = std::function<void(std::size_t, unsigned)>;
 
-    /// `threads` in all, the caller's own among them; 0: as many as the machine has cores.
+    /// `threads` is the total, including the caller's thread; 0: one for each core.
     explicit Pool(unsigned threads = 0);
     ~Pool();
     Pool(const Pool&) = delete;
@@ -26,9 +26,9 @@ public:
 
     unsigned threads() const { return static_cast<unsigned>(helpers_.size()) + 1; }
 
-    /// Calls piece(k, thread) once for each k below `count`, on several threads at once; returns when all are done. If pieces
-    /// throw, those not yet begun are left out, and one of the exceptions is thrown on.
-    void each(std::size_t count, const Piece& piece);
+    /// Calls task(k, thread) once for each k below `count`, on all threads, and returns when all are done. If tasks throw, those not
+    /// yet started are skipped, and one of the exceptions is rethrown.
+    void each(std::size_t count, const Piece& task);
 
 private:
     void help(unsigned thread);

@@ -11,11 +11,11 @@
 namespace corpuscle {
 namespace {
 
-struct Named {
+struct NamedUnit {
     std::string_view name;
     Unit unit;
 };
-constexpr Named units[] = {
+constexpr NamedUnit units[] = {
     {"s", {1, 1, 0, 0, 0, 0}},    {"min", {60, 1, 0, 0, 0, 0}},        {"Hz", {1, -1, 0, 0, 0, 0}},
     {"m", {1, 0, 1, 0, 0, 0}},    {"cm", {0.01, 0, 1, 0, 0, 0}},       {"N", {1, 0, 0, 1, 0, 0}},
     {"Pa", {1, 0, -2, 1, 0, 0}},  {"gf", {9.80665e-3, 0, 0, 1, 0, 0}}, {"lbf", {4.4482216152605, 0, 0, 1, 0, 0}},
@@ -38,7 +38,7 @@ std::optional<double> prefix_factor(std::string_view s) {
     return {};
 }
 
-std::optional<Unit> one_symbol(std::string_view s) {
+std::optional<Unit> unit_of_symbol(std::string_view s) {
     for (const auto& u : units)
         if (u.name == s) return u.unit;
     for (const auto& p : prefixes)
@@ -53,18 +53,18 @@ std::optional<Unit> one_symbol(std::string_view s) {
     return {};
 }
 
-/// A symbol with its power behind it: "cm2".
-std::optional<Unit> powered_symbol(std::string_view s) {
+/// A symbol followed by its power: "cm2".
+std::optional<Unit> unit_of_powered_symbol(std::string_view s) {
     const int power = s.size() > 1 && (s.back() == '2' || s.back() == '3') ? s.back() - '0' : 1;
-    const auto once = one_symbol(s.substr(0, s.size() - (power > 1)));
-    if (!once || power == 1) return once;
+    const auto base = unit_of_symbol(s.substr(0, s.size() - (power > 1)));
+    if (!base || power == 1) return base;
     const auto by = [power](signed char p) { return static_cast<signed char>(p * power); };
-    const double factor = power == 2 ? once->factor * once->factor : once->factor * once->factor * once->factor;
-    return Unit{factor, by(once->second), by(once->metre), by(once->newton), by(once->volt), by(once->ampere)};
+    const double factor = power == 2 ? base->factor * base->factor : base->factor * base->factor * base->factor;
+    return Unit{factor, by(base->second), by(base->metre), by(base->newton), by(base->volt), by(base->ampere)};
 }
 
-/// What a kind of quantity is called, for messages.
-std::string_view kind_of(const Unit& u) {
+/// The name of a quantity of this dimension, for messages.
+std::string_view dimension_name(const Unit& u) {
     struct Kind {
         std::string_view unit, name;
     };
@@ -78,25 +78,25 @@ std::string_view kind_of(const Unit& u) {
 }
 
 Error wrong_unit(std::string_view text, std::string_view wanted, const std::optional<Unit>& found) {
-    const auto name = found ? kind_of(*found) : std::string_view{};
-    const auto said = name.empty() ? fmt::format("'{}' has another unit", text) : fmt::format("'{}' is {}", text, name);
-    return bad_input(wanted.empty() ? fmt::format("{}; a plain number is wanted", said)
-                                    : fmt::format("{}; {} is wanted, such as '2 {}'", said, wanted, wanted));
+    const auto name = found ? dimension_name(*found) : std::string_view{};
+    const auto problem = name.empty() ? fmt::format("'{}' has another unit", text) : fmt::format("'{}' is {}", text, name);
+    return bad_input(wanted.empty() ? fmt::format("{}; expected a plain number", problem)
+                                    : fmt::format("{}; expected a value in {}, such as '2 {}'", problem, wanted, wanted));
 }
 
 }  // namespace
 
 Result<Unit> parse_unit(std::string_view text) {
-    if (text.size() > 64) return bad_input("a unit of more than 64 letters");
+    if (text.size() > 64) return bad_input("the unit has more than 64 letters");
     Unit total;
     double power = 1;
     std::string_view rest = trimmed(text);
-    if (rest.starts_with('/')) power = -1, rest = trimmed(rest.substr(1));  // "/cm2": so many in each
-    if (rest.empty() && power < 0) return bad_input(fmt::format("unit '{}' ends in nothing", text));
+    if (rest.starts_with('/')) power = -1, rest = trimmed(rest.substr(1));  // "/cm2" is per square centimetre
+    if (rest.empty() && power < 0) return bad_input(fmt::format("unit '{}' is incomplete: a symbol is missing at the end", text));
     while (!rest.empty()) {
         const auto end = rest.find_first_of("/* \t");
         const auto symbol = rest.substr(0, end);
-        const auto u = powered_symbol(symbol);
+        const auto u = unit_of_powered_symbol(symbol);
         if (!u) return bad_input(fmt::format("unknown unit '{}'", text));
         const auto add = [&](signed char& to, signed char by) { to = static_cast<signed char>(to + (power > 0 ? by : -by)); };
         total.factor *= power > 0 ? u->factor : 1 / u->factor;
@@ -104,14 +104,14 @@ Result<Unit> parse_unit(std::string_view text) {
             add(total.ampere, u->ampere);
         if (end == std::string_view::npos) return total;
         const auto next = rest.find_first_not_of(" \t", end);
-        if (next == std::string_view::npos) return bad_input(fmt::format("unit '{}' ends in nothing", text));
+        if (next == std::string_view::npos) return bad_input(fmt::format("unit '{}' is incomplete: a symbol is missing at the end", text));
         if (rest[next] == '/' || rest[next] == '*') {
-            power = rest[next] == '/' ? -1 : power;  // after a slash all that follows divides: V/s/A
+            power = rest[next] == '/' ? -1 : power;  // V/s/A: each slash divides by the symbol after it
             if (rest[next] == '*') power = 1;
             rest = trimmed(rest.substr(next + 1));
-            if (rest.empty()) return bad_input(fmt::format("unit '{}' ends in nothing", text));
+            if (rest.empty()) return bad_input(fmt::format("unit '{}' is incomplete: a symbol is missing at the end", text));
         } else {
-            rest = rest.substr(next);  // a blank multiplies: A s/N
+            rest = rest.substr(next);  // a blank keeps the current operation: A s/N
         }
     }
     return total;
@@ -124,7 +124,7 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
     double value = 0;
     const auto [end, status] = std::from_chars(begin, t.data() + t.size(), value);
     if (status != std::errc{} || end == begin)
-        return bad_input(fmt::format("'{}' is no quantity; write a number and a unit, such as '{}'", text, example));
+        return bad_input(fmt::format("'{}' is not a quantity; write a number and a unit, such as '{}'", text, example));
     const auto written = trimmed(t.substr(static_cast<std::size_t>(end - t.data())));
     const Unit wanted = *parse_unit(unit);
     double factor = 1;
@@ -135,8 +135,8 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
         } else if (const auto bare = prefix_factor(written)) {
             factor = *bare;
         } else if (!found) {
-            return bad_input(fmt::format("'{}': {}; {} is wanted, such as '{}'", text, found.error().sentence,
-                                         unit.empty() ? "a plain number" : unit, example));
+            return bad_input(fmt::format("'{}': {}; expected {}, such as '{}'", text, found.error().sentence,
+                                         unit.empty() ? "a plain number" : fmt::format("a value in {}", unit), example));
         } else {
             return wrong_unit(text, unit, *found);
         }
@@ -147,7 +147,7 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
 }
 
 std::string format_quantity(double value, std::string_view unit) {
-    const bool square = unit.ends_with('2') || unit.ends_with('3');  // 1 um2 is no millionth of 1 m2
+    const bool square = unit.ends_with('2') || unit.ends_with('3');  // a prefix is squared too: 1 um2 is 1e-12 m2
     const bool prefixed = !unit.empty() && !unit.starts_with("1/") && !square && value != 0 && std::isfinite(value);
     constexpr std::string_view names[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
     int i = 5;

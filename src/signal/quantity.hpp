@@ -1,5 +1,5 @@
 #pragma once
-// Units are words at the door: "10 ms", "0.5um", "1k", "8 uA/N". One function turns them into SI, one writes them.
+// Quantities as text: "10 ms", "0.5um", "1k", "8 uA/N". One function converts text to SI, another writes it.
 
 #include <string>
 #include <string_view>
@@ -8,23 +8,24 @@
 
 namespace corpuscle {
 
-/// The SI value of a quantity. `unit` says what is wanted ("s", "Hz", "A/N", "" for a plain number).
-/// A bare number, or one with a bare prefix ("1k", "500n"), is in that unit; "10%" is 0.1 where a plain number is wanted.
-/// A power stands behind its symbol: "4 mm2", "241 /cm2".
-/// Prefixes: f p n u (or the micro sign) m k M G T; M is mega, m is milli. Refuses other dimensions, infinities and NaN.
+/// The SI value of a quantity. `unit` is the expected unit ("s", "Hz", "A/N", "" for a plain number).
+/// A bare number, or one with a bare prefix ("1k", "500n"), is in that unit. "10%" is 0.1 if a plain number is expected.
+/// A power follows its symbol: "4 mm2", "241 /cm2".
+/// Prefixes are f p n u (or the micro sign) m k M G T; M is mega, m is milli. Other dimensions, infinities and NaN are errors.
 Result<double> parse_quantity(std::string_view text, std::string_view unit);
 
-/// For people: four significant digits with a prefix, "500 nA", "8 uA/N", "25 Hz".
+/// Text for people, with four significant digits and a prefix: "500 nA", "8 uA/N", "25 Hz".
 std::string format_quantity(double value, std::string_view unit);
 
-/// How many SI units one `unit` is, and its kind: the factor of "mN" is 1e-3 and it is a force. Refuses unknown units.
+/// A physical unit as its size in SI and its dimension: "mN" has the factor 1e-3 and the dimension of a force.
 struct Unit {
     double factor = 1;
-    signed char second = 0, metre = 0, newton = 0, volt = 0, ampere = 0;  ///< powers of the base units
+    signed char second = 0, metre = 0, newton = 0, volt = 0, ampere = 0;  ///< exponents of the base units
     bool same_kind(const Unit& o) const {
         return second == o.second && metre == o.metre && newton == o.newton && volt == o.volt && ampere == o.ampere;
     }
 };
+/// Unknown units are errors.
 Result<Unit> parse_unit(std::string_view text);
 
 }  // namespace corpuscle

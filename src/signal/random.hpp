@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers that depend on what they are for, not on who drew them: Philox 4x32-10 (Salmon et al., "Parallel random
-// numbers: as easy as 1, 2, 3", SC 2011). The key is the seed and the purpose, the counter says which draw.
+// Counter-based random numbers: Philox 4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011). A number
+// depends on the seed (the key) and on the index, stream and purpose (the counter), not on the order of the calls.
 
 #include <array>
 #include <cstdint>
@@ -23,31 +23,32 @@ constexpr Words philox(Words counter, std::uint64_t key) {
     return counter;
 }
 
-/// A stream of random numbers for each name: FNV-1a, 64 bits.
+/// The identifier of a random stream, from its name: FNV-1a, 64 bits.
 constexpr std::uint64_t stream_of(std::string_view name) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
     return hash;
 }
 
-/// 53 bits as a number in (0, 1).
+/// Maps the upper 53 of 64 random bits to (0, 1).
 constexpr double unit_interval(std::uint32_t high, std::uint32_t low) {
     return (static_cast<double>((std::uint64_t{high} << 21) | (low >> 11)) + 0.5) * 0x1p-53;
 }
 
-/// Draw number `index` of two independent standard normal deviates for (seed, unit, purpose), by Box and Muller.
+/// Two independent standard normal deviates.
 struct Normals {
     double first, second;
 };
-inline Normals normals(std::uint64_t seed, std::uint32_t unit, std::uint32_t purpose, std::uint64_t index) {
-    const Words w = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), unit, purpose}, seed);
+/// Sample number `index` for (seed, stream, purpose), by the Box-Muller transform. `stream` is usually the number of an afferent.
+inline Normals normals(std::uint64_t seed, std::uint32_t stream, std::uint32_t purpose, std::uint64_t index) {
+    const Words w = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), stream, purpose}, seed);
     const double u = unit_interval(w[0], w[1]), turns = unit_interval(w[2], w[3]);
-    const double far = num::sqrt(-2.0 * num::log(u));
-    return {far * num::cos_turns(turns), far * num::cos_turns(turns - 0.25)};
+    const double radius = num::sqrt(-2.0 * num::log(u));
+    return {radius * num::cos_turns(turns), radius * num::cos_turns(turns - 0.25)};
 }
-/// The first of them.
-inline double normal(std::uint64_t seed, std::uint32_t unit, std::uint32_t purpose, std::uint64_t index) {
-    return normals(seed, unit, purpose, index).first;
+/// The first deviate of normal_pair().
+inline double normal(std::uint64_t seed, std::uint32_t stream, std::uint32_t purpose, std::uint64_t index) {
+    return normals(seed, stream, purpose, index).first;
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// A value of a text file before anybody knows what it means: its text, and where it stands.
+// An uninterpreted configuration value: its text and its location in the file.
 
 #include <optional>
 #include <string>
@@ -12,11 +12,12 @@ struct Said {
     std::string text;
     Place place;
 
-    Error wrong(std::string sentence) const { return bad_input(std::move(sentence), place); }
+    /// An error at this location.
+    Error wrong(std::string message) const { return bad_input(std::move(message), place); }
 };
 using MaybeSaid = std::optional<Said>;
 
-/// Something set by name.
+/// A setting of a configuration file.
 struct SaidSetting {
     std::string name;  ///< "press.F_max"
     Said value;

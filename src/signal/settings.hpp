@@ -1,5 +1,5 @@
 #pragma once
-// What the user sets: "sa1.f_B=25Hz". The text is kept until the thing it names says which unit it wants.
+// Settings by the user, such as "sa1.f_B=25Hz". The value stays text until the parameter's unit is known.
 
 #include <span>
 #include <string>
@@ -10,6 +10,7 @@
 
 namespace corpuscle {
 
+/// A parsed "target.parameter=value".
 struct Wish {
     std::string of;         ///< "sa1", "press"
     std::string parameter;  ///< "f_B"
@@ -19,13 +20,13 @@ struct Wish {
     std::string text() const { return of + "." + parameter + "=" + value; }
 };
 
-/// Splits "sa1.f_B=25Hz"; what stands before the last dot is whom it is for.
+/// Splits "sa1.f_B=25Hz". The target is the part before the last dot.
 Result<Wish> parse_wish(std::string_view text);
 
-/// The row of `rows` that a wish names; refuses one that is not there.
-Result<const Row*> row_for(const Wish&, std::span<const Row> rows);
+/// The parameter that an override names. An unknown name is an error.
+Result<const Row*> row_for(const Wish&, std::span<const Row> parameters);
 
-/// The settings among `wishes` that are for `name`, in SI, checked against its rows; marks them used.
-Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const Row> rows, std::span<const Wish> wishes);
+/// The overrides with target `name`, as settings in SI, checked against the parameters. Marks them used.
+Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const Row> parameters, std::span<const Wish> overrides);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Where force comes from: a stimulus or a recording, read in blocks of samples.
+// The interface of a source of force: a stimulus or a recording, read in blocks of samples.
 
 #include <cstdint>
 #include <memory>
@@ -13,32 +13,32 @@
 
 namespace corpuscle {
 
-/// Where a sensor sits; m, or as a layout file without a unit has it.
+/// Position of a sensor in m, or in the unit of a layout file that names none.
 struct Position {
     double x = 0, y = 0, z = 0;
 };
 
-/// One stream of force. The id, the name and the position follow it to every output.
+/// One channel of force. Id, name and position appear in every output.
 struct Channel {
     std::uint32_t id = 0;
-    std::string name;  ///< from the file's header or the stimulus; else ch1, ch2 ...
+    std::string name;  ///< from the file's header or the stimulus; otherwise ch1, ch2 ...
     std::optional<Position> position = {};
 };
 
-/// A stretch of time with a name, [from, to) in seconds: the phases of the thesis's experiment.
+/// A named time window [from, to) in seconds, such as a phase of the thesis's experiment.
 struct Phase {
     std::string name;
     double from = 0, to = 0;
 };
 
-/// Something that a source was given: a stimulus's parameter, how a recording is read.
+/// A property of a source: a stimulus's parameter, or an option with which a recording is read.
 struct Fact {
     std::string name;
     double value = 0;
     std::string unit;
 };
 
-/// Something measured of how well a channel was recorded.
+/// A measure of a channel's recording quality.
 struct Finding {
     std::uint32_t channel = 0;
     std::string_view name;  ///< "hum", "strays"
@@ -46,18 +46,18 @@ struct Finding {
     std::string_view unit;
 };
 
-/// How well a source was recorded: the numbers, the same in words, and what makes the answer doubtful.
+/// The recording quality of a source: numbers, the same as text, and warnings if the response is doubtful.
 struct Quality {
     std::vector<Finding> findings = {};
     std::vector<std::string> sentences = {}, warnings = {};
 };
 
-/// Samples of all channels over the same instants: force[channel][sample], newtons.
+/// A block of samples, at the same times for all channels: force[channel][sample], newtons.
 struct Frames {
     explicit Frames(std::size_t channels, std::size_t capacity) : force(channels, std::vector<double>(capacity)), capacity(capacity) {}
     std::vector<std::vector<double>> force;
     std::size_t capacity;
-    std::size_t count = 0;  ///< samples filled
+    std::size_t count = 0;  ///< number of samples filled
 };
 
 class Source {
@@ -66,19 +66,19 @@ public:
     virtual const std::string& name() const = 0;
     virtual const Clock& clock() const = 0;
     virtual const std::vector<Channel>& channels() const = 0;
-    /// How much of it has been read, 0 to 1; for progress.
+    /// The fraction that has been read, 0 to 1, for a progress display.
     virtual double done() const = 0;
     virtual std::vector<Phase> phases() const { return {}; }
-    /// How often it repeats itself, Hz; 0 if it does not.
+    /// Frequency of repetition, Hz; 0 if the force is not periodic.
     virtual double cycle() const { return 0; }
-    /// What it is, in a few words.
+    /// A short description.
     virtual std::string sentence() const = 0;
     virtual std::vector<Fact> facts() const { return {}; }
-    /// What the user should know of how the source was read, in sentences.
+    /// Notes for the user about how the source was read.
     virtual std::vector<std::string> remarks() const { return {}; }
-    /// How good what has been read so far is.
+    /// The recording quality of the part read so far.
     virtual Quality quality() const { return {}; }
-    /// Fills the next block; count 0 is the end.
+    /// Fills the next block; a count of 0 marks the end.
     virtual Result<void> read(Frames&) = 0;
 };
 

@@ -9,16 +9,16 @@
 
 namespace corpuscle {
 
-/// One spike: in the interval that ends at sample `step`, `offset` of the way through it. Its time is Clock::time(step, offset).
+/// A spike at the fraction `offset` of the interval that ends at sample `step`. Its time is Clock::time(step, offset).
 struct Spike {
     std::int64_t step = 0;
-    double offset = 1;       ///< in (0, 1]; 1 on the sample itself
-    std::uint32_t unit = 0;  ///< which afferent on which channel
+    double offset = 1;       ///< in (0, 1]; 1 is the sample itself
+    std::uint32_t unit = 0;  ///< one index for each afferent on each channel
 
-    friend auto operator<=>(const Spike&, const Spike&) = default;  // time, then unit
+    friend auto operator<=>(const Spike&, const Spike&) = default;  // by time, then by afferent
 };
 
-/// The times of a train, s, in order.
+/// The spike times of a train in s, in the train's order.
 std::vector<double> times(std::span<const Spike> train, const Clock& clock);
 
 }  // namespace corpuscle

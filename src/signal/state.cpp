@@ -12,12 +12,12 @@ namespace corpuscle {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "packed states are little-endian");
-/// "corpst", the version and a line break. Version 2 ends with a checksum of all before it; version 1, which has none, is read.
+/// "corpst", the version and a line break. Version 2 ends with a checksum of everything before it. Version 1 has none and is read too.
 constexpr std::array<char, 8> magic = {'c', 'o', 'r', 'p', 's', 't', '2', '\n'};
 constexpr std::size_t version_at = 6;
-constexpr std::uint64_t longest = 1U << 26;  // of format text or values: far above any afferent, far below trouble
+constexpr std::uint64_t max_length = 1U << 26;  // upper bound on the length of the format and of the values, to reject corrupt headers
 
-constexpr std::int64_t last_step = std::int64_t{1} << 53;  // beyond it a double no longer counts samples
+constexpr std::int64_t max_step = std::int64_t{1} << 53;  // a double counts samples exactly up to here
 
 template <class T>
 void put(std::vector<std::byte>& out, const T* data, std::size_t count) {
@@ -33,42 +33,42 @@ bool take(std::span<const std::byte>& in, T* data, std::size_t count) {
     return true;
 }
 
-/// What stands behind the magic of a state, without the checksum at the end, which must be right.
-Result<void> take_checksum(std::span<const std::byte> all, const std::array<char, 8>& head, std::span<const std::byte>& in) {
+/// Checks the version and the checksum of a packed state. Removes the checksum from the end of `in`.
+Result<void> check_checksum(std::span<const std::byte> all, const std::array<char, 8>& head, std::span<const std::byte>& in) {
     if (head[version_at] == '1' && head.back() == '\n') return {};
     if (head != magic)
         return bad_input(
-            "a saved state of an afferent of a later version than 2, the last that this program reads; start from the "
+            "the saved afferent state has a version later than 2, the latest that this program reads; start from the "
             "beginning, or use the program that saved it");
     std::uint64_t sum = 0;
-    if (in.size() < sizeof sum) return bad_input("a saved state of an afferent is cut short");
+    if (in.size() < sizeof sum) return bad_input("the saved afferent state is incomplete");
     std::memcpy(&sum, all.data() + all.size() - sizeof sum, sizeof sum);
     if (sum != checksum_of(all.first(all.size() - sizeof sum)))
-        return bad_input("a saved state of an afferent is damaged: its checksum is wrong; start from the beginning");
+        return bad_input("the saved afferent state is damaged: its checksum is wrong; start from the beginning");
     in = in.first(in.size() - sizeof sum);
     return {};
 }
 
-/// A format without its version, as in "sa1b+lif-b/2, T = 0.0001 s": what stands before and after it.
-struct Versioned {
+/// A format split at its version: "sa1b+lif-b/2, T = 0.0001 s".
+struct SplitFormat {
     std::string_view before, version, after;
 };
 
-Versioned versioned(std::string_view format) {
+SplitFormat split_format(std::string_view format) {
     const auto slash = format.rfind('/');
     if (slash == format.npos) return {format, {}, {}};
     const auto end = std::min(format.find_first_not_of("0123456789", slash + 1), format.size());
     return {format.substr(0, slash), format.substr(slash + 1, end - slash - 1), format.substr(end)};
 }
 
-/// Of a state whose format is not the one of the afferent that is to go on from it.
-Error other_state(std::string_view name, std::string_view format, std::string_view met) {
-    const auto ours = versioned(format), theirs = versioned(met);
+/// The error for a state whose format is not that of the afferent that should resume from it.
+Error format_mismatch(std::string_view name, std::string_view format, std::string_view found) {
+    const auto ours = split_format(format), theirs = split_format(found);
     if (ours.before != theirs.before || ours.after != theirs.after || ours.version == theirs.version)
-        return bad_input(fmt::format("a state of '{}' was handed to '{}'", met, format));
+        return bad_input(fmt::format("a state of '{}' was given to '{}'", found, format));
     return bad_input(
-        fmt::format("{}: a saved state of version {}, and this program reads version {}; begin anew with start(), which gives a state of "
-                    "version {}, or go on with the program that saved it",
+        fmt::format("{}: the saved state has version {}, but this program reads version {}; start again with start(), which gives a "
+                    "state of version {}, or continue with the program that saved it",
                     name, theirs.version.empty() ? "0" : theirs.version, ours.version, ours.version));
 }
 
@@ -76,7 +76,7 @@ Error other_state(std::string_view name, std::string_view format, std::string_vi
 
 std::size_t first_not_finite(std::span<const double> x) {
     constexpr std::uint64_t exponent = 0x7ff0000000000000U;
-    std::uint64_t found = 0;  // without a branch: almost always there is none
+    std::uint64_t found = 0;  // without a branch, because almost always all are finite
     for (const double v : x) found |= (std::bit_cast<std::uint64_t>(v) & exponent) == exponent;
     if (!found) return x.size();
     return static_cast<std::size_t>(std::find_if(x.begin(), x.end(), [](double v) { return !std::isfinite(v); }) - x.begin());
@@ -84,9 +84,9 @@ std::size_t first_not_finite(std::span<const double> x) {
 
 Result<void> check_block(std::string_view name, std::string_view format, std::size_t values, const State& state,
                          std::span<const double> force) {
-    if (state.format != format) return other_state(name, format, state.format);
+    if (state.format != format) return format_mismatch(name, format, state.format);
     if (state.values.size() != values)
-        return bad_input(fmt::format("{}: a saved state is damaged: it holds {} values, and {} are expected; begin anew with start()", name,
+        return bad_input(fmt::format("{}: the saved state is damaged: it has {} values, expected {}; start again with start()", name,
                                      state.values.size(), values));
     if (const auto bad = first_not_finite(force); bad < force.size())
         return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name,
@@ -113,19 +113,18 @@ Result<State> unpack(std::span<const std::byte> in) {
     std::array<std::uint64_t, 2> sizes = {};
     const auto all = in;
     if (!take(in, head.data(), head.size()) || !std::equal(head.begin(), head.begin() + version_at, magic.begin()))
-        return bad_input("not a saved state of an afferent: it does not begin with 'corpst'");
-    if (auto ok = take_checksum(all, head, in); !ok) return ok.error();
-    if (!take(in, sizes.data(), 2) || !take(in, &s.step, 1) || sizes[0] > longest || sizes[1] > longest ||
+        return bad_input("not a saved afferent state: it does not begin with 'corpst'");
+    if (auto ok = check_checksum(all, head, in); !ok) return ok.error();
+    if (!take(in, sizes.data(), 2) || !take(in, &s.step, 1) || sizes[0] > max_length || sizes[1] > max_length ||
         in.size() != sizes[0] + sizes[1] * sizeof(double))
-        return bad_input("a saved state of an afferent is cut short or too long");
+        return bad_input("the saved afferent state is incomplete or too long");
     s.format.resize(sizes[0]);
     s.values.resize(sizes[1]);
     take(in, s.format.data(), s.format.size());
     take(in, s.values.data(), s.values.size());
-    if (s.step < 0 || s.step > last_step)
-        return bad_input("a saved state of an afferent is damaged: it stands at sample " + std::to_string(s.step));
-    if (first_not_finite(s.values) < s.values.size())
-        return bad_input("a saved state of an afferent is damaged: it holds a value that is no number");
+    if (s.step < 0 || s.step > max_step)
+        return bad_input("the saved afferent state is damaged: its sample number is " + std::to_string(s.step));
+    if (first_not_finite(s.values) < s.values.size()) return bad_input("the saved afferent state is damaged: it contains NaN or infinity");
     return s;
 }
 

@@ -10,15 +10,15 @@
 namespace corpuscle {
 namespace {
 
-/// One member of a sum, its type forgotten.
-struct Shape {
+/// One member of a sum, with its type erased.
+struct ErasedStimulus {
     double duration = 0, cycle = 0;
     std::vector<Phase> phases;
     std::function<double(double)> at;
 };
 
 template <class S>
-Shape shape_of(std::span<const Setting> settings, std::uint64_t seed) {
+ErasedStimulus erase_stimulus(std::span<const Setting> settings, std::uint64_t seed) {
     S s;
     s.p = with<typename S::Params>(S::fields, settings);
     if constexpr (requires { s.seed; }) s.seed = seed;
@@ -28,47 +28,48 @@ Shape shape_of(std::span<const Setting> settings, std::uint64_t seed) {
 }
 
 template <class... S>
-std::optional<Shape> shape_named(StimulusList<S...>, std::string_view name, std::span<const Setting> settings, std::uint64_t seed) {
-    std::optional<Shape> found;
-    (void)((S::name == name && (found = shape_of<S>(settings, seed), true)) || ...);
+std::optional<ErasedStimulus> make_member(StimulusList<S...>, std::string_view name, std::span<const Setting> settings,
+                                          std::uint64_t seed) {
+    std::optional<ErasedStimulus> found;
+    (void)((S::name == name && (found = erase_stimulus<S>(settings, seed), true)) || ...);
     return found;
 }
 
 template <class... S>
-std::vector<Card> cards(StimulusList<S...>) {
+std::vector<Card> catalog_of(StimulusList<S...>) {
     return {card_of<S>()...};
 }
 
-std::optional<Card> named(std::string_view name) {
+std::optional<Card> find_stimulus(std::string_view name) {
     for (auto& card : stimulus_cards())
         if (card.name == name) return card;
     return {};
 }
 
-class Sum final : public Source {
+class StimulusSum final : public Source {
     std::string name_;
     Clock clock_;
-    std::vector<Shape> shapes_;
-    std::vector<Fact> facts_;
+    std::vector<ErasedStimulus> members_;
+    std::vector<Fact> metadata_;
     std::vector<Channel> channels_;
     std::int64_t samples_, next_ = 0;
 
 public:
-    Sum(std::string name, Clock clock, std::vector<Shape> shapes, std::vector<Fact> facts, std::int64_t samples)
-        : name_(std::move(name)), clock_(clock), shapes_(std::move(shapes)), facts_(std::move(facts)), channels_{{0, name_}},
+    StimulusSum(std::string name, Clock clock, std::vector<ErasedStimulus> members, std::vector<Fact> metadata, std::int64_t samples)
+        : name_(std::move(name)), clock_(clock), members_(std::move(members)), metadata_(std::move(metadata)), channels_{{0, name_}},
           samples_(samples) {}
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
     std::string sentence() const override {
         std::vector<std::string_view> all;
-        for (const auto member : stimulus_members(name_)) all.push_back(named(member)->sentence);
+        for (const auto member : stimulus_members(name_)) all.push_back(find_stimulus(member)->sentence);
         return fmt::format("{}", fmt::join(all, "; "));
     }
     double done() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
-    std::vector<Fact> facts() const override { return facts_; }
+    std::vector<Fact> facts() const override { return metadata_; }
     std::vector<Phase> phases() const override {
-        for (const auto& s : shapes_) {
+        for (const auto& s : members_) {
             if (s.phases.empty()) continue;
             auto phases = s.phases;
             const double end = clock_.time(samples_);
@@ -77,10 +78,10 @@ public:
         }
         return {};
     }
-    /// Of the one member that has a cycle; two have none in common.
+    /// The frequency of the only periodic member; 0 if there are several.
     double cycle() const override {
         double found = 0;
-        for (const auto& s : shapes_)
+        for (const auto& s : members_)
             if (s.cycle > 0 && std::exchange(found, s.cycle) > 0) return 0;
         return found;
     }
@@ -89,7 +90,7 @@ public:
         for (std::size_t k = 0; k < block.count; ++k) {
             const double t = clock_.time(next_++);
             double force = 0;
-            for (const auto& s : shapes_) force += s.at(std::min(t, s.duration));
+            for (const auto& s : members_) force += s.at(std::min(t, s.duration));
             block.force[0][k] = force;
         }
         return {};
@@ -108,41 +109,41 @@ std::vector<std::string_view> stimulus_members(std::string_view text) {
     }
 }
 
-std::vector<Card> stimulus_cards() { return cards(Stimuli{}); }
+std::vector<Card> stimulus_cards() { return catalog_of(Stimuli{}); }
 
 bool is_stimulus(std::string_view text) {
     const auto names = stimulus_members(text);
-    return std::all_of(names.begin(), names.end(), [](auto n) { return named(n).has_value(); });
+    return std::all_of(names.begin(), names.end(), [](auto n) { return find_stimulus(n).has_value(); });
 }
 
-Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> wishes, double rate, std::uint64_t seed) {
+Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> overrides, double rate, std::uint64_t seed) {
     const auto clock = clock_of(rate);
     if (!clock) return clock.error();
-    std::vector<Shape> shapes;
-    std::vector<Fact> facts;
+    std::vector<ErasedStimulus> members;
+    std::vector<Fact> metadata;
     double duration = 0;
     for (const auto name : stimulus_members(text)) {
-        const auto card = named(name);
+        const auto card = find_stimulus(name);
         if (!card) {
             std::vector<std::string_view> names;
             for (const auto& c : stimulus_cards()) names.push_back(c.name);
             return bad_input(fmt::format("unknown stimulus '{}'{}", name, did_you_mean(name, names)));
         }
-        const auto settings = settings_for(name, card->rows, wishes);
+        const auto settings = settings_for(name, card->rows, overrides);
         if (!settings) return settings.error();
         for (const auto& row : card->rows) {
             const auto set = std::find_if(settings->rbegin(), settings->rend(), [&](const Setting& s) { return s.name == row.name; });
-            facts.push_back(
+            metadata.push_back(
                 {fmt::format("{}.{}", name, row.name), set == settings->rend() ? row.initial : set->value, std::string(row.unit)});
         }
-        shapes.push_back(*shape_named(Stimuli{}, name, *settings, seed));
-        duration = std::max(duration, shapes.back().duration);
+        members.push_back(*make_member(Stimuli{}, name, *settings, seed));
+        duration = std::max(duration, members.back().duration);
     }
     const double samples = std::round(duration * clock->rate());
-    if (!(samples >= 1)) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is not one sample", text, duration, rate));
+    if (!(samples >= 1)) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is less than one sample", text, duration, rate));
     if (samples > 1e15) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is more than 1e15 samples", text, duration, rate));
-    return std::unique_ptr<Source>(
-        std::make_unique<Sum>(std::string(text), *clock, std::move(shapes), std::move(facts), static_cast<std::int64_t>(samples)));
+    return std::unique_ptr<Source>(std::make_unique<StimulusSum>(std::string(text), *clock, std::move(members), std::move(metadata),
+                                                                 static_cast<std::int64_t>(samples)));
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Stimuli by name. A new one: its struct in stimulus/, and its name in the list.
+// The built-in stimuli. To add one, put its struct into stimulus/ and its name into the list below.
 
 #include <memory>
 #include <span>
@@ -18,18 +18,18 @@ template <class... S>
 struct StimulusList {};
 using Stimuli = StimulusList<Press, RampHold, Step, Sine, Chirp, Noise, Grating>;
 
-/// Name, sentence and rows of each, in the list's order.
+/// Name, description and parameters of each stimulus, in the order of the list.
 std::vector<Card> stimulus_cards();
 
-/// The parts of a sum, "press+noise".
+/// The member names of a sum such as "press+noise".
 std::vector<std::string_view> stimulus_members(std::string_view text);
 
-/// Whether the text reads as a stimulus or a sum of stimuli, "press", "press+noise".
+/// True if the text names a stimulus or a sum of stimuli: "press", "press+noise".
 bool is_stimulus(std::string_view text);
 
-/// A stimulus or a sum of stimuli, sampled at `rate` (Hz). A sum is as long as its longest member; a
-/// shorter one holds its last value. It keeps the phases
-/// of the first member that has some, and what comes after them. Wishes name a member: "noise.F_sd=50mN".
-Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> wishes, double rate, std::uint64_t seed);
+/// A stimulus or a sum of stimuli, sampled at `rate` (Hz). A sum is as long as its longest member, and a shorter member holds its last
+/// value. The phases are those of the first member that has phases, followed by one phase "after" if the sum is longer. An override
+/// names a member: "noise.F_sd=50mN".
+Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> overrides, double rate, std::uint64_t seed);
 
 }  // namespace corpuscle

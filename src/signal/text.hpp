@@ -1,5 +1,5 @@
 #pragma once
-// Words as people type them: blanks about them, letters of either case.
+// Text as people type it, with blanks around it and letters of either case.
 
 #include <algorithm>
 #include <string>
@@ -13,7 +13,7 @@ inline std::string_view trimmed(std::string_view s) {
     return s;
 }
 
-/// ASCII letters only, whatever the locale.
+/// Converts ASCII letters only, independently of the locale.
 inline char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
 inline std::string lower(std::string_view s) {

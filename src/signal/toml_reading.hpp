@@ -1,5 +1,5 @@
 #pragma once
-// TOML to what was said in it. toml++ is a heavy header: one file a room includes this one.
+// Reads TOML tables into texts with locations. toml++ is slow to compile, so only one file of each module includes this header.
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -13,13 +13,13 @@
 
 namespace corpuscle {
 
-/// Where keys or values are nested so deep that toml++, which goes down by recursion, would run out of stack; nothing: nowhere.
-/// Counted are the dots of a key and the brackets that are open.
+/// Returns an error if keys or values are nested so deep that toml++, which is recursive, would overflow the stack. Counts the dots of
+/// a key and the open brackets.
 inline std::optional<Error> too_deep(std::string_view text, const std::string& file) {
-    constexpr std::size_t most_dots = 32, most_open = 64;
+    constexpr std::size_t max_dots = 32, max_open = 64;
     std::size_t dots = 0, open = 0, line = 1, line_at = 0;
-    const auto wrong = [&](std::size_t k, std::string_view what, std::size_t most) {
-        return bad_input(fmt::format("{} nested more than {} deep", what, most),
+    const auto error_at = [&](std::size_t k, std::string_view items, std::size_t limit) {
+        return bad_input(fmt::format("{} are nested more than {} deep", items, limit),
                          {file, static_cast<long>(line), static_cast<long>(k - line_at + 1)});
     };
     for (std::size_t k = 0; k < text.size(); ++k) {
@@ -31,7 +31,7 @@ inline std::optional<Error> too_deep(std::string_view text, const std::string& f
             for (k += quotes; k < text.size() && text.substr(k, quotes) != std::string(quotes, c); ++k) {
                 if (c == '"' && text[k] == '\\') ++k;
                 if (k < text.size() && text[k] == '\n') {
-                    if (quotes == 1) {  // it is not closed; the parser says so
+                    if (quotes == 1) {  // not closed; the parser reports it
                         --k;
                         break;
                     }
@@ -42,10 +42,10 @@ inline std::optional<Error> too_deep(std::string_view text, const std::string& f
         } else if (c == '\n') {
             ++line, line_at = k + 1, dots = 0;
         } else if (c == '.') {
-            if (++dots > most_dots) return wrong(k, "keys", most_dots);
+            if (++dots > max_dots) return error_at(k, "keys", max_dots);
         } else if (c == '[' || c == '{') {
             dots = 0;
-            if (++open > most_open) return wrong(k, "lists and tables", most_open);
+            if (++open > max_open) return error_at(k, "lists and tables", max_open);
         } else if (c == ']' || c == '}') {
             dots = 0, open -= open > 0;
         } else if (c == ',' || c == '=') {
@@ -55,7 +55,7 @@ inline std::optional<Error> too_deep(std::string_view text, const std::string& f
     return {};
 }
 
-/// The one way in which TOML is read: for sweeps and populations.
+/// Parses TOML, for sweeps and populations.
 inline Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
     if (auto wrong = too_deep(text, file)) return *wrong;
     try {
@@ -66,7 +66,7 @@ inline Result<toml::table> parse_toml(std::string_view text, const std::string& 
     }
 }
 
-/// Reads tables; the first thing that is wrong is kept, and what comes after it does not matter.
+/// Reads tables. Keeps the first error; later ones are ignored.
 class TomlReading {
     const std::string& file_;
 
@@ -79,8 +79,8 @@ public:
     Place place(const toml::source_region& at) const {
         return {file_, static_cast<long>(at.begin.line), static_cast<long>(at.begin.column)};
     }
-    void refuse(const toml::source_region& at, std::string sentence) {
-        if (!wrong) wrong = bad_input(std::move(sentence), place(at));
+    void refuse(const toml::source_region& at, std::string message) {
+        if (!wrong) wrong = bad_input(std::move(message), place(at));
     }
 
     static bool is_one_of(const Names& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
@@ -99,69 +99,69 @@ public:
         return "a date";
     }
 
-    /// A text or a number; `truth`: or true, false.
-    MaybeSaid scalar(const toml::node& node, std::string_view name, bool truth = false) {
+    /// A text or a number. With `allow_boolean` also true or false.
+    MaybeSaid scalar(const toml::node& node, std::string_view name, bool allow_boolean = false) {
         Said out{{}, place(node.source())};
         if (const auto* text = node.as_string())
             out.text = text->get();
-        else if (const auto* whole = node.as_integer())
-            out.text = fmt::format("{}", whole->get());
+        else if (const auto* integer = node.as_integer())
+            out.text = fmt::format("{}", integer->get());
         else if (const auto* real = node.as_floating_point())
             out.text = fmt::format("{}", real->get());
-        else if (const auto* boolean = node.as_boolean(); boolean && truth)
+        else if (const auto* boolean = node.as_boolean(); boolean && allow_boolean)
             out.text = boolean->get() ? "true" : "false";
         else
-            return refuse(node.source(), fmt::format("{} is {}; a text or a number is wanted", name, kind(node))), MaybeSaid{};
+            return refuse(node.source(), fmt::format("{} is {}; expected a text or a number", name, kind(node))), MaybeSaid{};
         return out;
     }
-    MaybeSaid scalar(const toml::table& table, std::string_view name, bool truth = false) {
+    MaybeSaid scalar(const toml::table& table, std::string_view name, bool allow_boolean = false) {
         const auto* node = table.get(name);
-        return node ? scalar(*node, name, truth) : std::nullopt;
+        return node ? scalar(*node, name, allow_boolean) : std::nullopt;
     }
 
     std::vector<Said> list(const toml::array& array, std::string_view name) {
         std::vector<Said> out;
         for (const auto& one : array)
-            if (auto said = scalar(one, fmt::format("an element of {}", name))) out.push_back(std::move(*said));
+            if (auto element = scalar(one, fmt::format("an element of {}", name))) out.push_back(std::move(*element));
         return out;
     }
     std::optional<std::vector<Said>> list(const toml::table& table, std::string_view name) {
         const auto* node = table.get(name);
         if (!node) return {};
         const auto* array = node->as_array();
-        if (!array) return refuse(node->source(), fmt::format("{} wants a list: {} = [...]", name, name)), std::nullopt;
+        if (!array) return refuse(node->source(), fmt::format("{0} must be a list: {0} = [...]", name)), std::nullopt;
         return list(*array, name);
     }
 
     const toml::table* table(const toml::table& of, std::string_view name) {
         const auto* node = of.get(name);
-        if (node && !node->is_table()) refuse(node->source(), fmt::format("{} wants a table: [{}] on a line of its own", name, name));
+        if (node && !node->is_table()) refuse(node->source(), fmt::format("{0} must be a table: write [{0}] on a line of its own", name));
         return node ? node->as_table() : nullptr;
     }
 
-    /// The tables of [[name]].
+    /// Calls `each` for every table of [[name]].
     template <class F>
     void tables(const toml::table& of, std::string_view name, std::string_view one_for, F&& each) {
         const auto* node = of.get(name);
         if (!node) return;
-        const auto sentence = [&] { return fmt::format("{0} wants tables: [[{0}]] on a line of its own, one for {1}", name, one_for); };
+        const auto message = [&] { return fmt::format("{0} must be tables: write [[{0}]] on a line of its own for {1}", name, one_for); };
         const auto* array = node->as_array();
-        if (!array) return refuse(node->source(), sentence());
+        if (!array) return refuse(node->source(), message());
         for (const auto& one : *array) {
             const auto* inner = one.as_table();
-            if (!inner) return refuse(one.source(), sentence());
+            if (!inner) return refuse(one.source(), message());
             each(*inner);
         }
     }
 
-    /// [set]: press.F_max = "2N" is a table in a table, and means what "press.F_max" does.
+    /// Reads [set]. press.F_max = "2N" is a nested table in TOML and means the same as "press.F_max" = "2N".
     void settings(const toml::table& from, const std::string& before, std::vector<SaidSetting>& out) {
         for (const auto& [key, value] : from) {
             const auto name = before + std::string(key.str());
             if (const auto* inner = value.as_table())
                 settings(*inner, name + ".", out);
-            else if (auto said = scalar(value, name))
-                out.push_back({name, std::move(*said)});
+            else if (auto setting = scalar(value, name))
+                out.push_back({name, std::move(*setting)});
         }
     }
 };

@@ -268,20 +268,20 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         const char* said;
     } cases[] = {
         {"respond bad.csv --out answer", 1,
-         "bad.csv:4:6: column 'fz': 'oops' where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves its "
-         "row out"},
+         "bad.csv:4:6: column 'fz': 'oops' where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
+         "drop to skip the row"},
         {"respond nm.csv --out answer", 1,
-         "nm.csv: 'a' is in nm, which is no force; say --scale S, so that what is read times S is newtons, --unit N if the header is "
-         "wrong, or --channel if it is another column that holds the force"},
+         "nm.csv: 'a' is in nm, which is not a force; use --scale S for S newtons per nm, --unit N if the header is wrong, "
+         "or --channel to select another column"},
         {"respond none.csv", 1, "none.csv: cannot be opened: No such file or directory"},
         {"respond pres", 1, "unknown stimulus 'pres'; did you mean 'press'? (and there is no file 'pres')"},
         {"respond press -a sa9", 1,
          "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
          "'sa1b+lif-b')"},
-        {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'"},
+        {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'"},
         {"respond press --set fa2.k=1", 2, "--set fa2.k=1: no afferent or stimulus 'fa2' takes part; did you mean 'fa1'?"},
-        {"respond press --set f_B=1", 2, "'f_B=1' is no setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
-        {"respond press --rate fast", 2, "--rate 'fast' is no quantity; write a number and a unit, such as '2 Hz'"},
+        {"respond press --set f_B=1", 2, "'f_B=1' is not a setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
+        {"respond press --rate fast", 2, "--rate 'fast' is not a quantity; write a number and a unit, such as '2 Hz'"},
         {"respond press --traces", 2, "--traces needs --out DIR to write into"},
         {"respond press --vectors", 2, "--vectors needs --out DIR to write into"},
         {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no words; try 'adc+sa1'"},
@@ -292,7 +292,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --copies 9 --spread f_B=10%", 2, "--spread 'f_B=10%': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'"},
         {"respond press --copies 9 --spread fa2.k=10%", 2, "--spread fa2.k=10%: no afferent 'fa2' takes part; did you mean 'fa1'?"},
         {"respond press --copies 9 --spread fa1.I_leak0=10ms", 1,
-         "--spread fa1.I_leak0=10ms: '10ms' is a time; A is wanted, such as '2 A'"},
+         "--spread fa1.I_leak0=10ms: '10ms' is a time; expected a value in A, such as '2 A'"},
         {"respond press --copies 51 --traces --out answer", 2,
          "--traces is for 50 copies at the most, not 51: ask for fewer, or --set what one of copies.csv has"},
         {"respond press --copies 51 --vectors --out answer -a sa1-kim", 2,
@@ -302,15 +302,15 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --scale 2", 2, "--scale is for recordings, and press is a stimulus; --set press.PARAMETER=VALUE changes it"},
         {"respond press --wav", 2, "--wav needs --out DIR to write into"},
         {"respond press --bin 0s --out answer", 2, "--bin 0s: a bin is longer than nothing, such as 10ms"},
-        {"respond press --bin 5Hz --out answer", 2, "--bin '5Hz' is a frequency; s is wanted, such as '2 s'"},
+        {"respond press --bin 5Hz --out answer", 2, "--bin '5Hz' is a frequency; expected a value in s, such as '2 s'"},
         {"compare", 2, "compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'"},
         {"compare bad.csv", 2, "compare bad.csv: with what? Name a second file, or two trains of this one: --pair sa1=fa1"},
         {"compare bad.csv none.csv", 1,
-         "bad.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel, or named with --unit; there "
-         "are 'time_s', 'fz_N'"},
+         "bad.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --unit; "
+         "columns: 'time_s', 'fz_N'"},
         {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be longer than nothing"},
         {"compare bad.csv none.csv --cost=-1", 2, "--cost -1: must be 0 or more"},
-        {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be made: Not a directory"},
+        {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be created: Not a directory"},
     };
     for (const auto& c : cases) {
         const auto ran = run(folder, c.words);

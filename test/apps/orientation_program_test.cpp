@@ -16,7 +16,8 @@ TEST(OrientationProgram, TheRemediesThatItNamesWorkAsTyped) {
     for (const std::string verb : {"respond x.npy --rate 500Hz", "stream --in x.npy --rate 500Hz --pace fast --channels 2"}) {
         const auto refused = run(folder, verb);
         EXPECT_EQ(refused.status, 1);
-        EXPECT_NE(refused.err.find("300 channels of only 2 samples? --transpose takes each row as a channel, --no-transpose each row as a"),
+        EXPECT_NE(refused.err.find(
+                      "300 channels of only 2 samples? Use --transpose if each row is a channel, or --no-transpose if each row is a"),
                   std::string::npos)
             << refused.err;
         EXPECT_EQ(run(folder, verb + " --transpose").status, 0);

@@ -75,7 +75,7 @@ TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
          }) {
         const auto ran = test::run(folder, words);
         EXPECT_EQ(ran.status, 2) << words << '\n' << ran.err;
-        EXPECT_NE(ran.err.find("this output would replace a file that the command reads"), std::string::npos) << words << '\n' << ran.err;
+        EXPECT_NE(ran.err.find("this output would replace an input of the command"), std::string::npos) << words << '\n' << ran.err;
         EXPECT_EQ(contents(folder), before) << words;
     }
     EXPECT_EQ(test::run(folder, "stream --in press --pace fast -o /dev/null --resume s.state --save-state s.state -q").status, 0)
@@ -100,7 +100,7 @@ TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
         folder.write(c.file, "time,force\n0,1\n");
         const auto refused = test::run(folder, c.words);
         EXPECT_EQ(refused.status, 1) << c.words;
-        EXPECT_NE(refused.err.find("no earlier run of corpuscle wrote this file"), std::string::npos) << c.words << '\n' << refused.err;
+        EXPECT_NE(refused.err.find("this file was not written by corpuscle"), std::string::npos) << c.words << '\n' << refused.err;
         EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
         EXPECT_EQ(read_file(folder / c.file), "time,force\n0,1\n") << c.words;
         EXPECT_EQ(test::run(folder, std::string(c.words) + " --overwrite -q").status, 0) << c.words;
@@ -123,7 +123,7 @@ TEST(Outputs, ThatOnlyLookLikeOursAreNotReplaced) {
         folder.write("x-1.csv", text), folder.write("x.csv", text);
         const auto ran = test::run(folder, words);
         EXPECT_EQ(ran.status, 1) << words << '\n' << text;
-        EXPECT_NE(ran.err.find("no earlier run of corpuscle wrote this file"), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("this file was not written by corpuscle"), std::string::npos) << ran.err;
         EXPECT_EQ(read_file(folder / "x.csv"), text) << words;
         EXPECT_EQ(read_file(folder / "x-1.csv"), text) << words;
     }
@@ -248,7 +248,7 @@ TEST(Outputs, PartsFollowNoLinks) {
     fs::create_symlink("victim", folder / "y.csv.part");
     const auto growing = OutputFile::growing(folder / "y.csv");
     ASSERT_FALSE(growing);
-    EXPECT_NE(growing.error().text().find("is a link or no plain file"), std::string::npos) << growing.error().text();
+    EXPECT_NE(growing.error().text().find("is a link or not a regular file"), std::string::npos) << growing.error().text();
     EXPECT_EQ(read_file(folder / "victim"), "mine");
     fs::create_symlink("victim", folder / "r.sqlite-writer");
     folder.write("s.toml", "afferent = \"sa1\"\nforce = \"press\"\n[[vary]]\nwhat = \"sa1.f_B\"\nlist = [\"20 Hz\", \"21 Hz\"]\n");
@@ -324,7 +324,7 @@ TEST(Outputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
     const auto status = std::system(
         ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program() + "' respond press --traces -o big -q) 2>err").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1);
-    EXPECT_EQ(read_file(folder / "err"), "corpuscle: big/traces.csv: cannot be written to the end: File too large\n");
+    EXPECT_EQ(read_file(folder / "err"), "corpuscle: big/traces.csv: could not be written completely: File too large\n");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"err"});
 }
 

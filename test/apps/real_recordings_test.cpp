@@ -79,18 +79,18 @@ TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {
     const struct {
         const char *words, *told;
     } traps[] = {
-        {"fbg_eskin_press/fbg_press_S6_T16.csv", "'fbg01' is in nm, which is no force; say --scale S"},
+        {"fbg_eskin_press/fbg_press_S6_T16.csv", "'fbg01' is in nm, which is not a force; use --scale S"},
         {"fbg_eskin_press/fbg_press_S6_T16.csv --scale 40",
-         "Say --rate 100.04Hz to take the samples as evenly spaced, or --resample 100Hz"},
-        {"fbg_eskin_press/motor_spikes_S6_T16.csv", "this is a file of spikes, not of force; 'corpuscle compare' reads it"},
-        {"gait_insole_vgrf/GaCo01_01.txt", "where the models are fitted to 0.2 to 4 N; --scale S brings"},
+         "Use --rate 100.04Hz to take the samples as evenly spaced, or --resample 100Hz"},
+        {"fbg_eskin_press/motor_spikes_S6_T16.csv", "this file holds spikes, not force; 'corpuscle compare' reads it"},
+        {"gait_insole_vgrf/GaCo01_01.txt", "but the models are fitted to 0.2 to 4 N; use --scale S"},
         {"gait_insole_vgrf/GaCo01_01.txt",
-         "'ch17' is the sum of 'ch1' to 'ch8', no sensor of its own; --channel or --layout leaves it out"},
-        {"grip_force_ati/grip_02_raw.csv", "say --rate, such as --rate 1kHz"},
-        {"grip_force_ati/grip_02_raw.csv --rate 242.6Hz -c Fz", "stand alone, far from those before and after, as torn readings do"},
+         "'ch17' is the sum of 'ch1' to 'ch8', not a sensor of its own; use --channel or --layout to exclude it"},
+        {"grip_force_ati/grip_02_raw.csv", "give a rate, such as --rate 1kHz"},
+        {"grip_force_ati/grip_02_raw.csv --rate 242.6Hz -c Fz", "are isolated outliers, probably transmission errors"},
         {"grip_force_ati/grip_02_clean.csv -c 1 --scale 0.002", "hum at 50 Hz is"},
-        {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "say --time-unit ms if they are milliseconds"},
-        {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "'proximity2': reads 65535, the highest a 16-bit converter can say"},
+        {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "use --time-unit ms if they are milliseconds"},
+        {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "'proximity2' is 65535, the full scale of a 16-bit converter"},
     };
     for (const auto& trap : traps) {
         const auto ran = run(folder, std::string("respond ") + trap.words);

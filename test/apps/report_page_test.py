@@ -694,7 +694,7 @@ class Recorded(Page):
 
     def test_the_page_says_how_well_it_was_recorded(self):
         section = self.browser.find_element(By.ID, "quality")
-        self.assertIn("stand alone, far from those before and after, as torn readings do", section.find_element(By.TAG_NAME, "ul").text)
+        self.assertIn("are isolated outliers, probably transmission errors", section.find_element(By.TAG_NAME, "ul").text)
         cells = dict(zip((th.text for th in section.find_elements(By.TAG_NAME, "th")), (td.text for td in section.find_elements(By.TAG_NAME, "td"))))
         self.assertEqual(cells["channel"], "fz")
         self.assertAlmostEqual(float(cells["strays"]), 0.02, delta=0.001)

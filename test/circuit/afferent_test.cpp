@@ -177,7 +177,7 @@ TEST(CircuitAfferent, ADamagedStateIsRefusedOrHarmless) {
     cut.values.resize(cut.values.size() / 2);
     const auto refused = afferent->respond(force, cut, answer);
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().sentence.find("a saved state is damaged"), std::string::npos) << refused.error().sentence;
+    EXPECT_NE(refused.error().sentence.find("the saved state is damaged"), std::string::npos) << refused.error().sentence;
     EXPECT_TRUE(rc::check([&] {
         auto bad = good;
         bad.values[*rc::gen::inRange<std::size_t>(0, bad.values.size())] = *rc::gen::element(-1.0, 0.0, 0.5, 3.0, 1e9, 1e300, -1e300);
@@ -249,7 +249,7 @@ TEST(CircuitAfferent, AStateOfTheVersionBeforeIsRefusedWithBothVersionsAndARemed
     const auto refused = afferent->respond(wave(20, 1e-3), before, answer);
     ASSERT_FALSE(refused);
     const auto& told = refused.error().sentence;
-    EXPECT_NE(told.find("a saved state of version 1, and this program reads version 2; begin anew with start()"), std::string::npos)
+    EXPECT_NE(told.find("the saved state has version 1, but this program reads version 2; start again with start()"), std::string::npos)
         << told;
     before = afferent->start();  // the remedy
     EXPECT_TRUE(afferent->respond(wave(20, 1e-3), before, answer));

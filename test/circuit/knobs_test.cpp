@@ -124,7 +124,7 @@ TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
     says("one.left.n1=2.5x4", "'2.5x4' is not an array; write COLUMNSxSERIES, such as 8x4");
     says("one.left.n1=4pF", "'4pF' is not an array");
     says("one.left.n1.w=-1u", "-1 um is outside [1 nm, 1 m]");
-    says("one.left.n1.w=1V", "'1V' is a voltage; m is wanted");
+    says("one.left.n1.w=1V", "'1V' is a voltage; expected a value in m");
     says("one.left.n1.m=0", "0 is outside [1e-06, 1e+09]");
     says("one.left.ru=0", "a resistor must not be 0 ohm");
     says("one.left.cu=-1p", "-1 pF must not be below 0");

@@ -48,7 +48,7 @@ TEST(Biquad, BeginsAtRestAndKeepsAConstantAsItIs) {
 
 TEST(Biquad, RefusesFrequenciesThatTheRateCannotShow) {
     const auto clock = test::sure(clock_of(100));
-    EXPECT_EQ(Biquad::notch(50, clock).error().sentence, "--notch 50Hz: at 100 samples a second it must lie between 0 and 50 Hz");
+    EXPECT_EQ(Biquad::notch(50, clock).error().sentence, "--notch 50Hz: at a sample rate of 100 Hz it must be between 0 and 50 Hz");
     EXPECT_FALSE(Biquad::lowpass(0, clock));
     EXPECT_TRUE(static_cast<bool>(Biquad::notch(49, clock)));
 }

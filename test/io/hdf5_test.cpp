@@ -75,7 +75,7 @@ TEST(Hdf5, ATimeSeriesOfNwbIsReadInItsUnit) {
         file.attribute("/acquisition/skin/timestamps", "unit", "seconds");
     }
     EXPECT_EQ(refusal(folder / "x.nwb"),
-              "x.nwb: several arrays could be the recording; say which with --dataset NAME: /acquisition/grip/data (4), "
+              "x.nwb: several arrays could be the recording; select one with --dataset NAME: /acquisition/grip/data (4), "
               "/acquisition/skin/data (4)");
     const auto grip = recording(folder / "x.nwb", {.table = {"/acquisition/grip"}});
     EXPECT_EQ(grip.names, std::vector<std::string>{"grip"});
@@ -141,7 +141,7 @@ TEST(Hdf5, AColumnThatCountsTheRowsIsNoForce) {
     EXPECT_EQ(made.names, (std::vector<std::string>{"fx", "fz"}));
     EXPECT_EQ(made.force[0][7], std::sin(7));
     ASSERT_FALSE(made.remarks.empty());
-    EXPECT_EQ(made.remarks[0], "'frame' counts the rows: left out (--channel 1 takes it)");
+    EXPECT_EQ(made.remarks[0], "'frame' was ignored: it counts the rows (use --channel 1 to include it)");
 }
 
 TEST(Hdf5, MatlabsMatricesAreTurned) {
@@ -172,14 +172,14 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
     EXPECT_EQ(refusal(folder.write("y.mat", "MATLAB")), "y.mat: this is no HDF5 file (MATLAB writes one with save -v7.3)");
     EXPECT_EQ(said([](auto&) {}), "x.h5: there is no array in this file");
     EXPECT_EQ(said([](auto& f) { f.numbers("/a", {2, 2, 2}, ramp(8)); }),
-              "x.h5: no array that could be the recording: numbers in one or two dimensions; there are: /a (2 x 2 x 2)");
+              "x.h5: no array can be the recording, which must be numeric with one or two dimensions; arrays: /a (2 x 2 x 2)");
     EXPECT_EQ(said([](auto& f) { f.numbers("/a", {2, 2, 2}, ramp(8)); }, {.table = {"a"}, .rate = 10}),
-              "x.h5: /a (2 x 2 x 2): a recording is numbers in one dimension, or in two: rows and channels");
+              "x.h5: /a (2 x 2 x 2): a recording must be numeric with one dimension, or two (rows and channels)");
     EXPECT_EQ(said([](auto& f) { f.numbers("/force", {2}, ramp(2)); }, {.table = {"/farce"}, .rate = 10}),
-              "x.h5: no array '/farce'; did you mean '/force'?; there are: /force (2)");
-    EXPECT_EQ(said([](auto& f) { f.numbers("/a", {0, 3}, {}); }), "x.h5: /a (0 x 3): there are no samples in it");
+              "x.h5: no array '/farce'; did you mean '/force'?; arrays: /force (2)");
+    EXPECT_EQ(said([](auto& f) { f.numbers("/a", {0, 3}, {}); }), "x.h5: /a (0 x 3): it has no samples");
     EXPECT_EQ(said([](auto& f) { f.numbers("/a", {2, 2}, {0, 1, 2, INFINITY}); }),
-              "x.h5: row 2: column 'ch2': inf where a number should be");
+              "x.h5: row 2: column 'ch2': inf where a number is expected");
     const auto whole = test::read_file(folder / "x.h5");
     EXPECT_EQ(refusal(folder.write("cut.h5", whole.substr(0, whole.size() - 100)), {.rate = 10}),
               "cut.h5: this HDF5 file cannot be opened: damaged, or cut short?");
@@ -187,7 +187,7 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
     const hid_t complex = H5Tcreate(H5T_COMPOUND, 16);
     H5Tinsert(complex, "r", 0, H5T_NATIVE_DOUBLE), H5Tinsert(complex, "i", 8, H5T_NATIVE_DOUBLE);
     EXPECT_EQ(said([&](auto& f) { f.raw("/z", complex, complex, {2}, z); }),
-              "x.h5: no array that could be the recording: numbers in one or two dimensions; there are: /z (2, no numbers)");
+              "x.h5: no array can be the recording, which must be numeric with one or two dimensions; arrays: /z (2, not numeric)");
     H5Tclose(complex);
 }
 
@@ -305,8 +305,8 @@ TEST(Hdf5, AnArrayThatLiesOnItsSideIsRefusedOrTurned) {
     lying([](auto&) {});
     EXPECT_EQ(
         refusal(folder / "x.h5", {.rate = 500}),
-        "x.h5: /force (2 x 3000): 3000 channels of only 2 samples? --transpose takes each row as a channel, --no-transpose each row as "
-        "a sample");
+        "x.h5: /force (2 x 3000): 3000 channels of only 2 samples? Use --transpose if each row is a channel, or "
+              "--no-transpose if each row is a sample");
     const auto turned = recording(folder / "x.h5", {.table = {{}, true}, .rate = 500});
     EXPECT_EQ(turned.names, (std::vector<std::string>{"ch1", "ch2"}));
     EXPECT_EQ(turned.force[1][2999], 5999);
@@ -316,7 +316,7 @@ TEST(Hdf5, AnArrayThatLiesOnItsSideIsRefusedOrTurned) {
     EXPECT_EQ(timed.force.size(), 2U) << "the times say which dimension is theirs";
     EXPECT_EQ(
         timed.remarks.at(0),
-        "/force (2 x 3000): taken as 2 channels of 3000 samples, as the times beside it say; --no-transpose takes each row as a sample");
+        "/force (2 x 3000): taken as 2 channels of 3000 samples, to match the times; use --no-transpose if each row is a sample");
     lying([](auto& f) { f.words("/force", "channels", {"fx_N", "fz_N"}); });
     EXPECT_EQ(recording(folder / "x.h5", {.rate = 500}).names, (std::vector<std::string>{"fx", "fz"}));
     lying([](auto& f) { f.numbers("/timestamps", {2}, ramp(2, 0.002)); });
@@ -338,7 +338,7 @@ TEST(Hdf5, TheEndOfAPathNamesADatasetIfThereIsOnlyOneSuch) {
     EXPECT_EQ(recording(folder / "x.nwb", {.table = {"FingerForce/data"}, .rate = 10}).force[0], ramp(4));
     EXPECT_EQ(recording(folder / "x.nwb", {.table = {"/processing/skin"}, .rate = 10}).force[0], ramp(4, 3));
     EXPECT_EQ(refusal(folder / "x.nwb", {.table = {"skin"}, .rate = 10}),
-              "x.nwb: several arrays end in 'skin'; say which with --dataset PATH: /acquisition/skin/data (4), /processing/skin/data (4)");
+              "x.nwb: several arrays match 'skin'; select one with --dataset PATH: /acquisition/skin/data (4), /processing/skin/data (4)");
     EXPECT_NE(refusal(folder / "x.nwb", {.table = {"Force"}, .rate = 10}).find("no array 'Force'"), std::string::npos);
 }
 

@@ -52,12 +52,13 @@ std::size_t descriptors_open() {
 }
 
 TEST(HelperProcess, WhatKillsItIsSaid) {
-    EXPECT_EQ(death_by("kill -SEGV $$"), "x.h5: the library could not read this file (signal 11): damaged?");
-    EXPECT_EQ(death_by("kill -ABRT $$"), "x.h5: the library could not read this file (signal 6): damaged?");
-    EXPECT_EQ(death_by("exit 3"), "x.h5: the library could not read this file (status 3): damaged?");
-    EXPECT_EQ(death_by("kill -ALRM $$"), "x.h5: the library did not read this file within 60 s: damaged?");
+    EXPECT_EQ(death_by("kill -SEGV $$"), "x.h5: the library could not read this file (signal 11); it may be damaged");
+    EXPECT_EQ(death_by("kill -ABRT $$"), "x.h5: the library could not read this file (signal 6); it may be damaged");
+    EXPECT_EQ(death_by("exit 3"), "x.h5: the library could not read this file (status 3); it may be damaged");
+    EXPECT_EQ(death_by("kill -ALRM $$"), "x.h5: the library did not read this file within 60 s; it may be damaged");
     EXPECT_EQ(death_by("kill -INT $$"), "x.h5: interrupted");
-    EXPECT_NE(death_by("[ \"$1\" = reader-0 ] || exit 2").find("script belongs to another version of Corpuscle; install both together"),
+    EXPECT_NE(death_by("[ \"$1\" = reader-0 ] || exit 2")
+                  .find("script belongs to another version of Corpuscle; install both from the same version"),
               std::string::npos);
 }
 
@@ -73,8 +74,8 @@ TEST(HelperProcess, OneThatCannotBeStartedIsNamed) {
     const auto there = helper_program("script");
     ::unsetenv("CORPUSCLE_LIBEXEC");
     ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().text(), "the program 'corpuscle-hdf5', which reads such files, is not there (looked in " + folder.path() +
-                                          "); set CORPUSCLE_LIBEXEC to its directory");
+    EXPECT_EQ(missing.error().text(), "the program 'corpuscle-hdf5', which reads this format, was not found in " + folder.path() +
+                                          "; set CORPUSCLE_LIBEXEC to its directory");
     EXPECT_FALSE(found);
     EXPECT_EQ(test::sure(there), made);
 }
@@ -124,7 +125,8 @@ TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
     std::vector<std::vector<double>> out(1, std::vector<double>(1));
     EXPECT_TRUE(samples->fetch(0, 1, wanted, out));
     EXPECT_EQ(out[0][0], 7);
-    EXPECT_EQ(samples->fetch(1, 1, wanted, out).error().text(), folder / "x.h5" + ": it could not read this file (signal 7): damaged?");
+    EXPECT_EQ(samples->fetch(1, 1, wanted, out).error().text(),
+              folder / "x.h5" + ": it could not read this file (signal 7); it may be damaged");
     EXPECT_FALSE(samples->fetch(1, 1, wanted, out));
 }
 
@@ -140,7 +142,7 @@ TEST(HelperProcess, ABrokenAnswerIsAnError) {
         const auto program = script(folder, "cat '" + folder / "answer" + "' >&3; exec sleep 30");
         const auto made = remote_samples_by(program, folder.write("x.h5", ""), {"", "it"});
         ASSERT_FALSE(made);
-        EXPECT_EQ(made.error().text(), folder / "x.h5" + ": the answer of the process that reads it is broken");
+        EXPECT_EQ(made.error().text(), folder / "x.h5" + ": invalid response of the helper process that reads this file");
     }
 }
 

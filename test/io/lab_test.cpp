@@ -40,8 +40,8 @@ TEST(BadFields, AreErrorsUnlessSaidOtherwise) {
     const Folder folder;
     const std::string text = "F_N\n1\n2\nNaN\n4\n";
     EXPECT_EQ(lab_said(folder, text, {.rate = 10}),
-              "x.csv:4:1: column 'F': 'NaN' where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves its "
-              "row out");
+              "x.csv:4:1: column 'F': 'NaN' where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
+              "drop to skip the row");
     EXPECT_EQ(read_lab(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::interpolate}).force, (LabRows{{1, 2, 3, 4}}));
     EXPECT_EQ(read_lab(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2, 4}}));
 }
@@ -73,12 +73,12 @@ TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndTold) {
     std::string text = "t_s,F_N\n";
     for (int k = 0; k < 40; ++k) text += k == 30 ? "xx,99\n" : fmt::format("{},1\n", k);
     EXPECT_NE(
-        lab_said(folder, text, {}).find("x.csv:32:1: column 't': 'xx' where a number should be; --bad-fields drop leaves its row out"),
+        lab_said(folder, text, {}).find("x.csv:32:1: column 't': 'xx' where a number is expected; use --bad-fields drop to skip the row"),
         std::string::npos);
     for (const auto rate : {std::optional<double>(), std::optional<double>(1)}) {
         const auto r = read_lab(folder / "x.csv", {.rate = rate, .bad_fields = BadFields::drop});
         EXPECT_EQ(r.force, (LabRows{std::vector<double>(39, 1)}));
-        EXPECT_TRUE(mentions(r.quality.sentences, "1 rows with a bad field were left out"));
+        EXPECT_TRUE(mentions(r.quality.sentences, "1 rows with a bad field were dropped"));
     }
     const auto untimed = folder.write("y.csv", "time,F_N\nmorning,1\nnoon,2\n");
     EXPECT_EQ(read_lab(untimed, {.rate = 1, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2}})) << "no time at all is no bad row";
@@ -136,7 +136,7 @@ TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
     RecordingOptions options{.rate = 100};
     options.notch = {12};
     EXPECT_EQ(lab_said(folder, "F_N\n0\n-1.7e308\n1.7e308\n-1.7e308\n1.7e308\n", options),
-              "x.csv: 'F': sample 2 comes out as no finite number: a reading is too large for --scale or the filters");
+              "x.csv: 'F': sample 2 is not finite after processing: a value in the file is too large for --scale or the filters");
 }
 
 TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
@@ -162,12 +162,11 @@ TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
         return sentence.substr(sentence.find("l.csv"));
     };
     EXPECT_EQ(wrong("sensor,x,y\nc,1,2\n"), "l.csv:2:1: no channel 'c'; did you mean 'a'?; there are 2: a, b");
-    EXPECT_EQ(wrong("sensor,x,y\na,1,2\n1,3,4\n"), "l.csv:3:1: channel '1' stands here twice");
-    EXPECT_EQ(wrong("sensor,x,y\na,1,east\n"), "l.csv:2:5: 'east' where a coordinate should be");
-    EXPECT_EQ(wrong("sensor,x_N\na,1\n"), "l.csv:1:8: 'x' is in 'N', which is no length; say m, cm, mm or um, or no unit");
-    EXPECT_EQ(wrong("who,x\na,1\n"),
-              "l.csv:1: a layout's header needs a column 'channel' (and may have name, x, y, z); this one has: who, x");
-    EXPECT_EQ(wrong("sensor,x\na\n"), "l.csv:2: 1 columns where 2 should be");
+    EXPECT_EQ(wrong("sensor,x,y\na,1,2\n1,3,4\n"), "l.csv:3:1: channel '1' occurs twice");
+    EXPECT_EQ(wrong("sensor,x,y\na,1,east\n"), "l.csv:2:5: 'east' where a coordinate is expected");
+    EXPECT_EQ(wrong("sensor,x_N\na,1\n"), "l.csv:1:8: 'x' is in 'N', which is not a length; use m, cm, mm or um, or no unit");
+    EXPECT_EQ(wrong("who,x\na,1\n"), "l.csv:1: a layout needs a column 'channel' (and may have name, x, y, z); this header has: who, x");
+    EXPECT_EQ(wrong("sensor,x\na\n"), "l.csv:2: 1 columns where 2 are expected");
     EXPECT_EQ(wrong("sensor,x\n"), "l.csv: the layout names no sensor");
 }
 
@@ -187,11 +186,11 @@ TEST(Verdict, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
     };
     EXPECT_TRUE(quality(good).warnings.empty());
     EXPECT_TRUE(quality(good).sentences.empty());
-    EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, where the models are fitted to 0.2 to 4 N"));
-    EXPECT_TRUE(mentions(quality(negative).warnings, "a press is positive here"));
-    EXPECT_TRUE(mentions(quality(weak).sentences, "no force reaches 0.2 N"));
+    EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, but the models are fitted to 0.2 to 4 N"));
+    EXPECT_TRUE(mentions(quality(negative).warnings, "but a press must be positive"));
+    EXPECT_TRUE(mentions(quality(weak).sentences, "all forces are below 0.2 N"));
     EXPECT_NEAR(finding(read_lab(folder.write("x.csv", good), {}), "below_0.2N"), 0.205, 0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
-    EXPECT_TRUE(mentions(quality(full, {.scale = 1e-3}).warnings, "reads 4095, the highest a 12-bit converter can say"));
+    EXPECT_TRUE(mentions(quality(full, {.scale = 1e-3}).warnings, "is 4095, the full scale of a 12-bit converter"));
 }
 
 TEST(Dialect, PlainNumbersAreThoseThatFromCharsReads) {

@@ -62,14 +62,14 @@ TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatTakesOneOut) {
     const auto said = try_recording(folder / "trials.csv").error().text();
     const auto at = said.find("awk ");
     ASSERT_NE(at, said.npos) << said;
-    EXPECT_NE(said.find("told apart by 'trial'"), said.npos) << said;
+    EXPECT_NE(said.find("identified by 'trial'"), said.npos) << said;
     ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
     const auto one = recording(folder / "trials-trial1.csv");
     EXPECT_EQ(one.names, std::vector<std::string>{"fz"});
     EXPECT_EQ(one.force[0].size(), 100U);
-    EXPECT_TRUE(some_remark(one, "'trial' tells trials apart: left out"));
+    EXPECT_TRUE(some_remark(one, "'trial' was ignored: it identifies trials"));
     EXPECT_TRUE(some_remark(recording(folder / "trials.csv", {.rate = 100}),
-                            "the times in 'time' go back (by 990 ms or less), as those of several"));
+                            "the times in 'time' decrease (by up to 990 ms), as in a file with several"));
 }
 
 TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
@@ -148,10 +148,10 @@ TEST(LoggerFiles, TrialsAreToldApartByAColumnThatChangesWhereTimeGoesBack) {
     for (const std::string rows : {"S1,1", "S1,2", "S2,1"})
         text += rows_of(10, [&](int, double t, double F) { return fmt::format("{},{:.2f},{}\n", rows, t, F); });
     folder.write("x.csv", text);
-    EXPECT_NE(try_recording(folder / "x.csv").error().text().find("told apart by 'trial'"), std::string::npos);
+    EXPECT_NE(try_recording(folder / "x.csv").error().text().find("identified by 'trial'"), std::string::npos);
     EXPECT_EQ(recording(run_remedy(folder, "x.csv", "awk ")).force[0].size(), 10U);
     EXPECT_EQ(refused_logged(folder, "t_s,phase,F_N\n0,rest,1\n1,rest,1\n0.5,rest,1\n2,press,1\n"),
-              "x.csv:4: time goes back, from 1 s to 0.5 s; --rate takes the rows as evenly spaced");
+              "x.csv:4: the time decreases from 1 s to 0.5 s; use --rate to take the rows as evenly spaced");
 }
 
 TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNoForce) {
@@ -164,7 +164,7 @@ TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNoForce) {
     }
     const auto stamps = read_logged(folder, "stamp.sec,stamp.nanosec,fz\n5,0,1\n5,500000000,2\n6,0,3\n", {.rate = 2});
     EXPECT_EQ(stamps.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(stamps, "'stamp.nanosec' is in ns, which is no force: left out"));
+    EXPECT_TRUE(some_remark(stamps, "'stamp.nanosec' was ignored: ns is not a unit of force"));
 }
 
 TEST(LoggerFiles, CountersAnywhereInATableAreNoForce) {
@@ -174,14 +174,14 @@ TEST(LoggerFiles, CountersAnywhereInATableAreNoForce) {
                                        }));
     EXPECT_EQ(r.names, std::vector<std::string>{"Fz"});
     for (const std::string name : {"RDTSequence", "FTSequence", "k"})
-        EXPECT_TRUE(some_remark(r, "'" + name + "' counts the rows: left out")) << name;
+        EXPECT_TRUE(some_remark(r, "'" + name + "' was ignored: it counts the rows")) << name;
     EXPECT_EQ(read_logged(folder, "Status (hex),Fz,Time\n00000000,1,0\n00000000,2,1\n").names, std::vector<std::string>{"Fz"});
 }
 
 TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
     const Folder folder;
-    for (const auto& [first, said] : {std::pair{45'650.5, "a spreadsheet counts them; 0 s is 2024-12-24 12:00:00.000"},
-                                      {739'000.25, "MATLAB counts them; 0 s is 2023-04-24 06:00:00.000"}}) {
+    for (const auto& [first, said] : {std::pair{45'650.5, "serial days of a spreadsheet; 0 s is 2024-12-24 12:00:00.000"},
+                                      {739'000.25, "serial days of MATLAB; 0 s is 2023-04-24 06:00:00.000"}}) {
         std::string text = "Time,F_N\n";
         for (int k = 0; k < 50; ++k) text += fmt::format("{:.11f},{}\n", first + k * 0.01 / 86'400, 0.1 * k);
         const auto r = read_logged(folder, text);
@@ -189,8 +189,8 @@ TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
         EXPECT_TRUE(some_remark(r, said));
     }
     const auto fast = read_logged(folder, "Time,F_N\n0,1\n1e-7,1\n2e-7,1\n");
-    EXPECT_TRUE(some_remark(fast, "taken as seconds, which makes 1e+07 Hz; say --time-unit min if they are minutes"));
-    EXPECT_TRUE(some_remark(read_logged(folder, "Time,F_N\n0,1\n5000,1\n10000,1\n"), "say --time-unit us if they are microseconds"));
+    EXPECT_TRUE(some_remark(fast, "assuming seconds, which gives a rate of 1e+07 Hz; use --time-unit min if they are minutes"));
+    EXPECT_TRUE(some_remark(read_logged(folder, "Time,F_N\n0,1\n5000,1\n10000,1\n"), "use --time-unit us if they are microseconds"));
 }
 
 TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
@@ -225,7 +225,7 @@ TEST(LoggerFiles, OfJsonTrueAndFalseAreNoForce) {
     const Folder folder;
     const auto r = read_logged(folder, R"([{"t":0,"F_N":1,"contact":true},{"t":1,"F_N":2,"contact":false}])", {}, "x.json");
     EXPECT_EQ(r.names, std::vector<std::string>{"F"});
-    EXPECT_TRUE(some_remark(r, "'contact' holds words, not numbers: left out"));
+    EXPECT_TRUE(some_remark(r, "'contact' was ignored: it holds words, not numbers"));
 }
 
 TEST(LoggerFiles, ASecondSegmentOfALabviewFileEndsWithACommandThatKeepsTheFirst) {
@@ -241,26 +241,27 @@ TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
     const Folder folder;
     const auto r = read_logged(folder, "time_s,Load (N),Extension (mm),bridge_V\n0,1,5,2\n1,2,6,2\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"Load"});
-    EXPECT_TRUE(some_remark(r, "'Extension' is in mm, which is no force: left out"));
-    EXPECT_NE(refused_logged(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is no force"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; --unit gf takes it"),
+    EXPECT_TRUE(some_remark(r, "'Extension' was ignored: mm is not a unit of force"));
+    EXPECT_NE(refused_logged(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is not a force"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; use --unit gf"),
               std::string::npos);
     EXPECT_NEAR(recording(folder / "x.csv", {.unit = "gf"}).force[0][1], 2 * 9.80665e-3, 1e-9) << "the remedy";
     std::string heading = "time_s,F_N", first = "0,1", second = "1,2";
     for (int k = 0; k < 31; ++k) heading += fmt::format(",T{}_degC", k), first += ",20", second += ",20";
-    EXPECT_TRUE(some_remark(read_logged(folder, heading + "\n" + first + "\n" + second + "\n"), "15 more columns hold no force: left out"));
+    EXPECT_TRUE(some_remark(read_logged(folder, heading + "\n" + first + "\n" + second + "\n"),
+                            "15 more columns were ignored because they hold no force"));
 }
 
 TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem) {
     const Folder folder;
     const std::tuple<std::string, std::string, std::string> cases[] = {
-        {"time_s,fz\n0,\u22121.5\n1,\u22122.5\n", "line 2 says '\u22121.5', which has a minus sign of print (U+2212)", "sed "},
-        {"time_s,fz\n0,-1.5D+00\n1,-0.25D+01\n", "'-1.5D+00', which has a Fortran exponent", "sed "},
-        {"time_s,fz\n0,-1.5 N\n1,-2.5 N\n", "'-1.5 N', which has the unit N behind the number", "sed "},
-        {"time_s|fz_N\n0|-1.5\n1|-2.5\n", "'0|-1.5', which has '|' as separator", "sed "},
-        {"t:-1 F:-2\nt:0 F:-1.5\nt:1 F:-2.5\n", "'t:0', which has a name in front of the number", "sed "},
-        {"time_s,fz\n0,0x0A\n1,0x0B\n", "'0x0A', which has hexadecimal digits; save the table with decimal numbers", ""},
-        {"time_s,fz\n0,n/a\n1,n/a\n", "'fz' holds words, not numbers; line 2 says 'n/a' there", ""},
+        {"time_s,fz\n0,\u22121.5\n1,\u22122.5\n", "line 2 has '\u22121.5', which contains a typographic minus sign (U+2212)", "sed "},
+        {"time_s,fz\n0,-1.5D+00\n1,-0.25D+01\n", "'-1.5D+00', which contains a Fortran exponent", "sed "},
+        {"time_s,fz\n0,-1.5 N\n1,-2.5 N\n", "'-1.5 N', which contains the unit N after the number", "sed "},
+        {"time_s|fz_N\n0|-1.5\n1|-2.5\n", "'0|-1.5', which contains '|' as a separator", "sed "},
+        {"t:-1 F:-2\nt:0 F:-1.5\nt:1 F:-2.5\n", "'t:0', which contains a name before the number", "sed "},
+        {"time_s,fz\n0,0x0A\n1,0x0B\n", "'0x0A', which contains hexadecimal digits; save the table with decimal numbers", ""},
+        {"time_s,fz\n0,n/a\n1,n/a\n", "'fz' holds words, not numbers; line 2 has 'n/a'", ""},
     };
     for (const auto& [text, said, word] : cases) {
         const auto refused = refused_logged(folder, text);
@@ -269,7 +270,7 @@ TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem
         const auto mended = recording(run_remedy(folder, "x.csv", word)).force[0];
         EXPECT_EQ(std::vector<double>(mended.end() - 2, mended.end()), (std::vector<double>{-1.5, -2.5})) << refused;
     }
-    EXPECT_NE(refused_logged(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN behind the number (say --unit mN of the new file)"),
+    EXPECT_NE(refused_logged(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN after the number (use --unit mN for the new file)"),
               std::string::npos);
 }
 
@@ -278,11 +279,11 @@ TEST(LoggerFiles, ThousandsInGroupsAreNamedAndManyFilledReadingsWarnedOf) {
     for (const std::string text : {"Zeit (s);Kraft (mN)\n0,0;999,21\n0,1;1.016,21\n0,2;998,50\n",
                                    "t_s,F_mN\n0,999.21\n0.1,\"1,016.21\"\n0.2,998.5\n", "t_s,F_mN\n0,999\n0.1,\"1,016\"\n0.2,998\n"}) {
         const auto said = refused_logged(folder, text);
-        EXPECT_NE(said.find("it has a separator of thousands; save the table without it"), std::string::npos) << said;
+        EXPECT_NE(said.find("it contains a thousands separator; save the table without it"), std::string::npos) << said;
         EXPECT_EQ(said.find("--bad-fields"), std::string::npos) << said;
         const auto filled = recording(folder / "x.csv", {.bad_fields = BadFields::interpolate});
         EXPECT_TRUE(std::any_of(filled.quality.warnings.begin(), filled.quality.warnings.end(),
-                                [](const auto& s) { return s.starts_with("1 of 3 readings were filled in"); }));
+                                [](const auto& s) { return s.starts_with("1 of 3 samples were interpolated"); }));
     }
 }
 
@@ -292,7 +293,7 @@ TEST(LoggerFiles, AHeaderOfColumnNumbersIsAHeader) {
                                {.time = "0"});
     EXPECT_EQ(r.names, std::vector<std::string>{"1"});
     EXPECT_NEAR(r.clock.rate(), 100, 1e-6);
-    EXPECT_TRUE(some_remark(r, "'ch1' counts the rows: left out (--channel ch1 takes it)"));
+    EXPECT_TRUE(some_remark(r, "'ch1' was ignored: it counts the rows (use --channel ch1 to include it)"));
     EXPECT_EQ(recording(folder / "x.csv", {.channels = {"ch1"}, .time = "0"}).force[0][7], 7) << "the remedy";
 }
 
@@ -314,10 +315,10 @@ TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveAPlace) {
     EXPECT_EQ(named.force[1], (std::vector<double>{4, 5, 6}));
     EXPECT_NEAR(named.clock.rate(), 100, 1e-6);
     EXPECT_EQ(test::refusal(folder / "x.csv"),
-              "x.csv: every row begins with a name, the first with that of the time; --transpose takes each row as a channel");
-    EXPECT_EQ(
-        refused_logged(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
-        "x.csv:2: field 3 is no number; --bad-fields interpolate fills it in, --bad-fields drop leaves this sample out of every channel");
+              "x.csv: every row begins with a name, and the first row is the time; use --transpose to take each row as a channel");
+    EXPECT_EQ(refused_logged(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
+              "x.csv:2: field 3 is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip this sample in "
+              "all channels");
     rows.bad_fields = BadFields::interpolate;
     EXPECT_EQ(recording(folder / "x.csv", rows).force[0], (std::vector<double>{4, 5, 6})) << "the remedy";
     rows.bad_fields.reset();
@@ -332,7 +333,7 @@ TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut)
     EXPECT_NEAR(r.force[0][1], 1, 1e-12);
     const auto tagged = read_logged(folder, R"({"tags":["a","b"],"time_s":[0,1,2],"fz_N":[1,2,3]})", {}, "x.json");
     EXPECT_EQ(tagged.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
-    EXPECT_TRUE(some_remark(tagged, "'tags' holds 2 words, and the table has 3 rows: left out"));
+    EXPECT_TRUE(some_remark(tagged, "'tags' was ignored: it has 2 strings, but the table has 3 rows"));
     EXPECT_EQ(refused_logged(folder, "[{\"t\":NaN,\"F\":-Infinity},\n{\"t\":NaN,\"F\":}]", {}, "x.json").substr(0, 11), "x.json:2:14");
 }
 
@@ -350,13 +351,13 @@ TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
     EXPECT_NEAR(recording(path).clock.rate(), 100, 1e-6);
     for (const std::string asked : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
         EXPECT_NEAR(recording(path, {.time = asked}).clock.rate(), 100, 1e-6) << asked;
-    EXPECT_TRUE(some_remark(recording(path), "'Zeit' was taken as the time"));
-    EXPECT_FALSE(some_remark(recording(path, {.time = "none", .rate = 10}), "was taken as the time"));
+    EXPECT_TRUE(some_remark(recording(path), "'Zeit' is taken as the time"));
+    EXPECT_FALSE(some_remark(recording(path, {.time = "none", .rate = 10}), "is taken as the time"));
 }
 
 TEST(LoggerFiles, AColumnWithATimeLikeNameThatDoesNotRiseIsNoTime) {
     const Folder folder;
-    EXPECT_NE(refused_logged(folder, "response_time,F_N\n0.3,1\n0.2,2\n0.4,3\n").find("there is no time column"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, "response_time,F_N\n0.3,1\n0.2,2\n0.4,3\n").find("no time column found"), std::string::npos);
 }
 
 TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
@@ -384,10 +385,11 @@ TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
 TEST(LoggerFiles, TimesThatCannotBeReadNameTheRemedyThatWorks) {
     const Folder folder;
     const std::string text = "time,F_N\n03/01/2026 12:00,1\n03/01/2026 12:01,2\n";
-    EXPECT_NE(refused_logged(folder, text).find("'03/01/2026 12:00' where a number should be; --rate, such as --rate 1kHz, takes the rows"),
+    EXPECT_NE(refused_logged(folder, text)
+                  .find("'03/01/2026 12:00' where a number is expected; use --rate, such as --rate 1kHz, to take the rows"),
               std::string::npos);
     EXPECT_EQ(recording(folder / "x.csv", {.rate = 1000}).force[0].size(), 2U);
-    EXPECT_NE(refused_logged(folder, "time,F_N\n12:00:00.0,1\n12:00:00.1,2\n", {.time_unit = "ms"}).find("have no unit; leave it out"),
+    EXPECT_NE(refused_logged(folder, "time,F_N\n12:00:00.0,1\n12:00:00.1,2\n", {.time_unit = "ms"}).find("have no unit; omit the option"),
               std::string::npos);
 }
 
@@ -409,7 +411,7 @@ TEST(LoggerFiles, UnitsBehindASlashAndInARowOfTheirOwnAreSeen) {
     const auto slash = read_logged(folder, "Time/s,Fz/mN,v/(m/s)\n0,500,1\n1,1000,1\n");
     EXPECT_EQ(slash.names, std::vector<std::string>{"Fz"});
     EXPECT_NEAR(slash.force[0][1], 1, 1e-12);
-    EXPECT_TRUE(some_remark(slash, "'v' is in m/s, which is no force: left out"));
+    EXPECT_TRUE(some_remark(slash, "'v' was ignored: m/s is not a unit of force"));
     const auto topics = read_logged(folder, "time,/ft/wrench/force/z,imu/x\n0,1,2\n1,1,2\n");
     EXPECT_EQ(topics.names, (std::vector<std::string>{"/ft/wrench/force/z", "imu/x"})) << "paths are names";
     const auto row = read_logged(folder, "Time;Fz;note\n[s];[mN];-\n0;500;a\n1;1000;b\n");
@@ -433,11 +435,11 @@ TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
     RecordingOptions skip;
     skip.table.skip = 2;
     EXPECT_EQ(read_logged(folder, "x,y\n1,2\ntime_s,F_N\n0,1\n1,2\n", skip).names, std::vector<std::string>{"F"});
-    EXPECT_NE(refused_logged(folder, "x,y\nfirst,second\n1,2\n3,4\n", {.rate = 10}).find("--skip LINES passes over lines before the table"),
+    EXPECT_NE(refused_logged(folder, "x,y\nfirst,second\n1,2\n3,4\n", {.rate = 10}).find("--skip LINES to skip lines before the table"),
               std::string::npos);
     skip.table.skip = 100;
     EXPECT_EQ(refused_logged(folder, "x,y\n1,2\n", skip), "x.csv: no data in this file");
-    EXPECT_NE(test::refusal(folder.write("x.npy", "?"), skip).find("--skip 100: lines are of files of text"), std::string::npos);
+    EXPECT_NE(test::refusal(folder.write("x.npy", "?"), skip).find("--skip 100: only text files have lines to skip"), std::string::npos);
 }
 
 TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
@@ -452,10 +454,10 @@ TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
 TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
     const Folder folder;
     const std::string table = rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); });
-    EXPECT_NE(refused_logged(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 should be"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, "t,F\n0,1\n\n0.1,2,3\n0.2,3,4\n0.3,4,5\n").find("x.csv:4: 3 columns where 2 should be"),
+    EXPECT_NE(refused_logged(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 are expected"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, "t,F\n0,1\n\n0.1,2,3\n0.2,3,4\n0.3,4,5\n").find("x.csv:4: 3 columns where 2 are expected"),
               std::string::npos);
-    EXPECT_NE(refused_logged(folder, "time,force\n0,1,5\n0.1,2,6\n0.2,2,6\n").find("x.csv:2: 3 columns where 2 should be"),
+    EXPECT_NE(refused_logged(folder, "time,force\n0,1,5\n0.1,2,6\n0.2,2,6\n").find("x.csv:2: 3 columns where 2 are expected"),
               std::string::npos);
 }
 
@@ -488,7 +490,7 @@ TEST(LoggerFiles, AnIndexColumnIsLeftOutAndTold) {
     const auto line = [](int k, double t, double F) { return fmt::format("{},{:.2f},{:.3f}\n", k, t, F); };
     const auto pandas = read_logged(folder, ",time_s,fz_N\n" + rows_of(30, line));
     EXPECT_EQ(pandas.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(pandas, "'ch1' counts the rows: left out (--channel 1 takes it)"));
+    EXPECT_TRUE(some_remark(pandas, "'ch1' was ignored: it counts the rows (use --channel 1 to include it)"));
     EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1"}}).force[0][7], 7) << "the remedy";
     EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1-2"}}).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "sample,time_s,fz_N\n" + rows_of(3, line)).names, std::vector<std::string>{"fz"});
@@ -512,11 +514,11 @@ TEST(LoggerFiles, AColumnInAUnitThatIsNoForceNeverPassesAsNewtons) {
     const Folder folder;
     const auto r = read_logged(folder, "time_s,fz,temp_C,Tx [Nm],angle_deg\n0,1,31,2,3\n1,2,31,2,3\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(r, "'temp' is in C, which is no force: left out (if the header is wrong, --channel 2 --unit N takes it)"));
+    EXPECT_TRUE(some_remark(r, "'temp' was ignored: C is not a unit of force (if the header is wrong, use --channel 2 --unit N)"));
     EXPECT_EQ(recording(folder / "x.csv", {.channels = {"2"}, .unit = "N"}).force[0][0], 31) << "the remedy";
     EXPECT_EQ(recording(folder / "x.csv", {.scale = 2}).names, std::vector<std::string>{"fz"}) << "nor does a scale make it one";
     EXPECT_TRUE(
-        some_remark(read_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n"), "'humidity' is in %, which is no force: left"));
+        some_remark(read_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n"), "'humidity' was ignored: % is not a unit of force"));
     EXPECT_NE(refused_logged(folder, "time_s,temp_C\n0,1\n1,1\n").find("'temp' is in C"), std::string::npos);
     EXPECT_EQ(read_logged(folder, "time_s,left_A,left_C,left_F\n0,1,2,3\n1,1,2,3\n").names,
               (std::vector<std::string>{"left_A", "left_C", "left_F"}))
@@ -543,14 +545,15 @@ TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
     const Folder folder;
     const auto r = read_logged(folder, "time_s,fz_N,phase,notes\n0,1,rest,\n1,2,press,\n2,3,press,\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(r, "'phase' holds words, not numbers: left out"));
-    EXPECT_TRUE(some_remark(r, "'notes' is empty: left out"));
-    EXPECT_EQ(refused_logged(folder, "time_s,fz_N\n0,1\n1,\n2,3\n"),
-              "x.csv:3:3: column 'fz': nothing where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves "
-              "its row out");
+    EXPECT_TRUE(some_remark(r, "'phase' was ignored: it holds words, not numbers"));
+    EXPECT_TRUE(some_remark(r, "'notes' was ignored: it is empty"));
+    EXPECT_EQ(
+        refused_logged(folder, "time_s,fz_N\n0,1\n1,\n2,3\n"),
+        "x.csv:3:3: column 'fz': an empty field where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
+        "drop to skip the row");
     EXPECT_EQ(recording(folder / "x.csv", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(refused_logged(folder, "time_s,phase\n0,rest\n1,press\n"),
-              "x.csv: no column holds readings: 'phase' holds words, not numbers; line 2 says 'rest' there");
+              "x.csv: no column holds force values: 'phase' holds words, not numbers; line 2 has 'rest'");
 }
 
 TEST(LoggerFiles, ChannelsAreChosenByRangesOfNamesAndCountedOnesAreCalledByName) {
@@ -567,7 +570,7 @@ TEST(LoggerFiles, ATimeUnitAgainstTheHeaderIsTold) {
     const Folder folder;
     const auto r = read_logged(folder, "time_s,F_N\n0,1\n1,2\n2,3\n", {.time_unit = "ms"});
     EXPECT_NEAR(r.clock.rate(), 1000, 1e-9);
-    EXPECT_TRUE(some_remark(r, "the header says 'time' is in s; read as ms, as --time-unit says"));
+    EXPECT_TRUE(some_remark(r, "--time-unit ms overrides the unit of 'time' in the header, s"));
 }
 
 std::string packed(const std::string& text) {
@@ -592,7 +595,7 @@ TEST(LoggerFiles, GzipIsUnpackedInPiecesAndItsDamageNamed) {
         << "two members";
     EXPECT_EQ(read_logged(folder, packed(text) + std::string(512, '\0'), {}, "x.csv.gz").force, plain.force) << "padded";
     auto whole = packed(text);
-    EXPECT_NE(refused_logged(folder, whole.substr(0, whole.size() / 2), {}, "x.gz").find("this gzip file ends too early"),
+    EXPECT_NE(refused_logged(folder, whole.substr(0, whole.size() / 2), {}, "x.gz").find("this gzip file is incomplete"),
               std::string::npos);
     whole[whole.size() / 2] ^= 0x55;
     EXPECT_NE(refused_logged(folder, whole, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
@@ -602,7 +605,7 @@ TEST(LoggerFiles, GzipIsUnpackedInPiecesAndItsDamageNamed) {
 
 TEST(LoggerFiles, AGzipBombTakesNoMoreMemoryThanALineMay) {
     const Folder folder;
-    EXPECT_NE(refused_logged(folder, packed(std::string(80'000'000, '1')), {}, "x.gz").find("a line of more than 64 MB"),
+    EXPECT_NE(refused_logged(folder, packed(std::string(80'000'000, '1')), {}, "x.gz").find("the line is longer than 64 MB"),
               std::string::npos);
 }
 
@@ -623,7 +626,7 @@ TEST(LoggerFiles, Utf16IsReadWithAndWithoutItsMark) {
     const auto letters =
         utf16("time_s,", false, true) + std::string("\x4b\x00\x3d\xd8\x4b\xdc,\x00", 8) + utf16("x\n0,1,2\n1,2,3\n", false, false);
     EXPECT_EQ(read_logged(folder, letters).names.at(0), "K\xf0\x9f\x91\x8b") << "a pair of surrogates";
-    EXPECT_NE(refused_logged(folder, utf16("t,F\n0,1\n", false, true) + "x").find("ends within a letter"), std::string::npos);
+    EXPECT_NE(refused_logged(folder, utf16("t,F\n0,1\n", false, true) + "x").find("ends within a character"), std::string::npos);
 }
 
 TEST(LoggerFiles, JsonIsReadALineARecordAsAListAndAsColumns) {
@@ -656,21 +659,22 @@ TEST(LoggerFiles, AnErrorInAJsonDocumentNamesItsRecordAndNoLine) {
     const Folder folder;
     const auto path = folder.write(
         "x.json", R"([{"t":"2026-03-01T12:00:00Z","f":1},{"t":"2026-03-01T12:00:01Z","f":2},{"t":"2025-03-01T12:00:02Z","f":1}])");
-    EXPECT_EQ(test::refusal(path, {.unit = "N"}).find("x.json: record 3: time goes back, from 1 s to "), 0U)
+    EXPECT_EQ(test::refusal(path, {.unit = "N"}).find("x.json: record 3: the time decreases from 1 s to "), 0U)
         << test::refusal(path, {.unit = "N"});
 }
 
 TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {
     const Folder folder;
     const std::pair<std::string, std::string> cases[] = {
-        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":}\n", "x.json:2:12: this is no whole JSON"},
-        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":1}\n", "x.json:2: record 2: 'F' has no number; --bad-fields interpolate"},
-        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":NaN}\n{\"t\":2,\"F\":1}\n", "x.json:2: record 2: 'F' has no number"},
+        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":}\n", "x.json:2:12: this JSON is not valid"},
+        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":1}\n",
+         "x.json:2: record 2: 'F' is not a number; use --bad-fields interpolate"},
+        {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":NaN}\n{\"t\":2,\"F\":1}\n", "x.json:2: record 2: 'F' is not a number"},
         {"{\"a\":[1,2],\"b\":[1]}", "'a' has 2 values and 'b' has 1"},
         {"{\"a\":1,\"b\":{\"c\":2}}", "no table in this JSON"},
         {std::string(1000, '[') + std::string(1000, ']'), "nested more than 16 deep"},
         {"{\"t\":0,\"F\":1e999}\n{\"t\":1,\"F\":1}\n", "a number that is too large"},
-        {"[{\"t\":0,\"F\":1},{\"t\":1,", "this is no whole JSON"},
+        {"[{\"t\":0,\"F\":1},{\"t\":1,", "this JSON is not valid"},
     };
     for (const auto& [text, said] : cases)
         EXPECT_NE(refused_logged(folder, text, {}, "x.json").find(said), std::string::npos) << refused_logged(folder, text, {}, "x.json");
@@ -691,7 +695,7 @@ TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
         {"x.csv.bz2", "BZh91AY", "bzip2 -dk "},
         {"x.zip", std::string("PK\x03\x04 x.csv\0", 11), "unzip "},
         {"x.dat", "\x89HDF\r\n", "x.h5"},
-        {"x.bin", std::string("ab\0cd", 5), "this is no text: it has NUL bytes"},
+        {"x.bin", std::string("ab\0cd", 5), "not a text file: it contains NUL bytes"},
     };
     for (const auto& [name, bytes, said] : cases)
         EXPECT_NE(refused_logged(folder, bytes, {}, name).find(said), std::string::npos) << refused_logged(folder, bytes, {}, name);
@@ -699,8 +703,8 @@ TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
 
 /// The command at the end of what is said of a file.
 std::string command_in(const std::string& said) {
-    const auto at = said.find("make a file that is: ");
-    return at == std::string::npos ? "" : said.substr(at + 21);
+    const auto at = said.find("convert it like this: ");
+    return at == std::string::npos ? "" : said.substr(at + 22);
 }
 
 int typed(const Folder& folder, const std::string& command) {

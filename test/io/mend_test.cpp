@@ -38,7 +38,7 @@ TEST(GapFiller, SaysSoIfThereIsNoGoodReading) {
     std::vector<double> out;
     const double x[] = {gap, gap};
     ASSERT_TRUE(static_cast<bool>(gaps.push(x, out)));
-    EXPECT_EQ(gaps.finish(out).error().sentence, "no good reading at all");
+    EXPECT_EQ(gaps.finish(out).error().sentence, "all samples are missing or bad");
 }
 
 TEST(StrayFilter, TakesOutWhatStandsAloneAndNothingElse) {

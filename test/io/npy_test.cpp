@@ -114,7 +114,7 @@ TEST(Npy, AColumnThatCountsTheRowsIsNoForce) {
         EXPECT_EQ(made.names, std::vector<std::string>{"fz"}) << index;
         EXPECT_EQ(made.force[0][7], std::sin(7.0));
         ASSERT_FALSE(made.remarks.empty());
-        EXPECT_EQ(made.remarks[0], fmt::format("'{}' counts the rows: left out (--channel 1 takes it)", index));
+        EXPECT_EQ(made.remarks[0], fmt::format("'{}' was ignored: it counts the rows (use --channel 1 to include it)", index));
         EXPECT_EQ(recording(folder / "x.npy", {.channels = {index}, .rate = 100}).force[0][7], 7);
         const auto packed = make_archive({{"log.npy", records(index)}});
         EXPECT_EQ(recording(folder.write("x.npz", test::sure(packed)), {.rate = 100}).names, std::vector<std::string>{"fz"}) << index;
@@ -142,29 +142,30 @@ TEST(Npy, WhatCannotBeReadIsSaid) {
         return refusal(folder.write("x.npy", bytes), options);
     };
     const auto nan = bytes_of(std::nan(""), false), one = bytes_of(1.0, false);
-    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number should be");
-    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one)), "x.npy: the array should take 32 bytes, and 24 are there: cut short?");
+    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number is expected");
+    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one)), "x.npy: the array needs 32 bytes, but the file has 24; it may be incomplete");
     EXPECT_EQ(said(npy("'<f8'", "(99999999999, 99999999999)", one)),
-              "x.npy: the array should take endless bytes, and 8 are there: cut short?");
+              "x.npy: the array needs more than 2^64 bytes, but the file has 8; it may be incomplete");
     EXPECT_EQ(said(npy("'<c16'", "(2,)", std::string(32, '\0'))),
-              "x.npy: the array holds '<c16' (complex numbers); save the real part, or the magnitude");
+              "x.npy: the array holds '<c16' (complex numbers); save the real part or the magnitude instead");
     EXPECT_EQ(said(npy("'|O'", "(2,)", "\x80\x04")),
-              "x.npy: the array holds '|O' (Python objects), which are not read: to read them could run any program; save numbers");
+              "x.npy: the array holds '|O' (Python objects), which are not supported because loading them can run any code; save numbers "
+              "instead");
     EXPECT_EQ(said(npy("'<U3'", "(1,)", std::string(12, 'a'))),
-              "x.npy: the array holds '<U3' and no numbers that are known here: floats to 64 bits, integers, booleans");
-    EXPECT_EQ(said(npy("'<f8'", "(0, 3)", "")), "x.npy: the array (0 x 3): there are no samples in it");
-    EXPECT_EQ(said(npy("'<f8'", "()", one)), "x.npy: the array (scalar): a recording has one dimension, or two: rows and channels");
+              "x.npy: the array holds '<U3' (not a supported number type); supported are floats up to 64 bits, integers and booleans");
+    EXPECT_EQ(said(npy("'<f8'", "(0, 3)", "")), "x.npy: the array (0 x 3): it has no samples");
+    EXPECT_EQ(said(npy("'<f8'", "()", one)), "x.npy: the array (scalar): a recording must have one dimension, or two (rows and channels)");
     EXPECT_EQ(said(npy("'<f8'", "(1, 1, 1)", one)),
-              "x.npy: the array (1 x 1 x 1): a recording has one dimension, or two: rows and channels");
-    EXPECT_EQ(said(npy("'<f8'", "(-1,)", one)), "x.npy: the shape in the header is no list of whole numbers");
-    EXPECT_EQ(said(npy("'<q8'", "(1,)", one)), "x.npy: the type '<q8' in the header is none of NumPy's");
-    EXPECT_EQ(said(npy("'<f8'", "(1,", one)), "x.npy: the header does not say descr, fortran_order and shape");
-    EXPECT_EQ(said("\x93NUMPY\x04\x01 and so on"), "x.npy: NPY version 4 is not known here (1, 2, 3)");
-    EXPECT_EQ(said("a,b\n1,2\n3,4\n"), "x.npy: this is no NPY file");
-    EXPECT_EQ(said(""), "x.npy: this is no NPY file");
-    EXPECT_EQ(said(npy("'<f8'", "(1,)", one), {.table = {"a"}, .rate = 10}), "--dataset a: a NPY file has only one array");
+              "x.npy: the array (1 x 1 x 1): a recording must have one dimension, or two (rows and channels)");
+    EXPECT_EQ(said(npy("'<f8'", "(-1,)", one)), "x.npy: the shape in the header is not a list of non-negative integers");
+    EXPECT_EQ(said(npy("'<q8'", "(1,)", one)), "x.npy: unknown NumPy type '<q8' in the header");
+    EXPECT_EQ(said(npy("'<f8'", "(1,", one)), "x.npy: the header does not contain descr, fortran_order and shape");
+    EXPECT_EQ(said("\x93NUMPY\x04\x01 and so on"), "x.npy: NPY version 4 is not supported (only 1, 2, 3)");
+    EXPECT_EQ(said("a,b\n1,2\n3,4\n"), "x.npy: not an NPY file");
+    EXPECT_EQ(said(""), "x.npy: not an NPY file");
+    EXPECT_EQ(said(npy("'<f8'", "(1,)", one), {.table = {"a"}, .rate = 10}), "--dataset a: an NPY file has only one array");
     EXPECT_EQ(said(npy("'<f8'", "(1,)", one), {}),
-              "x.npy: there is no time column (there are ch1); name it with --time, or say --rate, such as --rate 1kHz");
+              "x.npy: no time column found (columns: ch1); name one with --time, or give a rate, such as --rate 1kHz");
 }
 
 /// An archive as numpy.savez_compressed makes it.
@@ -202,13 +203,13 @@ TEST(Npz, TheArrayIsChosenByNameAndRateOrTimesStandBesideIt) {
         EXPECT_EQ(recording(path, {.channels = {"2"}}).force[0][8999], 17999 * 1e-3);
         write({force, rate, turned});
         EXPECT_EQ(refusal(path),
-                  "x.npz: several arrays could be the recording; say which with --dataset NAME: force_mN (9000 x 2), turned (9000 x 2)");
+                  "x.npz: several arrays could be the recording; select one with --dataset NAME: force_mN (9000 x 2), turned (9000 x 2)");
         EXPECT_EQ(recording(path, {.table = {"turned"}}).force[1][10], 9010);
         EXPECT_EQ(refusal(path, {.table = {"forces_mN"}}),
-                  "x.npz: no array 'forces_mN'; did you mean 'force_mN'?; there are: force_mN (9000 x 2), fs (scalar), turned (9000 x 2)");
+                  "x.npz: no array 'forces_mN'; did you mean 'force_mN'?; arrays: force_mN (9000 x 2), fs (scalar), turned (9000 x 2)");
         write({words});
         EXPECT_EQ(refusal(path),
-                  "x.npz: no array that could be the recording: numbers in one or two dimensions; there are: who (1, no numbers)");
+                  "x.npz: no array can be the recording, which must be numeric with one or two dimensions; arrays: who (1, not numeric)");
     }
 }
 

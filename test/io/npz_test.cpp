@@ -77,17 +77,17 @@ TEST(Npz, WhatIsNotThereOrOfAnotherKindIsSaid) {
     EXPECT_TRUE(npz.has("words"));
     EXPECT_FALSE(npz.has("word"));
     EXPECT_EQ(npz.words("word").error().text(), path + ": no array 'word'; did you mean 'words'?");
-    EXPECT_EQ(npz.words("whole").error().text(), path + "/whole: '<i8' is no type for words");
-    EXPECT_EQ(npz.integers("numbers").error().text(), path + "/numbers: '<f8' is no type for whole numbers");
+    EXPECT_EQ(npz.words("whole").error().text(), path + "/whole: the type is '<i8', expected strings");
+    EXPECT_EQ(npz.integers("numbers").error().text(), path + "/numbers: the type is '<f8', expected integers");
     EXPECT_EQ(test::sure(npz.numbers("whole"))[1], -1) << "whole numbers are numbers";
     const auto text = folder.write("y.npz", "a,b\n1,2\n");
-    EXPECT_EQ(NpzReader::open(text).error().text(), text + ": this is no zip archive that can be read: Not a zip archive");
+    EXPECT_EQ(NpzReader::open(text).error().text(), text + ": cannot be read as a zip archive: Not a zip archive");
     const auto cut = folder.write("z.npz", written().substr(0, 300));
     EXPECT_FALSE(NpzReader::open(cut));
     auto damaged = written();
     damaged[damaged.find("NUMPY", 200) + 127] ^= 1;  // one bit of the numbers: the archive's checksum tells
     EXPECT_EQ(test::sure(NpzReader::open(folder.write("d.npz", damaged))).numbers("numbers").error().sentence,
-              "cannot be unpacked: CRC error");
+              "cannot be decompressed: CRC error");
 }
 
 /// A stored member's size in the archive's directory, changed; and one bit of its last bytes, if `damaged`.
@@ -113,7 +113,7 @@ TEST(Npz, AWrongSizeInTheDirectoryHidesNoDamage) {
     EXPECT_FALSE(numbers_of(0, true));
     for (const int more : {-32, -8, -1, 1, 8, 4096})
         for (const bool damaged : {false, true}) EXPECT_FALSE(numbers_of(more, damaged)) << more;
-    EXPECT_EQ(numbers_of(8, true).error().sentence, "the archive's directory says 168 bytes, the array takes 160: damaged?");
+    EXPECT_EQ(numbers_of(8, true).error().sentence, "the archive states 168 bytes, but the array has 160; it may be damaged");
 }
 
 }  // namespace

@@ -26,10 +26,9 @@ TEST(Orientation, AnArrayOfMoreChannelsThanSamplesIsRefusedUntilOneSaysWhichIsWh
     const Folder folder;
     for (const bool by_columns : {false, true}) {
         const auto path = folder.write("x.npy", lying_down(2, by_columns));
-        EXPECT_EQ(
-            refusal(path, {.rate = 500}),
-            "x.npy: the array (2 x 3000): 3000 channels of only 2 samples? --transpose takes each row as a channel, --no-transpose each "
-            "row as a sample");
+        EXPECT_EQ(refusal(path, {.rate = 500}),
+                  "x.npy: the array (2 x 3000): 3000 channels of only 2 samples? Use --transpose if each row is a channel, or "
+                  "--no-transpose if each row is a sample");
         const auto turned = recording(path, {.table = {{}, true}, .rate = 500}, 1000);
         EXPECT_EQ(turned.names, (std::vector<std::string>{"ch1", "ch2"}));
         EXPECT_EQ(turned.force[1][2999], 5999 * 1e-4);
@@ -58,7 +57,7 @@ TEST(Orientation, TimesInTheSameArchiveSayWhichDimensionIsTheirs) {
         const auto turned = recording(folder.write("x.npz", test::sure(make_archive({force, times(3000)}))));
         EXPECT_EQ(turned.force.size(), 2U);
         EXPECT_EQ(turned.force[1][5], 3005 * 1e-4);
-        EXPECT_NE(turned.remarks.at(0).find("2 channels of 3000 samples, as the times beside it say"), std::string::npos);
+        EXPECT_NE(turned.remarks.at(0).find("2 channels of 3000 samples, to match the times"), std::string::npos);
         EXPECT_EQ(recording(folder.write("y.npz", test::sure(make_archive({force, times(2)})))).force.size(), 3000U);
     }
 }
@@ -77,7 +76,7 @@ TEST(Orientation, WideTextIsDoubtedAndTurned) {
     EXPECT_EQ(upright.names.size(), 40U);
     ASSERT_FALSE(upright.quality.warnings.empty());
     EXPECT_EQ(upright.quality.warnings.back(),
-              "40 columns, and only 3 rows: --transpose takes each row as a channel, --no-transpose says that each is a sample");
+              "40 columns, but only 3 rows. Use --transpose if each row is a channel, or --no-transpose if each row is a sample");
     const auto insisted = recording(path, {.table = {{}, false}, .time = "none", .rate = 100});
     for (const auto& w : insisted.quality.warnings) EXPECT_EQ(w.find("--transpose"), std::string::npos);
     const auto turned = recording(path, {.table = {{}, true}, .rate = 100});
@@ -92,7 +91,8 @@ TEST(Orientation, WideTextIsDoubtedAndTurned) {
 TEST(Orientation, ASoundFileCannotBeTurned) {
     const Folder folder;
     test::write_sound(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1000, {{0, 0.5, 0.25}});
-    EXPECT_EQ(refusal(folder / "x.wav", {.table = {{}, true}, .scale = 1}), "--transpose: in a sound file each channel is known");
+    EXPECT_EQ(refusal(folder / "x.wav", {.table = {{}, true}, .scale = 1}),
+              "--transpose: a sound file defines its channels, so it cannot be transposed");
 }
 
 TEST(Orientation, OneChannelThatNeverChangesIsDoubted) {
@@ -101,7 +101,7 @@ TEST(Orientation, OneChannelThatNeverChangesIsDoubted) {
     for (int k = 0; k < 100; ++k) text += "0\n";
     const auto made = recording(folder.write("x.csv", text), {.rate = 100});
     ASSERT_EQ(made.quality.warnings.size(), 1U);
-    EXPECT_EQ(made.quality.warnings[0], "the force is 0 N throughout: is this what was recorded?");
+    EXPECT_EQ(made.quality.warnings[0], "the force is constant, 0 N; check the file and the channel");
 }
 
 }  // namespace

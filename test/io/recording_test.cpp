@@ -107,29 +107,31 @@ TEST(Recording, ChannelsAreChosenByNameNumberAndRange) {
 
 TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
     const Folder folder;
-    const std::string bad_field = "; --bad-fields interpolate fills it in, --bad-fields drop leaves its row out";
+    const std::string bad_field = "; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip the row";
     EXPECT_EQ(said(folder, ""), "x.csv: no data in this file");
     EXPECT_EQ(said(folder, "# only this\n"), "x.csv: no data in this file");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,x\n"), "x.csv:3:3: column 'F': 'x' where a number should be" + bad_field);
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number should be" + bad_field);
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': nothing where a number should be" + bad_field);
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 should be; --bad-fields drop leaves such rows out");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,x\n"), "x.csv:3:3: column 'F': 'x' where a number is expected" + bad_field);
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number is expected" + bad_field);
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': an empty field where a number is expected" + bad_field);
+    EXPECT_EQ(said(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 are expected; use --bad-fields drop to skip such rows");
     EXPECT_EQ(said(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}),
-              "x.csv: 'ch1' is read as mV, which is no force; say --scale S, so that what is read times S is newtons");
+              "x.csv: 'ch1' is read as mV, which is not a force; use --scale S for S newtons per mV");
     EXPECT_EQ(said(folder, "F_nm\n1\n", {.rate = 10}),
-              "x.csv: 'F' is in nm, which is no force; say --scale S, so that what is read times S is newtons, --unit N if the header is "
-              "wrong, or --channel if it is another column that holds the force");
+              "x.csv: 'F' is in nm, which is not a force; use --scale S for S newtons per nm, --unit N if the header is wrong, "
+              "or --channel to select another column");
     EXPECT_EQ(said(folder, "F\n1\n2\n"),
-              "x.csv: there is no time column (there are F); name it with --time, or say --rate, such as --rate 1kHz");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n2,1\n1,1\n"), "x.csv:4: time goes back, from 2 s to 1 s; --rate takes the rows as evenly spaced");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n"), "x.csv: one sample has no rate of its own; say --rate, such as --rate 1kHz");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n"), "x.csv: the times in 't' do not advance; say --rate, such as --rate 1kHz");
-    EXPECT_EQ(
-        said(folder, "t_N,F\n0,1\n1,1\n"),
-        "x.csv: the time column 't' is in 'N', which is no time; --time-unit says what it is in, --time names another column, or none");
+              "x.csv: no time column found (columns: F); name one with --time, or give a rate, such as --rate 1kHz");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n2,1\n1,1\n"),
+              "x.csv:4: the time decreases from 2 s to 1 s; use --rate to take the rows as evenly spaced");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n"), "x.csv: a single sample has no rate; give one, such as --rate 1kHz");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n"), "x.csv: the times in 't' do not increase; give a rate, such as --rate 1kHz");
+    EXPECT_EQ(said(folder, "t_N,F\n0,1\n1,1\n"),
+              "x.csv: the time column 't' is in 'N', which is not a unit of time; give its unit with --time-unit, or another column or "
+              "'none' with --time");
     EXPECT_EQ(said(folder, "t,F\n0,1\n1,1\n", {.time = "z"}),
-              "x.csv: no column 'z' to take as time; did you mean 't'?; give its name, its number or 'none'; there are t, F");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}), "--unit and --scale both say what is read: give one");
+              "x.csv: no time column 'z'; did you mean 't'?; give a name, a number or 'none' (columns: t, F)");
+    EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}),
+              "--unit and --scale exclude each other: both convert the values to newtons");
     EXPECT_EQ(try_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
     EXPECT_EQ(try_recording(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
 }
@@ -150,25 +152,26 @@ TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
     EXPECT_EQ(one("t,F_N,\n0,1,\n1,2,\n").names, std::vector<std::string>{"F"}) << "a separator at the end makes no column";
     EXPECT_EQ(one("t,F_lbf\n0,1\n1,2\n").force[0][0], 4.4482216152605);
     EXPECT_EQ(said(folder, "nan,1\n2,3\n4,5\n", {.rate = 100}),
-              "x.csv:1:1: column 1: 'nan' where a number should be; --bad-fields interpolate fills it in, --bad-fields drop leaves its row "
-              "out, --skip LINES passes over lines before the table")
+              "x.csv:1:1: column 1: 'nan' where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields drop to "
+              "skip the "
+              "row, or --skip LINES to skip lines before the table")
         << "nan is no heading";
-    EXPECT_EQ(said(folder, std::string("t,F\n\0\0", 6)), "x.csv: this is no text: it has NUL bytes, as binary files have");
+    EXPECT_EQ(said(folder, std::string("t,F\n\0\0", 6)), "x.csv: not a text file: it contains NUL bytes, as binary files do");
     EXPECT_EQ(said(folder, "t,F_furlong\n0,1\n1,2\n", {.unit = "mn"}).substr(0, 91),
-              "x.csv: 'F_furlong' is read as mn, which is no unit of force known here (N, mN, gf, kgf, lbf");
+              "x.csv: 'F_furlong' is read as mn, which is not a known unit of force (N, mN, gf, kgf, lbf");
 }
 
 TEST(Recording, WhatTheUserSaysAgainstTheHeaderIsTold) {
     const Folder folder;
     EXPECT_EQ(read(folder.write("x.csv", "t,F_N\n0,1\n0.1,2\n"), {.unit = "mN"}).remarks.at(0),
-              "the header says 'F' is in N; read as mN, as --unit says");
+              "--unit mN overrides the unit of 'F' in the header, N");
 }
 
 TEST(Recording, MillisecondsWithoutAUnitAreDoubtedAndTheirUnitCanBeSaid) {
     const Folder folder;
     const auto path = folder.write("x.csv", "timestamp,F_N\n421419,1\n421447,2\n421475,3\n");
     EXPECT_EQ(read(path).remarks.at(0),
-              "no unit for 'timestamp': taken as seconds, which makes 0.035714 Hz; say --time-unit ms if they are milliseconds");
+              "no unit for 'timestamp': assuming seconds, which gives a rate of 0.035714 Hz; use --time-unit ms if they are milliseconds");
     const auto said_so = read(path, {.time_unit = "ms"});
     EXPECT_NEAR(said_so.clock.rate(), 1000.0 / 28, 1e-9);
     EXPECT_NEAR(said_so.clock.t0, 421.419, 1e-12);
@@ -180,7 +183,7 @@ TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
     const auto made = read(folder.write("x.csv", "time,F_N\n01/02/2026 0:00,1\n01/02/2026 0:01,2\n"), {.rate = 1});
     EXPECT_EQ(made.force, (Rows{{1, 2}}));
     EXPECT_EQ(made.remarks.at(0),
-              "the times were not read (column 'time': '01/02/2026 0:00' where a number should be); the rows count from 0 s");
+              "the times were ignored (column 'time': '01/02/2026 0:00' where a number is expected); the recording starts at 0 s");
 }
 
 TEST(Recording, ARateCloseToAWholeNumberIsThatNumber) {
@@ -192,8 +195,8 @@ TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
     const Folder folder;
     const std::string bursts = "time_s,F_N\n0,0\n0.001,1\n0.002,2\n0.003,3\n0.1,4\n0.101,5\n0.102,6\n0.2,7\n";
     EXPECT_EQ(said(folder, bursts).substr(0, 150),
-              "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, samples off their place by up "
-              "to 82.71 ms. Say --rate 35H");
+              "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, jitter up to 82.71 ms. "
+              "Use --rate 35H");
     const auto path = folder / "x.csv";
     const auto even = read(path, {.rate = 35});
     EXPECT_EQ(even.force[0], (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
@@ -204,7 +207,7 @@ TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
     for (int k = 0; k < 5; ++k) EXPECT_NEAR(between.force[0][static_cast<std::size_t>(k)], right[k], 1e-9);
     EXPECT_EQ(between.remarks.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
     EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}),
-              "x.csv:3: the time 0 s stands twice; --rate takes the rows as evenly spaced");
+              "x.csv:3: the time 0 s occurs twice; use --rate to take the rows as evenly spaced");
 }
 
 TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
@@ -223,8 +226,8 @@ TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
 TEST(Recording, WhatTheClockSaysAgainstTheRateIsTold) {
     const Folder folder;
     const auto path = folder.write("x.csv", "time_s,F\n0,1\n0.01,2\n0.02,3\n");
-    EXPECT_EQ(read(path).remarks.at(0), "no unit for 'F': taken as newtons");
-    EXPECT_EQ(read(path, {.rate = 50}).remarks.at(0), "--rate says 50 Hz, the times in 'time' say 100 Hz on the mean");
+    EXPECT_EQ(read(path).remarks.at(0), "no unit for 'F': assuming newtons");
+    EXPECT_EQ(read(path, {.rate = 50}).remarks.at(0), "--rate is 50 Hz, but the mean rate of the times in 'time' is 100 Hz");
 }
 
 TEST(Recording, AHeaderAloneIsNoSampleResampledOrNot) {  // found by fuzzing
@@ -326,13 +329,13 @@ TEST(Recording, MoreChannelsThanCanBeAnsweredAtOnceAreRefused) {
     std::string text;
     for (int c = 0; c < 140'000; ++c) text += c ? ",1" : "1";
     EXPECT_EQ(said(folder, text + "\n", {.rate = 10}),
-              "x.csv: 140000 channels are more than 131072 at a time; --channel 1-1000 takes some of them");
+              "x.csv: 140000 channels are more than the limit of 131072; select some, such as --channel 1-1000");
 }
 
 TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
     const auto path = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
-    EXPECT_NE(try_recording(path).error().text().find("is in nm, which is no force"), std::string::npos);
+    EXPECT_NE(try_recording(path).error().text().find("is in nm, which is not a force"), std::string::npos);
     const auto refused = try_recording(path, {.scale = 40});
     ASSERT_FALSE(refused) << "its clock comes in bursts";
     EXPECT_NE(refused.error().text().find("not evenly spaced: mean rate 100.0"), std::string::npos) << refused.error().text();
@@ -362,7 +365,8 @@ TEST(Recording, TheInsolesTimesAreTakenAsTheyAre) {
     CORPUSCLE_NEEDS(path);
     const auto walk = read(path, {.channels = {"1-16"}, .scale = 0.008});
     EXPECT_NEAR(walk.clock.rate(), 100.007, 1e-3) << "12119 rows from 0 to 121.172 s, rounded to 0.1 ms";
-    EXPECT_EQ(walk.remarks.at(0), "no header: the first column rises evenly and was taken as the time (--time none takes it as a channel)");
+    EXPECT_EQ(walk.remarks.at(0),
+              "no header: the first column increases evenly and is taken as the time (use --time none if it is a channel)");
     EXPECT_EQ(walk.names.size(), 16U);
     EXPECT_EQ(walk.force[0].size(), 12119U);
     EXPECT_NEAR(walk.force[0][0], 199.1 * 0.008, 1e-12);

@@ -48,18 +48,18 @@ TEST(SpikeFiles, OthersAreReadByUnitAndSecondsByTheirHeading) {
 TEST(SpikeFiles, WhatIsWrongIsNamedWithItsPlace) {
     const Folder folder;
     const std::pair<const char*, const char*> cases[] = {
-        {"afferent,channel,time_s\nsa1,fz,0.5\nsa1,fz,oops\n", "x.csv:3:8: 'oops' where a time should be"},
-        {"afferent,channel,time_s\nsa1,fz,inf\n", "x.csv:2:8: 'inf' where a time should be"},
-        {"afferent,channel,time_s\nsa1,0.5\n", "x.csv:2: 2 columns where 3 should be"},
-        {"afferent,channel,time_s\nsa1,\"fz,0.5\n", "x.csv:2:5: a quote that is opened here does not end"},
+        {"afferent,channel,time_s\nsa1,fz,0.5\nsa1,fz,oops\n", "x.csv:3:8: 'oops' where a time is expected"},
+        {"afferent,channel,time_s\nsa1,fz,inf\n", "x.csv:2:8: 'inf' where a time is expected"},
+        {"afferent,channel,time_s\nsa1,0.5\n", "x.csv:2: 2 columns where 3 are expected"},
+        {"afferent,channel,time_s\nsa1,\"fz,0.5\n", "x.csv:2:5: a quote is opened here but not closed"},
         {"a,b\n1,2\n",
-         "x.csv:1: no column of spike times; one is to be called time_s (or time, t [ms] ...), or named with --time; there are 'a', 'b'"},
+         "x.csv:1: no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time; columns: 'a', 'b'"},
         {"time_s,fz_N\n0,1\n",
-         "x.csv:1: no column that says whose each spike is; one is to be called unit, afferent or channel, or named with --unit; there "
-         "are 'time_s', 'fz_N'"},
-        {"0.5 3\n0.6 4\n", "x.csv:1: 2 columns without a header; --time 1 --unit 2 says which hold the times and the units"},
-        {"unit,time_N\n1,1\n", "x.csv:1:6: 'N' is no unit of time; write s, ms, us or min"},
-        {"", "x.csv: no header and no spikes in this file"},
+         "x.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --unit; "
+         "columns: 'time_s', 'fz_N'"},
+        {"0.5 3\n0.6 4\n", "x.csv:1: 2 columns without a header; select the columns of times and trains, such as --time 1 --unit 2"},
+        {"unit,time_N\n1,1\n", "x.csv:1:6: 'N' is not a unit of time; use s, ms, us or min"},
+        {"", "x.csv: the file has no header and no spikes"},
     };
     for (const auto& [text, said] : cases) EXPECT_EQ(refused(folder.write("x.csv", text)), said);
     EXPECT_EQ(refused(folder / "none.csv"), "none.csv: cannot be opened: No such file or directory");
@@ -86,7 +86,7 @@ TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
     EXPECT_EQ(asked("0.5 7\n0.25 7\n", {"1", "2"})[0].times, (std::vector<double>{0.25, 0.5}));
     EXPECT_EQ(asked("when [ms],afferent,who\n500,x,a\n", {"when", "who"})[0].name(), "a") << "over what a column is called";
     const auto wrong = read_spikes(folder.write("x.csv", "time,unit\n0.5,1\n"), {"when", {}});
-    EXPECT_NE(wrong.error().sentence.find("--time when: there is no such column; there are 'time', 'unit'"), std::string::npos);
+    EXPECT_NE(wrong.error().sentence.find("--time when: there is no such column; columns: 'time', 'unit'"), std::string::npos);
 }
 
 TEST(SpikeFiles, JsonLinesAreReadAsTheStreamWritesThem) {
@@ -96,7 +96,7 @@ TEST(SpikeFiles, JsonLinesAreReadAsTheStreamWritesThem) {
     ASSERT_EQ(trains.size(), 2U);
     EXPECT_EQ(trains[1].name(), "sa1#2");
     EXPECT_EQ(refused(folder.write("x.jsonl", "{\"time_s\":0.25,\"unit\":1}\n{\"time_s\":null,\"unit\":1}\n")),
-              "x.jsonl:2: null where a time should be");
+              "x.jsonl:2: null where a time is expected");
 }
 
 std::string npy_of(const std::string& kind, const std::string& shape, const std::string& bytes) {
@@ -112,18 +112,18 @@ TEST(SpikeFiles, NumpysTimesAreReadAndNumbersOfSamplesAreNot) {
     EXPECT_EQ(sure(read_spikes(folder.write("x.npy", npy_of("<f8", "(2,)", bytes))))[0].times, (std::vector<double>{0.25, 0.5}));
     const std::int64_t samples[] = {3000, 4000};
     const auto said = refused(folder.write("x.npy", npy_of("<i8", "(2,)", {reinterpret_cast<const char*>(samples), sizeof samples})));
-    EXPECT_NE(said.find("whole numbers, as the numbers of samples are"), std::string::npos) << said;
+    EXPECT_NE(said.find("the times are integers, as sample numbers are"), std::string::npos) << said;
     EXPECT_EQ(refused(folder.write("y.npy", npy_of("<f8", "(2, 2)", bytes + bytes))),
-              "y.npy: an array of 2 columns: times of spikes are one; --time 1 --unit 2 says which hold the times and the units");
+              "y.npy: the array has 2 columns; select the columns of times and trains, such as --time 1 --unit 2");
     EXPECT_EQ(sure(read_spikes(folder / "y.npy", {"1", "2"}))[0].times.size(), 2U);
 }
 
 TEST(SpikeFiles, OtherBinaryFilesAreNamedWithoutTheirBytes) {
     const Folder folder;
     EXPECT_EQ(refused(folder.write("x.h5", "\x89HDF\r\n")),
-              "x.h5: this is an HDF5 file, no file of spikes: these are CSV, JSON lines, .npy, .npz or address events");
+              "x.h5: this is an HDF5 file, not a spike file; supported are CSV, JSON lines, .npy, .npz and address events");
     EXPECT_EQ(refused(folder.write("x.bin", std::string("\x01\0\x02", 3))),
-              "x.bin: this is no text: it has NUL bytes, as binary files have");
+              "x.bin: not a text file: it contains NUL bytes, as binary files do");
 }
 
 std::string npz_of(const std::map<std::string, std::vector<std::int64_t>>& integers, const std::vector<double>& rate = {1e3}) {
@@ -146,10 +146,10 @@ TEST(SpikeFiles, AnotherProgramsNpzIsReadAsSpikeInterfaceReadsIt) {
     EXPECT_EQ(trains[3].times, std::vector<double>{0.25});
 
     EXPECT_EQ(refused(folder.write("x.npz", npz_of(lists, {0}))),
-              "x.npz: num_segment and sampling_frequency are to be one number each, and a rate positive");
+              "x.npz: num_segment and sampling_frequency must be one number each, and the frequency must be positive");
     auto bad = lists;
     bad["spike_labels_seg1"] = {8};
-    EXPECT_EQ(refused(folder.write("x.npz", npz_of(bad))), "x.npz: spike 0 of segment 1 is of a unit 8 that unit_ids does not name");
+    EXPECT_EQ(refused(folder.write("x.npz", npz_of(bad))), "x.npz: spike 0 of segment 1 has label 8, which is not in unit_ids");
     bad["spike_labels_seg1"] = {7, 7};
     EXPECT_EQ(refused(folder.write("x.npz", npz_of(bad))), "x.npz: segment 1 has 1 spikes and 2 labels");
     bad.erase("spike_labels_seg1");

@@ -46,12 +46,12 @@ TEST(Wav, WholeNumbersNeedAScaleAndFloatsAreNewtons) {
     write_sound(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, force);
     EXPECT_EQ(
         refusal(folder / "x.wav"),
-        "x.wav: 'ch1' is in parts of full scale, which is no unit of force known here (N, mN, gf, kgf, lbf ...); say --scale S, so that "
-        "what is read times S is newtons, --unit N if the header is wrong, or --channel if it is another column that holds the force");
+        "x.wav: 'ch1' is in parts of full scale, which is not a known unit of force (N, mN, gf, kgf, lbf ...); use --scale S for S newtons "
+        "per parts of full scale, --unit N if the header is wrong, or --channel to select another column");
     EXPECT_EQ(recording(folder / "x.wav", {.channels = {"ch2"}, .scale = 8}).force[0][8999], 4);
     write_sound(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 8000, force);
     EXPECT_EQ(recording(folder / "y.wav").force[1][8999], 0.5);
-    EXPECT_EQ(recording(folder / "y.wav").remarks.at(0), "no unit for 'ch1', 'ch2': taken as newtons");
+    EXPECT_EQ(recording(folder / "y.wav").remarks.at(0), "no unit for 'ch1', 'ch2': assuming newtons");
 }
 
 TEST(Wav, WhatCannotBeReadIsSaid) {
@@ -60,7 +60,7 @@ TEST(Wav, WhatCannotBeReadIsSaid) {
     EXPECT_EQ(refusal(folder / "none.wav"), "none.wav: cannot be opened: No such file or directory");
     EXPECT_EQ(refusal(folder.write("x.wav", ""), {.table = {"a"}}), "--dataset a: a sound file has only one array");
     write_sound(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 100, {{1, std::nan("")}});
-    EXPECT_EQ(refusal(folder / "y.wav"), "y.wav: row 2: column 'ch1': nan where a number should be");
+    EXPECT_EQ(refusal(folder / "y.wav"), "y.wav: row 2: column 'ch1': nan where a number is expected");
     write_sound(folder / "z.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 100, {{}});
     EXPECT_EQ(refusal(folder / "z.wav"), "z.wav: there are no samples in this sound file");
 }
@@ -72,7 +72,7 @@ TEST(Wav, OfAFileCutShortTheBeginningIsRead) {
     const auto made = recording(folder.write("cut.wav", whole.substr(0, whole.size() - 4000)));
     EXPECT_EQ(made.force[0], std::vector<double>(500, 1.5));
     EXPECT_EQ(made.remarks.at(0),
-              "the samples should take 8000 bytes, and 4000 are there: cut short? Only the beginning of the recording is read");
+              "the samples need 8000 bytes, but the file has 4000; it may be incomplete, and only this part of the recording is read");
     for (const auto& [name, format] : {std::pair{"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}}) {
         write_sound(folder / name, format, 100, {std::vector<double>(1000, 0.5)});
         EXPECT_TRUE(recording(folder / name, {.scale = 1}).remarks.empty()) << name;
@@ -80,7 +80,7 @@ TEST(Wav, OfAFileCutShortTheBeginningIsRead) {
         const auto cut = recording(folder.write(name, bytes.substr(0, bytes.size() - 1000)), {.scale = 1});
         EXPECT_EQ(cut.force[0].size(), 500U) << name;
         ASSERT_FALSE(cut.remarks.empty()) << name;
-        EXPECT_NE(cut.remarks[0].find("cut short?"), std::string::npos) << cut.remarks[0];
+        EXPECT_NE(cut.remarks[0].find("it may be incomplete"), std::string::npos) << cut.remarks[0];
     }
     write_sound(folder / "x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 100, {test::force("noise", {.rate = 20000})});
     const auto packed = test::read_file(folder / "x.flac");

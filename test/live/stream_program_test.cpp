@@ -673,7 +673,7 @@ TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
     const Folder folder;
     const std::pair<const char*, const char*> cases[] = {
         {"", "--rate is required"},
-        {"--rate 1kHz --format aerr", "no format of events is called 'aerr'; did you mean 'aer'?"},
+        {"--rate 1kHz --format aerr", "unknown event format 'aerr'; did you mean 'aer'?"},
         {"--rate 1kHz --in tcp:99999", "write tcp:PORT"},
         {"--rate 1kHz --in udp:x", "write udp:PORT"},
         {"--rate 1kHz --in udp:0 --channels 20000 --frames f64", "a frame of 160000 bytes does not go into a datagram"},

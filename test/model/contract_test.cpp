@@ -187,7 +187,7 @@ TEST(Contract, AStateOfAnotherAfferentIsRefused) {
     auto state = afferent("sa1")->start();
     const std::vector<double> f(10);
     EXPECT_EQ(afferent("fa1")->respond(f, state, answer).error().sentence,
-              "a state of 'sa1b+lif-b/2, T = 0.0001 s' was handed to 'fa1b+lif-b/2, T = 0.0001 s'");
+              "a state of 'sa1b+lif-b/2, T = 0.0001 s' was given to 'fa1b+lif-b/2, T = 0.0001 s'");
 }
 
 TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {

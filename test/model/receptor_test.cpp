@@ -139,7 +139,7 @@ TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
               "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
     EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.V_reset=600mV"})).error().sentence, "sa1: V_reset = 0.6 must be below V_th = 0.5");
     EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.f_B=25ms"})).error().sentence,
-              "sa1.f_B: '25ms' is a time; Hz is wanted, such as '2 Hz'");
+              "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'");
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(Spread, OfWhatCannotDifferIsRefusedByName) {
          {"fsr+sa1.hysteresis=10%"},
          "--spread fsr+sa1.hysteresis=10%: a percentage of 0 is 0; write the deviation itself, a plain number"},
         {"sa1", {"sa1.f_B=-1Hz"}, "--spread sa1.f_B=-1Hz: a standard deviation must not be negative"},
-        {"sa1", {"sa1.f_B=1ms"}, "--spread sa1.f_B=1ms: '1ms' is a time; Hz is wanted, such as '2 Hz'"},
+        {"sa1", {"sa1.f_B=1ms"}, "--spread sa1.f_B=1ms: '1ms' is a time; expected a value in Hz, such as '2 Hz'"},
         {"sa1", {"sa1.f_B=some%"}, "--spread sa1.f_B=some%: 'some%' is not a percentage; write a number and %, such as '10%'"},
         {"sa1", {"sa1.f_B=1Hz", "SA-I.f_B=10%"}, "--spread SA-I.f_B=10%: sa1.f_B is given twice"},
     };

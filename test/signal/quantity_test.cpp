@@ -50,15 +50,15 @@ TEST(Quantity, RefusesWhatIsNoneAndSaysWhatWouldBeRight) {
     const struct {
         const char *text, *unit, *said;
     } cases[] = {
-        {"25 ms", "Hz", "'25 ms' is a time; Hz is wanted, such as '2 Hz'"},
-        {"", "s", "'' is no quantity; write a number and a unit, such as '2 s'"},
-        {"ten", "s", "'ten' is no quantity; write a number and a unit, such as '2 s'"},
-        {"3 furlong", "m", "'3 furlong': unknown unit 'furlong'; m is wanted, such as '2 m'"},
-        {"1e999", "s", "'1e999' is no quantity; write a number and a unit, such as '2 s'"},
+        {"25 ms", "Hz", "'25 ms' is a time; expected a value in Hz, such as '2 Hz'"},
+        {"", "s", "'' is not a quantity; write a number and a unit, such as '2 s'"},
+        {"ten", "s", "'ten' is not a quantity; write a number and a unit, such as '2 s'"},
+        {"3 furlong", "m", "'3 furlong': unknown unit 'furlong'; expected a value in m, such as '2 m'"},
+        {"1e999", "s", "'1e999' is not a quantity; write a number and a unit, such as '2 s'"},
         {"1e300 G", "s", "'1e300 G' is not a finite number"},
-        {"2 N", "", "'2 N' is a force; a plain number is wanted"},
+        {"2 N", "", "'2 N' is a force; expected a plain number"},
         {"nan", "s", "'nan' is not a finite number"},
-        {"2 A/", "A/N", "'2 A/': unit 'A/' ends in nothing; A/N is wanted, such as '2 A/N'"},
+        {"2 A/", "A/N", "'2 A/': unit 'A/' is incomplete: a symbol is missing at the end; expected a value in A/N, such as '2 A/N'"},
     };
     for (const auto& c : cases) {
         const auto value = parse_quantity(c.text, c.unit);

@@ -117,9 +117,9 @@ TEST(Stimulus, WrongNamesAndValuesAreRefusedWithWhatIsRight) {
     EXPECT_EQ(said("pres"), "unknown stimulus 'pres'; did you mean 'press'?");
     EXPECT_EQ(said("press", {"press.F_mx=2N"}),
               "press: unknown parameter 'F_mx'; did you mean 'F_max'? (it has F_min, F_max, t_rest, t_up, t_hold, t_down, t_post)");
-    EXPECT_EQ(said("press", {"press.F_max=2s"}), "press.F_max: '2s' is a time; N is wanted, such as '2 N'");
+    EXPECT_EQ(said("press", {"press.F_max=2s"}), "press.F_max: '2s' is a time; expected a value in N, such as '2 N'");
     EXPECT_EQ(said("press", {"press.t_up=-1s"}), "press: t_up = -1 s is outside [0, 100000]");
-    EXPECT_EQ(said("sine", {"sine.duration=0"}), "sine: 0 s at 1000 Hz is not one sample");
+    EXPECT_EQ(said("sine", {"sine.duration=0"}), "sine: 0 s at 1000 Hz is less than one sample");
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ TEST(ContactWords, AreRefusedWithWhatWouldBeRight) {
     EXPECT_EQ(wrong("flat", {"t_move=2s"}), "contact: the end of the movement is missing; give contact.x1 or contact.y1");
     EXPECT_EQ(wrong("flat", {"x1=3mm", "t_move=2s", "speed=1m/s"}), "contact: t_move and speed are alternatives; give only one of them");
     EXPECT_EQ(wrong("grating", {"ridge=3mm"}), "contact: ridge = 0.003 m must not be wider than period = 0.002 m");
-    EXPECT_EQ(wrong("flat", {"radius=5s"}), "contact.radius: '5s' is a time; m is wanted, such as '2 m'");
+    EXPECT_EQ(wrong("flat", {"radius=5s"}), "contact.radius: '5s' is a time; expected a value in m, such as '2 m'");
     EXPECT_EQ(make_contact("flat", std::vector<Wish>{*parse_wish("contact.radius=1m")}, sheet(1e-3, 1e-5), *clock_of(1000)).operator bool(),
               true);
     double force = 1;

@@ -184,7 +184,8 @@ TEST(PopulationFile, SaysWhereItIsWrongAndWhatWouldBeRight) {
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: the unit is missing; write density = \"70 /cm2\"");
     EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),
               "pad.toml:9:19: density: there is no region 'paed'; did you mean 'pad'? (there are pad)");
-    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"70 cm\""), "pad.toml:9:11: density: '70 cm' is a length; 1/m2 is wanted, such as '2 1/m2'");
+    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"70 cm\""),
+              "pad.toml:9:11: density: '70 cm' is a length; expected a value in 1/m2, such as '2 1/m2'");
     EXPECT_EQ(wrong_in(text, "unit = \"mm\"", ""),
               "pad.toml:3:9: pitch = 1: the unit is missing; write pitch = \"1 mm\", or unit = \"mm\" at the top for all lengths");
     EXPECT_EQ(wrong_in(text, "pitch = 1", "pitch = \"2 m\""), "pad.toml:3:9: pitch = 2 m is outside [10 um, 100 mm]");

@@ -1,5 +1,5 @@
 #pragma once
-// Touches: a finger is pressed and let go.
+// Stimuli of a single touch: press, hold, release.
 
 #include <vector>
 
@@ -9,19 +9,19 @@
 
 namespace corpuscle {
 
-/// How far a movement that begins at `from` and takes `length` has come at t: 0 before, 1 after, even between.
+/// The progress at time t of a movement that starts at `from` and takes `length`: 0 before, 1 after, linear between.
 inline double progress(double t, double from, double length) {
     if (t < from) return 0;
     return t < from + length ? (t - from) / length : 1;
 }
 
-/// Five stretches of time that follow each other; the names are those of the thesis's section 1.2.
+/// Five consecutive phases, named as in section 1.2 of the thesis. The arguments are their durations in s.
 inline std::vector<Phase> five_phases(double rest, double up, double hold, double down, double post) {
     const double a = rest, b = a + up, c = b + hold, d = c + down, e = d + post;
     return {{"rest", 0, a}, {"protraction", a, b}, {"plateau", b, c}, {"retraction", c, d}, {"post", d, e}};
 }
 
-/// The thesis's experiment (1.2, after Birznieks et al. 2001): half a cosine up, hold, half a cosine down.
+/// The experiment of the thesis (1.2, after Birznieks et al. 2001): half a cosine up, hold, half a cosine down.
 ///     F = F_min + (F_max - F_min) (1 - cos(pi x)) / 2,   x = (t - t_rest) / t_up
 struct Press {
     struct Params {
@@ -32,11 +32,11 @@ struct Press {
     static constexpr std::string_view source = "thesis 1.2; Birznieks et al. 2001, J Neurosci 21:8222";
     static constexpr Field<Params> fields[] = {
         {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
-        {"F_max", &Params::F_max, "N", 0, 1e3, "force of the plateau"},
+        {"F_max", &Params::F_max, "N", 0, 1e3, "force on the plateau"},
         {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before protraction"},
-        {"t_up", &Params::t_up, "s", 0, 1e5, "length of protraction"},
-        {"t_hold", &Params::t_hold, "s", 0, 1e5, "length of the plateau"},
-        {"t_down", &Params::t_down, "s", 0, 1e5, "length of retraction", "by symmetry with t_up; thesis 1.2 prints 250 ms"},
+        {"t_up", &Params::t_up, "s", 0, 1e5, "duration of protraction"},
+        {"t_hold", &Params::t_hold, "s", 0, 1e5, "duration of the plateau"},
+        {"t_down", &Params::t_down, "s", 0, 1e5, "duration of retraction", "by symmetry with t_up; thesis 1.2 prints 250 ms"},
         {"t_post", &Params::t_post, "s", 0, 1e5, "time after retraction", "choice: one press lasts 1.0 s"},
     };
     Params p;
@@ -49,19 +49,19 @@ struct Press {
     }
 };
 
-/// Straight ramps with a hold between: Kim's and most physiologists' stimulus.
+/// Linear ramps with a hold between, as used by Kim and by most physiologists.
 struct RampHold {
     struct Params {
         double F_min = 0, F_max = 1, t_rest = 0.25, t_up = 0.1, t_hold = 1, t_down = 0.1, t_post = 0.25;
     };
-    static constexpr std::string_view name = "ramp-hold", sentence = "straight ramp up, hold, straight ramp down", source = "choice";
+    static constexpr std::string_view name = "ramp-hold", sentence = "linear ramp up, hold, linear ramp down", source = "choice";
     static constexpr Field<Params> fields[] = {
         {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
-        {"F_max", &Params::F_max, "N", 0, 1e3, "force of the hold"},
+        {"F_max", &Params::F_max, "N", 0, 1e3, "force during the hold"},
         {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before the ramp"},
-        {"t_up", &Params::t_up, "s", 0, 1e5, "length of the ramp up"},
-        {"t_hold", &Params::t_hold, "s", 0, 1e5, "length of the hold"},
-        {"t_down", &Params::t_down, "s", 0, 1e5, "length of the ramp down"},
+        {"t_up", &Params::t_up, "s", 0, 1e5, "duration of the ramp up"},
+        {"t_hold", &Params::t_hold, "s", 0, 1e5, "duration of the hold"},
+        {"t_down", &Params::t_down, "s", 0, 1e5, "duration of the ramp down"},
         {"t_post", &Params::t_post, "s", 0, 1e5, "time after the ramp down"},
     };
     Params p;
@@ -72,7 +72,7 @@ struct RampHold {
     }
 };
 
-/// From one force to another at once, and back (thesis fig. 3).
+/// A step from one force to another and back (thesis fig. 3).
 struct Step {
     struct Params {
         double F_min = 0, F_max = 1, t_rest = 0.25, t_hold = 0.5, t_post = 0.25;
@@ -81,9 +81,9 @@ struct Step {
                                       source = "choice; thesis fig. 3 shows the shape";
     static constexpr Field<Params> fields[] = {
         {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
-        {"F_max", &Params::F_max, "N", 0, 1e3, "force of the hold"},
+        {"F_max", &Params::F_max, "N", 0, 1e3, "force during the hold"},
         {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before the step"},
-        {"t_hold", &Params::t_hold, "s", 0, 1e5, "length of the hold"},
+        {"t_hold", &Params::t_hold, "s", 0, 1e5, "duration of the hold"},
         {"t_post", &Params::t_post, "s", 0, 1e5, "time after the step back"},
     };
     Params p;
@@ -93,7 +93,7 @@ struct Step {
         return {{"rest", 0, on}, {"hold", on, off}, {"post", off, off + p.t_post}};
     }
     double at(double t) const {
-        const double later = t + 1e-9;  // a sample on the edge is behind it, whatever the last digit of its time
+        const double later = t + 1e-9;  // a sample on the edge counts as after it, independent of rounding
         return later >= p.t_rest && later < p.t_rest + p.t_hold ? p.F_max : p.F_min;
     }
 };

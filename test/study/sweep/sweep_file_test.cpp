@@ -304,7 +304,7 @@ TEST(SweepFile, ErrorsSayWhereAndWhatWouldBeRight) {
          "1:11: there is no netlist 'circuits/bais.cir' beside the sweep file, nor does the program carry one "
          "of this name; did you mean 'circuits/bias.cir'?"},
         {"afferent = 'sa1'\nunits = 2.5\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "2:9: units = 2.5 is no whole number"},
-        {"afferent = 'sa1'\nunits = [1]\n", "2:9: units is a list; a text or a number is wanted"},
+        {"afferent = 'sa1'\nunits = [1]\n", "2:9: units is a list; expected a text or a number"},
         {"afferent = 'sa1'\nunits = 5\n", "2:9: units = 5, but nothing is drawn"},
         {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "3:8: f_B is drawn, but nobody says how often"},
         {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_BB'\nlist = [1]\n", "3:8: sa1: unknown parameter 'f_BB'; did you mean 'f_B'?"},
