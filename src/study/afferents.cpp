@@ -14,26 +14,27 @@ namespace {
 
 using circuit::CircuitDesign;
 
-/// Parameters, and the names that their rows speak of.
-struct ToldPlan {
-    std::deque<std::string> words;
+/// Parameters, and the texts that their rows refer to.
+struct NetlistParameters {
+    std::deque<std::string> texts;
     std::vector<Parameter> parameters;
     std::vector<double> values;
 
-    void add(std::string name, std::string sentence, double initial, double value, bool set, bool one_for_all = true) {
-        constexpr double any = std::numeric_limits<double>::max();
-        const auto& kept = words.emplace_back(std::move(name));
-        parameters.push_back({{kept, "", initial, -any, any, words.emplace_back(std::move(sentence)), "", one_for_all}, "netlist", set});
+    void add(std::string name, std::string description, double initial, double value, bool set, bool one_for_all = true) {
+        constexpr double limit = std::numeric_limits<double>::max();
+        const auto& stored_name = texts.emplace_back(std::move(name));
+        parameters.push_back(
+            {{stored_name, "", initial, -limit, limit, texts.emplace_back(std::move(description)), "", one_for_all}, "netlist", set});
         values.push_back(value);
     }
 };
 
-/// A device's number as it stands in a circuit, or as it is where nobody says it; "" is its value.
+/// A device's parameter as set in a circuit, or its default; "" means its main value.
 double number_of(const circuit::Circuit& c, std::string_view element, std::string_view name) {
     const int k = c.element(element);
     if (k < 0) return 0;
     const auto& e = c.elements[static_cast<std::size_t>(k)];
-    if (const auto said = e.values.find(name); said != e.values.end()) return said->second;
+    if (const auto found = e.values.find(name); found != e.values.end()) return found->second;
     if (name.empty()) return e.letter == 'v' || e.letter == 'i' ? e.waveform.dc : e.value;
     if (e.letter == 'm')
         for (const auto& f : circuit::UicmInstance::fields)
@@ -41,61 +42,62 @@ double number_of(const circuit::Circuit& c, std::string_view element, std::strin
     return name == "m" || name == "area" ? 1 : name == "temp" ? c.temperature : 0;
 }
 
-/// A netlist's parameters, then what else is set of it; the defaults are those of the netlist as it is written.
-Result<void> tell(AfferentPlan& plan, const CircuitDesign& design) {
-    auto told = std::make_shared<ToldPlan>();
+/// Lists a netlist's parameters, then its other settings. The defaults are the netlist's own values.
+Result<void> describe_parameters(AfferentPlan& plan, const CircuitDesign& design) {
+    auto described = std::make_shared<NetlistParameters>();
     const auto& changes = design.netlist->changes();
-    const auto plain = design.netlist->with({}).elaborate();
-    if (!plain) return plain.error();
+    const auto original = design.netlist->with({}).elaborate();
+    if (!original) return original.error();
     for (const auto& [name, written] : design.netlist->parameters())
         if (written.own || changes.parameters.contains(name))
-            told->add(name, fmt::format(".param {}={}", name, written.text), plain->parameters.at(name),
-                      design.circuit->parameters.at(name), changes.parameters.contains(name), false);
+            described->add(name, fmt::format(".param {}={}", name, written.text), original->parameters.at(name),
+                           design.circuit->parameters.at(name), changes.parameters.contains(name), false);
     for (const auto& [element, numbers] : changes.numbers)
         for (const auto& [name, value] : numbers)
-            told->add(name.empty() ? element : element + "." + name, "a device's own", number_of(*plain, element, name), value, true);
-    if (changes.temperature) told->add("temp", "temperature, degrees Celsius", plain->temperature, *changes.temperature, true);
+            described->add(name.empty() ? element : element + "." + name, "parameter of one device", number_of(*original, element, name),
+                           value, true);
+    if (changes.temperature) described->add("temp", "temperature, degrees Celsius", original->temperature, *changes.temperature, true);
     if (changes.mismatch)
-        told->add("mismatch", "seed of the chip's own thresholds and currents", static_cast<double>(*changes.mismatch),
-                  static_cast<double>(*changes.mismatch), true);
-    if (changes.chip > 0) told->add("chip", "its number among those of the seed", 0, static_cast<double>(changes.chip), true);
-    plan.values = told->values;
-    plan.parameters = {told, &told->parameters};
+        described->add("mismatch", "seed of the chip's device mismatch", static_cast<double>(*changes.mismatch),
+                       static_cast<double>(*changes.mismatch), true);
+    if (changes.chip > 0) described->add("chip", "index of the chip for this seed", 0, static_cast<double>(changes.chip), true);
+    plan.values = described->values;
+    plan.parameters = {described, &described->parameters};
     return {};
 }
 
-/// What of the traces asked for the circuit has, as .save has it.
-Result<std::vector<std::string>> traces_in(const circuit::Circuit& circuit, const OfNetlists& asked) {
-    asked.traced.resize(asked.traces.size());
+/// The requested probes that the circuit has, named as for .save.
+Result<std::vector<std::string>> probes_in(const circuit::Circuit& circuit, const OfNetlists& options) {
+    options.traced.resize(options.traces.size());
     std::vector<std::string> out;
-    for (std::size_t k = 0; k < asked.traces.size(); ++k) {
-        const auto found = circuit::traced(circuit, asked.traces[k]);
+    for (std::size_t k = 0; k < options.traces.size(); ++k) {
+        const auto found = circuit::traced(circuit, options.traces[k]);
         if (!found) return found.error();
         if (*found)
-            asked.traced[k] = true, out.push_back(**found);
-        else if (asked.hint.empty())
-            asked.hint = meant_trace(circuit, asked.traces[k]);
+            options.traced[k] = true, out.push_back(**found);
+        else if (options.hint.empty())
+            options.hint = meant_trace(circuit, options.traces[k]);
     }
     return out;
 }
 
-Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Wish> wishes, const OfNetlists& asked) {
-    const auto* carried = circuit::carried_netlist(text);
-    const std::string name(carried ? carried->name : text);
-    auto knobs = asked.knobs;
-    for (const auto& wish : wishes) {
-        const auto knob = knob_named(wish, text);
-        if (!knob) continue;
-        wish.used = true;
-        knobs.push_back({*knob, wish.value, "--set " + wish.text()});
+Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Wish> settings, const OfNetlists& options) {
+    const auto* embedded = circuit::carried_netlist(text);
+    const std::string name(embedded ? embedded->name : text);
+    auto overrides = options.knobs;
+    for (const auto& setting : settings) {
+        const auto override_name = knob_named(setting, text);
+        if (!override_name) continue;
+        setting.used = true;
+        overrides.push_back({*override_name, setting.value, "--set " + setting.text()});
     }
-    asked.used = true;
-    auto netlist = circuit::tuned(name, knobs);
+    options.used = true;
+    auto netlist = circuit::tuned(name, overrides);
     if (!netlist) return netlist.error();
-    if (!asked.traces.empty()) {
+    if (!options.traces.empty()) {
         const auto circuit = netlist->elaborate();
         if (!circuit) return circuit.error();
-        auto traces = traces_in(*circuit, asked);
+        auto traces = probes_in(*circuit, options);
         if (!traces) return traces.error();
         auto changes = netlist->changes();
         changes.saved_alone = !traces->empty(), changes.saved = std::move(*traces);
@@ -107,17 +109,17 @@ Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Wish> w
     plan.name = name;
     plan.sentence = (*design)->title();
     plan.design = *design;
-    if (auto ok = tell(plan, **design); !ok) return ok.error();
+    if (auto ok = describe_parameters(plan, **design); !ok) return ok.error();
     return plan;
 }
 
-/// The error of a name that nobody knows, where it is one of a netlist's that was meant.
-Error unknown(std::string_view text, Error error) {
+/// The error for an unknown name, with a suggestion if a netlist has a similar name.
+Error unknown_afferent(std::string_view text, Error error) {
     std::vector<std::string_view> names;
     for (const auto& a : named_afferents()) names.push_back(a.name);
     for (const auto& c : circuit::carried_netlists) names.push_back(c.name);
-    const auto small = lower(text);
-    const auto hint = did_you_mean(small, names);
+    const auto lowercase = lower(text);
+    const auto hint = did_you_mean(lowercase, names);
     for (const auto& c : circuit::carried_netlists)
         if (text.find('+') == std::string_view::npos && hint.find(fmt::format("'{}'", c.name)) != std::string::npos)
             error.sentence = fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all)", text, hint);
@@ -126,18 +128,18 @@ Error unknown(std::string_view text, Error error) {
 
 }  // namespace
 
-std::optional<std::string> knob_named(const Wish& wish, std::string_view netlist) {
-    const auto whole = wish.of + "." + wish.parameter;
-    if (whole.size() <= netlist.size() + 1 || whole[netlist.size()] != '.') return {};
-    const auto own = std::string_view(whole).substr(0, netlist.size());
+std::optional<std::string> knob_named(const Wish& setting, std::string_view netlist) {
+    const auto full_name = setting.of + "." + setting.parameter;
+    if (full_name.size() <= netlist.size() + 1 || full_name[netlist.size()] != '.') return {};
+    const auto own = std::string_view(full_name).substr(0, netlist.size());
     const bool same = circuit::carried_netlist(netlist) ? same_letters(own, netlist) : own == netlist;
-    return same ? std::optional(whole.substr(netlist.size() + 1)) : std::nullopt;
+    return same ? std::optional(full_name.substr(netlist.size() + 1)) : std::nullopt;
 }
 
-Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const Wish> wishes, const OfNetlists& asked) {
-    if (names_netlist(text)) return plan_netlist(text, wishes, asked);
-    auto plan = plan_afferent(text, wishes);
-    return plan ? plan : unknown(text, plan.error());
+Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const Wish> settings, const OfNetlists& options) {
+    if (names_netlist(text)) return plan_netlist(text, settings, options);
+    auto plan = plan_afferent(text, settings);
+    return plan ? plan : unknown_afferent(text, plan.error());
 }
 
 Result<void> remake(AfferentPlan& copy, const AfferentPlan& original) {

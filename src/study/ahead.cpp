@@ -14,7 +14,7 @@ Result<void> Ahead::next(Source& source, Frames& block) {
     return {};
 }
 
-/// Until there is a block with all that is to come behind it.
+/// Reads until there is a full block and all samples to look ahead behind it.
 Result<void> Ahead::fill(Source& source, Frames& block) {
     while (!ended_ && left_ < block.capacity + more_) {
         if (auto ok = source.read(block); !ok) return ok;

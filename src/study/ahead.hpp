@@ -1,5 +1,5 @@
 #pragma once
-// A source read ahead of the block that is answered, for afferents whose answer is behind the force.
+// Look-ahead on a source, for afferents whose response lags behind the force.
 
 #include <span>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace corpuscle {
 
-/// Blocks of a source, and of each channel so many samples more; after the end its last force goes on.
+/// Reads blocks of a source and, for each channel, `more` further samples. After the end of the source its last force is repeated.
 class Ahead {
-    std::size_t more_;                       // samples
-    std::vector<std::vector<double>> held_;  // of each channel, from the block's first sample on; empty if there is no more
-    std::size_t block_ = 0, left_ = 0;       // samples of the last block; those of the source in held_
+    std::size_t more_;                       // samples to look ahead
+    std::vector<std::vector<double>> held_;  // force of each channel from the block's first sample on; empty without look-ahead
+    std::size_t block_ = 0, left_ = 0;       // samples of the last block; samples of the source in the buffer
     bool ended_ = false;
 
     Result<void> fill(Source&, Frames&);
@@ -20,9 +20,9 @@ class Ahead {
 public:
     Ahead(std::size_t channels, std::size_t more) : more_(more), held_(channels) {}
 
-    /// The next block; count 0 is the end.
+    /// Reads the next block; count 0 means the end.
     Result<void> next(Source&, Frames&);
-    /// Samples of a channel, counted from the block's first; as far as `more` behind its last.
+    /// Samples of a channel, counted from the block's first; up to `more` behind its last.
     std::span<const double> of(std::size_t channel, std::size_t from, std::size_t count) const {
         return std::span(held_[channel]).subspan(from, count);
     }

@@ -11,14 +11,14 @@ Result<Apart> apart(const std::vector<double>& exact, const std::vector<double>&
     const auto alignment = align(exact, other, 2 / 50e-3);
     if (!alignment) return alignment.error();
     Apart out;
-    std::vector<double> late;
-    for (const auto& m : alignment->moved) late.push_back(other[m.b] - exact[m.a]);
-    for (const double t : late) out.worst = std::max(out.worst, std::abs(t)), out.rms += t * t / static_cast<double>(late.size());
+    std::vector<double> delays;
+    for (const auto& m : alignment->moved) delays.push_back(other[m.b] - exact[m.a]);
+    for (const double t : delays) out.worst = std::max(out.worst, std::abs(t)), out.rms += t * t / static_cast<double>(delays.size());
     out.rms = std::sqrt(out.rms);
-    out.unmatched = static_cast<double>(exact.size() + other.size() - 2 * late.size());
-    if (late.empty()) return out;
-    std::sort(late.begin(), late.end());
-    out.median = (late[late.size() / 2] + late[(late.size() - 1) / 2]) / 2;
+    out.unmatched = static_cast<double>(exact.size() + other.size() - 2 * delays.size());
+    if (delays.empty()) return out;
+    std::sort(delays.begin(), delays.end());
+    out.median = (delays[delays.size() / 2] + delays[(delays.size() - 1) / 2]) / 2;
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How far one train is from another that stands for the same touch.
+// Spike-timing error between two trains that respond to the same stimulus.
 
 #include <vector>
 
@@ -8,12 +8,12 @@
 namespace corpuscle {
 
 struct Apart {
-    double worst = 0, rms = 0;  ///< s, of spikes that stand for each other
-    double median = 0;          ///< s, of the same; above 0: the second is late
-    double unmatched = 0;       ///< spikes of either without a partner
+    double worst = 0, rms = 0;  ///< s, over matched spikes
+    double median = 0;          ///< s, over matched spikes; positive if the second train is later
+    double unmatched = 0;       ///< spikes of either train without a partner
 };
 
-/// Spikes within 50 ms can stand for each other.
+/// Spikes within 50 ms of each other can be matched.
 Result<Apart> apart(const std::vector<double>& exact, const std::vector<double>& other);
 
 }  // namespace corpuscle

@@ -10,10 +10,10 @@
 namespace corpuscle {
 
 Result<void> EvenBins::check(const Clock& clock, double bin) {
-    const double least = 0.01 * clock.T();
-    if (bin >= least * (1 - 1e-9)) return {};
+    const double min = 0.01 * clock.T();
+    if (bin >= min * (1 - 1e-9)) return {};
     return bad_usage(fmt::format("--bin {}: shorter than a hundredth of the {} between samples; write {} or more",
-                                 format_quantity(bin, "s"), format_quantity(clock.T(), "s"), format_quantity(least, "s")));
+                                 format_quantity(bin, "s"), format_quantity(clock.T(), "s"), format_quantity(min, "s")));
 }
 
 EvenBins::EvenBins(std::vector<Row> rows, const Clock& clock, double bin)
@@ -21,7 +21,7 @@ EvenBins::EvenBins(std::vector<Row> rows, const Clock& clock, double bin)
 
 std::int64_t EvenBins::bin_of(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_ + 1e-9)); }
 
-/// The bin that fills is done, and ends at `to` (s since the start).
+/// Completes the current bin, which ends at `to` (s since the start).
 void EvenBins::put(double to) {
     if (std::exchange(told_, false)) text_.clear();
     const double from = static_cast<double>(at_) * bin_;

@@ -1,5 +1,5 @@
 #pragma once
-// Counts of rows in even bins of time, put out as CSV when a bin is full.
+// Counts spikes in time bins of equal width and writes each full bin as CSV.
 
 #include <fmt/format.h>
 #include <string>
@@ -11,35 +11,35 @@
 
 namespace corpuscle {
 
-/// Bins are counted from the start; the last one ends with the input. A bin owns its start, not its end; a spike that misses an edge by
-/// less than 1e-9 of a bin stands on it.
+/// Bins are counted from the start; the last one ends with the input. A bin includes its start and excludes its end. A spike within 1e-9 of
+/// a bin width of an edge is at the edge.
 class EvenBins {
 public:
-    /// What a bin's line begins with, and among how many its rate is shared.
+    /// The first columns of a bin's line, and the number of afferents over which its rate is averaged.
     struct Row {
         std::string name;
         double units = 1;
     };
 
-    /// Refuses a bin shorter than a hundredth of the samples' period: there are more lines of it than spikes can fill.
+    /// Rejects a bin shorter than a hundredth of the sample period: it would give more lines than there can be spikes.
     static Result<void> check(const Clock&, double bin);
 
     EvenBins() = default;
     EvenBins(std::vector<Row> rows, const Clock& clock, double bin);
     void count(const Spike& s, std::size_t row);
-    /// What comes from now on is behind this sample.
+    /// All later spikes come after this sample.
     void known_to(std::int64_t sample);
-    /// The input had so many samples.
+    /// The input had this many samples.
     void end(std::int64_t samples);
-    /// The lines of the bins that were done since the last call: name,from_s,to_s,spikes,rate_Hz. Valid until more is counted.
+    /// Lines of the bins completed since the last call: name,from_s,to_s,spikes,rate_Hz. Valid until the next count.
     std::string_view lines();
 
 private:
     std::vector<Row> rows_;
     Clock since_start_;
-    double bin_ = 1, t0_ = 0;        // s; t0: of the input, by the clock of the spikes' file
-    std::int64_t at_ = 0;            // the bin that fills
-    std::vector<std::int64_t> now_;  // spikes in it, of each row
+    double bin_ = 1, t0_ = 0;        // s; t0: start of the input on the clock of the spike file
+    std::int64_t at_ = 0;            // index of the current bin
+    std::vector<std::int64_t> now_;  // spikes in the current bin, for each row
     fmt::memory_buffer text_;
     bool told_ = false;
 

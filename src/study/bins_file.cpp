@@ -14,9 +14,9 @@ Result<void> BinsFile::begin(const Input& input) {
     return {};
 }
 
-Result<void> BinsFile::block(const Input& input, const Answered& answered) {
-    for (const auto& s : answered.spikes) bins_.count(s, s.unit - input.first_unit);
-    bins_.known_to(answered.first + static_cast<std::int64_t>(answered.force.count) - 1);
+Result<void> BinsFile::block(const Input& input, const Answered& block) {
+    for (const auto& s : block.spikes) bins_.count(s, s.unit - input.first_unit);
+    bins_.known_to(block.first + static_cast<std::int64_t>(block.force.count) - 1);
     return file_.write(bins_.lines());
 }
 

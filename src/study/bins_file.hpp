@@ -1,12 +1,13 @@
 #pragma once
-// Spikes counted in even bins of time, written as the bins fill.
+// Counts spikes in time bins of equal width and writes each bin as it completes.
 
 #include "study/bins.hpp"
 #include "study/files.hpp"
 
 namespace corpuscle {
 
-/// psth.csv: afferent,channel,from_s,to_s,spikes,rate_Hz; bin after bin from an input's start, every unit in each. Bins as in bins.hpp.
+/// psth.csv: afferent,channel,from_s,to_s,spikes,rate_Hz. Bins in order from the input's start, with a line for each afferent. Bins as in
+/// time_bins.hpp.
 class BinsFile final : public WrittenFile {
     OutputFile file_;
     double bin_;  // s

@@ -10,10 +10,10 @@
 namespace corpuscle {
 namespace {
 
-/// Those that nobody says kilo of.
-constexpr std::array<std::string_view, 8> bare = {"%", "C", "gf", "dB", "degrees", "spikes", "times", "um^2"};
+/// Units without SI prefixes.
+constexpr std::array<std::string_view, 8> units_without_prefix = {"%", "C", "gf", "dB", "degrees", "spikes", "times", "um^2"};
 
-/// Whether a number is what rounding leaves, which differs from machine to machine: far below what is allowed, or of a percent.
+/// True for a value that is only rounding error and differs between machines: far below the allowed range, or below 1e-9 percent.
 bool is_rounding(double x, const Claim& c) {
     double allowed = 0;
     for (const double end : {c.low, c.high})
@@ -28,7 +28,8 @@ std::string quantity_of(double x, const Claim& c) {
     if (is_rounding(x, c)) x = 0;
     if (c.is_truth) return x > 0 ? "yes" : "no";
     if (c.unit.empty()) return fmt::format("{:.4g}", x);
-    if (std::find(bare.begin(), bare.end(), c.unit) != bare.end()) return fmt::format("{:.4g} {}", x, c.unit);
+    if (std::find(units_without_prefix.begin(), units_without_prefix.end(), c.unit) != units_without_prefix.end())
+        return fmt::format("{:.4g} {}", x, c.unit);
     return format_quantity(x, c.unit);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Spikes as clicks, to listen to as one listens to a nerve.
+// Spikes as clicks in a sound file, as in nerve recordings.
 
 #include <memory>
 
@@ -9,10 +9,10 @@ struct sf_private_tag;
 
 namespace corpuscle {
 
-/// spikes.wav, and spikes-2.wav ... of further inputs: 44.1 kHz, 16 bits; a spike is a click of a millisecond that begins on the
-/// nearest sample. One afferent is mono; the first of several sounds on the left, the last on the right, others between, copies
-/// all from the place of what they are copies of. Clicks
-/// of one unit cut each other short, and each is so loud that all units at once do not clip.
+/// spikes.wav, and spikes-2.wav ... for further inputs: 44.1 kHz, 16 bits. A spike is a click of one millisecond that begins on the nearest
+/// sample. One afferent is mono. Of several, the first is on the left, the last on the right, the others between; copies share the position
+/// of their original. A new click of an afferent cuts off its previous one. The level is such that clicks of all afferents at once do not
+/// clip.
 class ClicksFile final : public WrittenFile {
     struct Close {
         void operator()(sf_private_tag*) const;
@@ -24,21 +24,21 @@ class ClicksFile final : public WrittenFile {
     std::string directory_;
     std::vector<Sound> sounds_;
     std::size_t ears_ = 1;
-    std::vector<std::size_t> place_of_;    // each afferent's; copies of one share theirs
-    std::vector<std::vector<int>> click_;  // [place][frame and ear]
-    std::vector<std::int64_t> last_;       // each unit's last click's frame
+    std::vector<std::size_t> place_of_;    // stereo position of each afferent; copies share one
+    std::vector<std::vector<int>> click_;  // [position][frame and ear]
+    std::vector<std::int64_t> last_;       // frame of each afferent's last click
     std::int64_t written_ = 0;             // frames
-    std::vector<int> ahead_;               // what is not written yet, frame and ear
+    std::vector<int> ahead_;               // frames not yet written, both ears interleaved
     std::vector<short> out_;
 
     Result<void> shape_clicks(const Input&);
-    void click(std::size_t unit, std::size_t sound, std::int64_t frame);
+    void click(std::size_t afferent_index, std::size_t sound, std::int64_t frame);
     Result<void> write_up_to(std::int64_t frame);
 
 public:
     static constexpr int rate = 44100;             // Hz
-    static constexpr std::int64_t frames = 44;     // of a click
-    static constexpr double longest = 6 * 3600.0;  // s: more in stereo is beyond the 4 GB of a WAV file
+    static constexpr std::int64_t frames = 44;     // length of a click
+    static constexpr double longest = 6 * 3600.0;  // s: a longer stereo file exceeds the 4 GB limit of WAV
 
     explicit ClicksFile(std::string directory) : directory_(std::move(directory)) {}
     Result<void> begin(const Input&) override;

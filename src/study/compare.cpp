@@ -15,14 +15,14 @@ namespace {
 
 using Trains = std::vector<NamedTrain>;
 
-std::string listed(const Trains& trains) {
+std::string list_names(const Trains& trains) {
     std::vector<std::string> names;
     for (const auto& t : trains)
-        if (names.size() < 8) names.push_back(t.name().empty() ? "one without a name" : t.name());
+        if (names.size() < 8) names.push_back(t.name().empty() ? "(unnamed)" : t.name());
     return fmt::format("{}{}", fmt::join(names, "; "), names.size() < trains.size() ? " ..." : "");
 }
 
-/// The trains of a file by their names.
+/// Looks up the trains of a file by name.
 class TrainIndex {
     std::map<std::pair<std::string_view, std::string_view>, const NamedTrain*> by_name_;
     std::unordered_map<std::string, const NamedTrain*> by_shown_name_;
@@ -36,7 +36,8 @@ class TrainIndex {
 public:
     explicit TrainIndex(const Trains& trains) {
         for (const auto& t : trains)
-            by_name_.try_emplace({t.afferent, t.channel}, &t), by_shown_name_.try_emplace(t.name(), &t), by_afferent_[t.afferent].push_back(&t);
+            by_name_.try_emplace({t.afferent, t.channel}, &t), by_shown_name_.try_emplace(t.name(), &t),
+                by_afferent_[t.afferent].push_back(&t);
     }
 
     const NamedTrain* of_name(std::string_view afferent, std::string_view channel) const {
@@ -48,77 +49,76 @@ public:
         return found == by_shown_name_.end() ? nullptr : found->second;
     }
 
-    /// The train of the same name; where one of the two files does not tell channels (address events), the only train of this afferent.
-    /// "sa1#1" without a channel is the first of "sa1".
-    const NamedTrain* alike(const NamedTrain& wanted) const {
-        if (const auto* found = of_name(wanted.afferent, wanted.channel)) return found;
-        if (wanted.afferent.empty()) return nullptr;
-        if (wanted.channel.empty()) {
-            const auto* found = only_of(wanted.afferent);
-            return found || !wanted.afferent.ends_with("#1") ? found : only_of(wanted.afferent.substr(0, wanted.afferent.size() - 2));
+    /// The train of the same name. If one of the two files has no channels (address events), the only train of this afferent. "sa1#1"
+    /// without a channel matches the first train of "sa1".
+    const NamedTrain* partner_of(const NamedTrain& train) const {
+        if (const auto* found = of_name(train.afferent, train.channel)) return found;
+        if (train.afferent.empty()) return nullptr;
+        if (train.channel.empty()) {
+            const auto* found = only_of(train.afferent);
+            return found || !train.afferent.ends_with("#1") ? found : only_of(train.afferent.substr(0, train.afferent.size() - 2));
         }
-        const auto* found = of_name(wanted.afferent, "");
-        return found ? found : of_name(wanted.afferent + "#1", "");
+        const auto* found = of_name(train.afferent, "");
+        return found ? found : of_name(train.afferent + "#1", "");
     }
 };
 
-PairedTrains paired(const NamedTrain* a, const NamedTrain* b) {
+PairedTrains train_pair(const NamedTrain* a, const NamedTrain* b) {
     return {a ? a->name() : "", b ? b->name() : "", a ? &a->times : nullptr, b ? &b->times : nullptr};
 }
 
-std::vector<const NamedTrain*> called(const Trains& trains, const std::string& name) {
+std::vector<const NamedTrain*> trains_named(const Trains& trains, const std::string& name) {
     std::vector<const NamedTrain*> all;
     for (const auto& t : trains)
         if (t.name() == name || t.afferent == name || t.channel == name) all.push_back(&t);
     return all;
 }
 
-/// What in B answers a train of A that goes by `from`, when that is `to` there: the same train with the name changed.
-const NamedTrain* renamed(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
+/// The train of B that corresponds to a train of A if the name `from` is replaced by `to`.
+const NamedTrain* renamed_partner(const TrainIndex& b, const NamedTrain& train, const std::string& from, const std::string& to) {
     if (const auto* found = train.name() == from ? b.of_shown_name(to) : nullptr) return found;
     const auto* found = train.afferent == from ? b.of_name(to, train.channel) : nullptr;
     return found || train.channel != from ? found : b.of_name(train.afferent, to);
 }
 
-/// One --pair: the only two trains of these names, or all whose names differ in just this.
+/// Adds the pairs of one --pair: the only two trains of these names, or all trains whose names differ only in this part.
 Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text, std::vector<PairedTrains>& out) {
     const auto equals = text.find('=');
     if (equals == text.npos) return bad_usage(fmt::format("--pair {}: write A-NAME=B-NAME, such as sa1=sa1-kim", text));
     const auto from = text.substr(0, equals), to = text.substr(equals + 1);
-    const auto in_a = called(a, from), in_b = called(b, to);
+    const auto in_a = trains_named(a, from), in_b = trains_named(b, to);
     for (const auto& [name, found, all, file] : {std::tuple{&from, &in_a, &a, "first"}, std::tuple{&to, &in_b, &b, "second"}})
         if (found->empty())
-            return bad_usage(
-                fmt::format("--pair {}: no train of the {} file is called '{}'; there are {}", text, file, *name, listed(*all)));
-    if (in_a.size() == 1 && in_b.size() == 1) return out.push_back(paired(in_a[0], in_b[0])), Result<void>();
+            return bad_usage(fmt::format("--pair {}: the {} file has no train '{}'; it has {}", text, file, *name, list_names(*all)));
+    if (in_a.size() == 1 && in_b.size() == 1) return out.push_back(train_pair(in_a[0], in_b[0])), Result<void>();
     const std::size_t before = out.size();
     const TrainIndex index(b);
     for (const auto* train : in_a)
-        if (const auto* other = renamed(index, *train, from, to)) out.push_back(paired(train, other));
+        if (const auto* other = renamed_partner(index, *train, from, to)) out.push_back(train_pair(train, other));
     if (out.size() > before) return {};
     return bad_usage(
-        fmt::format("--pair {}: {} trains of the first file and {} of the second are meant, and no two differ in this name "
-                    "only; name one of each, such as --pair '{}={}'",
+        fmt::format("--pair {}: matches {} trains of the first file and {} of the second, and no two names differ only "
+                    "in this; name one of each, such as --pair '{}={}'",
                     text, in_a.size(), in_b.size(), in_a[0]->name(), in_b[0]->name()));
 }
 
-/// Trains of one name; those that stand in one file only against silence. A pair is one both ways: "sa1" of a file without channels is
-/// none of several channels of another.
+/// Pairs trains of equal name; the others get no partner. A pair must match both ways: "sa1" of a file without channels does not match
+/// several channels of another file.
 std::vector<PairedTrains> by_name(const Trains& a, const Trains& b) {
     const TrainIndex in_a(a), in_b(b);
     const auto partner = [](const NamedTrain& t, const TrainIndex& own, const TrainIndex& other) {
-        const auto* found = other.alike(t);
-        return found && own.alike(*found) == &t ? found : nullptr;
+        const auto* found = other.partner_of(t);
+        return found && own.partner_of(*found) == &t ? found : nullptr;
     };
     std::vector<PairedTrains> out;
-    for (const auto& t : a) out.push_back(paired(&t, partner(t, in_a, in_b)));
+    for (const auto& t : a) out.push_back(train_pair(&t, partner(t, in_a, in_b)));
     for (const auto& t : b)
-        if (!partner(t, in_b, in_a)) out.push_back(paired(nullptr, &t));
+        if (!partner(t, in_b, in_a)) out.push_back(train_pair(nullptr, &t));
     return out;
 }
 
-/// The --pair that would bring the two together, if they differ in one name.
-std::string proposal(const Trains& a, const Trains& b) {
+/// A --pair option that would pair two of the trains, which differ in one name.
+std::string suggest_pair(const Trains& a, const Trains& b) {
     for (const auto& x : a)
         for (const auto& y : b) {
             if (x.channel == y.channel && !x.afferent.empty() && !y.afferent.empty())
@@ -146,12 +146,12 @@ void Difference::add(const Difference& o) {
 Result<std::vector<PairedTrains>> pair_trains(const Trains& a, const Trains& b, const CompareOptions& options) {
     std::vector<PairedTrains> out;
     if (options.by_order) {
-        if (!options.pairs.empty()) return bad_usage("--by-order and --pair both say who is compared with whom: give one");
+        if (!options.pairs.empty()) return bad_usage("--by-order and --pair are alternatives: give one");
         if (a.size() != b.size())
             return bad_usage(
                 fmt::format("--by-order: the first file has {} trains, the second {}; --pair A-NAME=B-NAME names those to compare",
                             a.size(), b.size()));
-        for (std::size_t k = 0; k < a.size(); ++k) out.push_back(paired(&a[k], &b[k]));
+        for (std::size_t k = 0; k < a.size(); ++k) out.push_back(train_pair(&a[k], &b[k]));
         return out;
     }
     for (const auto& text : options.pairs)
@@ -159,22 +159,23 @@ Result<std::vector<PairedTrains>> pair_trains(const Trains& a, const Trains& b, 
     if (!options.pairs.empty()) return out;
     out = by_name(a, b);
     if (a.empty() || b.empty() || std::any_of(out.begin(), out.end(), [](const auto& p) { return p.in_a && p.in_b; })) return out;
-    if (a.size() == 1 && b.size() == 1) return std::vector{paired(&a[0], &b[0])};
-    return bad_usage(fmt::format("no train is called the same in both files: {} | {}; {} would compare these{}", listed(a), listed(b),
-                                 proposal(a, b), a.size() == b.size() ? ", --by-order takes them all in this order" : ""));
+    if (a.size() == 1 && b.size() == 1) return std::vector{train_pair(&a[0], &b[0])};
+    return bad_usage(fmt::format("no train has the same name in both files: {} | {}; {} would compare these{}", list_names(a),
+                                 list_names(b), suggest_pair(a, b),
+                                 a.size() == b.size() ? ", --by-order compares all of them in this order" : ""));
 }
 
 Result<Difference> compare(const PairedTrains& pair, const CompareOptions& options) {
-    static const std::vector<double> silence;
-    const auto &a = pair.in_a ? *pair.in_a : silence, &b = pair.in_b ? *pair.in_b : silence;
+    static const std::vector<double> empty_train;
+    const auto &a = pair.in_a ? *pair.in_a : empty_train, &b = pair.in_b ? *pair.in_b : empty_train;
     const auto matched = align(a, b, 2 / options.window);
     const auto distance = victor_purpura(a, b, options.cost);
     if (!matched || !distance) return matched ? distance.error() : matched.error();
     Difference d{pair.a, pair.b, a.size(), b.size(), matched->moved.size()};
     for (const auto& m : matched->moved) {
-        const double apart = std::abs(b[m.b] - a[m.a]);
-        d.largest = std::max(d.largest, apart);
-        d.squares += apart * apart;
+        const double shift = std::abs(b[m.b] - a[m.a]);
+        d.largest = std::max(d.largest, shift);
+        d.squares += shift * shift;
     }
     d.victor_purpura = *distance;
     d.van_rossum_squared = van_rossum_squared(a, b, options.tau);

@@ -32,12 +32,12 @@ Json row_document(const Comparison& c) {
     return out;
 }
 
-/// Spikes of a train in [from, to).
+/// Number of spikes of a train in [from, to).
 std::size_t count(std::span<const double> train, double from, double to) {
     return static_cast<std::size_t>(std::lower_bound(train.begin(), train.end(), to) - std::lower_bound(train.begin(), train.end(), from));
 }
 
-double middle(std::vector<double> values) {
+double median_shift_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const auto n = values.size();
     return n == 0 ? NAN : n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
@@ -53,7 +53,7 @@ void measure_distance(std::span<const double> reference, std::span<const double>
     c.matched = shifts.size();
     c.victor_purpura = aligned->distance;
     c.mean_shift = shifts.empty() ? NAN : sum / static_cast<double>(shifts.size());
-    c.median_shift = middle(std::move(shifts));
+    c.median_shift = median_shift_of(std::move(shifts));
 }
 
 }  // namespace
@@ -77,10 +77,10 @@ Result<void> Comparisons::begin(const Input& input) {
     return {};
 }
 
-Result<void> Comparisons::block(const Input& input, const Answered& answered) {
-    for (const auto& s : answered.spikes)
-        if (const auto unit = s.unit - input.first_unit; kept_[unit % kept_.size()])
-            trains_[unit].push_back(since_start_.time(s.step, s.offset));
+Result<void> Comparisons::block(const Input& input, const Answered& block) {
+    for (const auto& s : block.spikes)
+        if (const auto afferent_index = s.unit - input.first_unit; kept_[afferent_index % kept_.size()])
+            trains_[afferent_index].push_back(since_start_.time(s.step, s.offset));
     return {};
 }
 

@@ -9,8 +9,8 @@
 
 namespace corpuscle {
 
-CopiesFile::CopiesFile(OutputFile file, const Copies& population) : file_(std::move(file)) {
-    for (const auto& s : population.spreads) {
+CopiesFile::CopiesFile(OutputFile file, const Copies& copies) : file_(std::move(file)) {
+    for (const auto& s : copies.spreads) {
         auto at =
             std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.parameter == s.parameter && c.unit == s.unit; });
         if (at == columns_.end()) at = columns_.insert(at, Column{s.parameter, s.unit, {}});
@@ -30,20 +30,20 @@ Result<void> CopiesFile::begin(const Input& input) {
     return {};
 }
 
-Result<void> CopiesFile::block(const Input& input, const Answered& answered) {
-    for (const auto& s : answered.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
+Result<void> CopiesFile::block(const Input& input, const Answered& block) {
+    for (const auto& s : block.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
     return {};
 }
 
-void CopiesFile::put_row(const Input& input, std::size_t unit) {
+void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
     const auto out = std::back_inserter(text_);
-    const auto& plan = input.afferent_of(unit);
-    fmt::format_to(out, "{},{}", csv_field(plan.name), csv_field(input.channel_name(input.channel_of(unit))));
+    const auto& plan = input.afferent_of(afferent_index);
+    fmt::format_to(out, "{},{}", csv_field(plan.name), csv_field(input.channel_name(input.channel_of(afferent_index))));
     for (const auto& c : columns_) {
         const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.of) != c.afferents.end();
         differs ? fmt::format_to(out, ",{}", *plan.value(c.parameter)) : fmt::format_to(out, ",");
     }
-    for (const double x : tally_.values(unit, 0)) std::isfinite(x) ? fmt::format_to(out, ",{:.9g}", x) : fmt::format_to(out, ",");
+    for (const double x : tally_.values(afferent_index, 0)) std::isfinite(x) ? fmt::format_to(out, ",{:.9g}", x) : fmt::format_to(out, ",");
     text_.push_back('\n');
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What each copy of a population is, and how it answered.
+// Parameters and responses of each copy.
 
 #include "measure/measures.hpp"
 #include "model/spread.hpp"
@@ -7,21 +7,21 @@
 
 namespace corpuscle {
 
-/// copies.csv: afferent,channel, a column for each parameter that differs (f_B_Hz; empty for an afferent whose own does not), then
-/// every measure over the whole input, empty where it has no value. A row a copy and channel, input after input. A parameter has all
-/// its digits: set to it, the afferent answers as the copy did.
+/// copies.csv: one row for each copy and channel, input after input. The columns are afferent, channel, each parameter that differs
+/// (f_B_Hz), and every measure over the complete input. A field is empty if the parameter does not differ in this afferent, or if the
+/// measure has no value. Parameters are written with all digits, so that they reproduce the copy's response.
 class CopiesFile final : public WrittenFile {
     struct Column {
         std::string_view parameter, unit;
-        std::vector<std::string> afferents;  // for which it differs
+        std::vector<std::string> afferents;  // in which it differs
     };
     OutputFile file_;
     std::vector<Column> columns_;
-    Clock since_start_;  // of the input at work, its first sample at 0 s
-    Tally tally_;        // by that clock
+    Clock since_start_;  // of the current input, with its first sample at 0 s
+    Tally tally_;        // on that clock
     fmt::memory_buffer text_;
 
-    void put_row(const Input&, std::size_t unit);
+    void put_row(const Input&, std::size_t afferent_index);
 
 public:
     CopiesFile(OutputFile file, const Copies&);

@@ -18,7 +18,7 @@ Json document_of(const circuit::Area& a) {
 
 Json document_of(const circuit::Cost& cost, const circuit::Powers& p) {
     Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"own_W", p.own}};
-    if (p.blocks.empty()) return out;  // a mean over what was answered
+    if (p.blocks.empty()) return out;  // means over a run have no blocks
     Json sources = Json::object(), blocks = Json::object();
     for (std::size_t k = 0; k < p.sources.size(); ++k) sources[cost.sources[k]] = p.sources[k];
     for (std::size_t k = 0; k < p.blocks.size(); ++k) blocks[cost.blocks[k].name] = p.blocks[k];
@@ -26,7 +26,7 @@ Json document_of(const circuit::Cost& cost, const circuit::Powers& p) {
     return out;
 }
 
-/// At rest under this force.
+/// The cost at rest under this force.
 Result<circuit::Cost> cost_under(const circuit::CircuitDesign& design, double force) {
     auto bench = circuit::TestBench::make(design.circuit);
     if (!bench) return bench.error();
@@ -36,11 +36,11 @@ Result<circuit::Cost> cost_under(const circuit::CircuitDesign& design, double fo
     return circuit::cost_of(**bench);
 }
 
-/// Of an afferent's copies, which follow each other, of so many.
-Spent spent_by(const Work& work, std::size_t afferent, std::size_t of) {
+/// Energy used by an afferent's copies, which are adjacent; `of`: number of afferents.
+Spent energy_used_by(const Work& stats, std::size_t afferent, std::size_t of) {
     Spent out;
-    const std::size_t copies = work.spent.size() / of;
-    for (std::size_t k = 0; k < copies; ++k) out += work.spent[afferent * copies + k];
+    const std::size_t copies = stats.spent.size() / of;
+    for (std::size_t k = 0; k < copies; ++k) out += stats.spent[afferent * copies + k];
     return out;
 }
 
@@ -70,14 +70,14 @@ Json document_of(const circuit::Cost& cost) {
     return out;
 }
 
-Json costs_of(std::span<const AfferentPlan> afferents, const Work& work, double force) {
+Json costs_of(std::span<const AfferentPlan> afferents, const Work& stats, double force) {
     Json out = Json::array();
     for (std::size_t a = 0; a < afferents.size(); ++a) {
         const auto* design = dynamic_cast<const circuit::CircuitDesign*>(afferents[a].design.get());
         if (design == nullptr) continue;
         auto cost = cost_under(*design, force);
-        if (!cost) continue;  // it does not rest there; what came of it is told elsewhere
-        if (const auto spent = spent_by(work, a, afferents.size()); spent.seconds > 0) {
+        if (!cost) continue;  // it has no operating point; this is reported elsewhere
+        if (const auto spent = energy_used_by(stats, a, afferents.size()); spent.seconds > 0) {
             const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
             cost->power.emplace_back("mean", circuit::Powers{supplies, sensor, supplies - sensor, {}, {}});
         }

@@ -1,5 +1,5 @@
 #pragma once
-// What a circuit costs, as a document.
+// The cost of a circuit, as a JSON document.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,8 +10,8 @@ namespace corpuscle {
 
 nlohmann::ordered_json document_of(const circuit::Cost&);
 
-/// What each afferent costs that is a netlist, one receptor of it: its sheet at rest under a force (N), and the mean power over all that
-/// was answered, of its copies and channels. Empty without netlists.
+/// Cost of each afferent that is a netlist, for one receptor: its cost table at rest under a force (N), and the mean power over all its
+/// copies and channels in the run. Empty without netlists.
 nlohmann::ordered_json costs_of(std::span<const AfferentPlan>, const Work&, double force);
 
 }  // namespace corpuscle

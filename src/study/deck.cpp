@@ -39,7 +39,7 @@ Result<Netlist> netlist_of(const Deck& deck) {
     std::vector<Knob> knobs;
     for (const auto& setting : deck.settings) {
         const auto equals = setting.find('=');
-        if (equals == std::string::npos) return bad_input(fmt::format("'{}' sets nothing", setting));
+        if (equals == std::string::npos) return bad_input(fmt::format("setting '{}' must be NAME=VALUE", setting));
         knobs.push_back({setting.substr(0, equals), setting.substr(equals + 1), setting});
     }
     return tuned([&](const std::string& corner) { return parse_carried(text, file, corner); }, file, knobs);
@@ -120,9 +120,9 @@ Result<std::vector<Found>> all_found_in(const Deck& deck) {
         if (!variant) return variant.error();
         if (!deck.of_models.empty()) variant->circuit = with_models(*variant->circuit, deck.of_models);
         if (!bench || bench->circuit != variant->circuit) {
-            auto made = TestBench::make(variant->circuit);
-            if (!made) return made.error();
-            bench = std::move(*made);
+            auto context = TestBench::make(variant->circuit);
+            if (!context) return context.error();
+            bench = std::move(*context);
         }
         bench->brief = true;
         if (variant->draw) bench->draw(*variant->draw);
@@ -148,7 +148,7 @@ Result<std::string> changed_text(const std::string& file, const std::vector<std:
     if (!text) return text.error();
     for (const auto& [from, to] : changes) {
         auto at = text->find(from);
-        if (at == std::string::npos) return bad_input(fmt::format("{}: '{}' does not stand there", file, from));
+        if (at == std::string::npos) return bad_input(fmt::format("{}: does not contain '{}'", file, from));
         for (; at != std::string::npos; at = text->find(from, at + to.size())) text->replace(at, from.size(), to);
     }
     return text;

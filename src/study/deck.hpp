@@ -1,5 +1,5 @@
 #pragma once
-// A netlist as a study runs it: one that the program carries, with what is set of it, under orders of the study's own.
+// A netlist prepared for a study: an embedded netlist with settings and with the study's own directives.
 
 #include "circuit/run.hpp"
 #include "study/line.hpp"
@@ -7,49 +7,50 @@
 namespace corpuscle {
 
 struct Deck {
-    /// "bias": circuits/bias.cir; or the netlist itself, in several lines of which the first is its title, which includes 'parts/...' and
-    /// '../process/tsmc180.lib' as those in circuits/ do.
+    /// "bias" means circuits/bias.cir. A text of several lines is the netlist itself; its first line is the title. It includes 'parts/...'
+    /// and '../process/tsmc180.lib' as the netlists in circuits/ do.
     std::string circuit;
-    std::vector<std::string> settings = {};  ///< "i_bias=100n", "temp=85", "corner=ss", "m1a.w=2um": as --set has them
-    /// Lines put in place of the netlist's analyses, measures, .print, .save, .step, .mc and expectations; empty: its own.
+    std::vector<std::string> settings = {};  ///< "i_bias=100n", "temp=85", "corner=ss", "m1a.w=2um": as for --set
+    /// Lines that replace the netlist's analyses, measures, .print, .save, .step, .mc and expectations; empty: keep its own.
     std::string orders = {};
-    /// Numbers of the card that are set in every model: `ideal_mirrors`.
+    /// Parameters of the model card that are set in every model: `ideal_mirrors`.
     circuit::Values of_models = {};
 };
 
-/// Without length modulation and velocity saturation mirrors divide by their ratios.
+/// Without channel-length modulation and velocity saturation, mirror ratios are exact.
 inline const circuit::Values ideal_mirrors = {{"ve", 1e30}, {"zetal", 0}};
 
-/// What was found of one circuit.
+/// Results of one variant of a netlist.
 struct Found {
-    std::string label;  ///< of which variant, as .step and .mc name them
+    std::string label;  ///< of the variant, as .step and .mc name it
     std::shared_ptr<const circuit::Circuit> circuit;
     circuit::RunOutcome outcome;
 
-    /// A curve, named as in .save and .print, of the first analysis of this word ("dc"), over what that sweeps; empty: there is none.
+    /// A curve, named as in .save and .print, of the first analysis of this kind ("dc"), over its swept quantity; empty if there is none.
     Line line(std::string_view analysis, const std::string& y) const;
     /// One curve over another.
     Line line(std::string_view analysis, const std::string& y, const std::string& over) const;
-    /// A measure's number, or one that an analysis prints; NaN: there is none.
+    /// The value of a measurement, or one that an analysis prints; NaN if there is none.
     double number(std::string_view name) const;
     /// v(q), i(vis) at the operating point (.op).
     double at_rest(const std::string& name) const;
-    /// A slope at the operating point, as .tf with these words found it: by("i(vd)", "vg") is dI/dV_G; NaN: it was not asked.
+    /// A derivative at the operating point, from .tf with these arguments: derivative("i(vd)", "vg") is dI/dV_G; NaN if it was not
+    /// requested.
     double by(std::string_view output, std::string_view source) const;
-    /// What .op prints of a device as designed: reading("x1.m1", "i_f"), also i_d i_r g_mg g_ms g_md g_mb v_t i_bs i_bd; NaN: there is
-    /// none.
+    /// A value that .op prints for a nominal device: operating_info("x1.m1", "i_f"), also i_d i_r g_mg g_ms g_md g_mb v_t i_bs i_bd; NaN if
+    /// there is none.
     double reading(std::string_view device, std::string_view name) const;
 };
 
 Result<Found> found_in(const Deck&);
-/// All variants of .step and .mc. None is left out: one that does not converge is the error.
+/// All variants of .step and .mc. Fails if any variant does not converge.
 Result<std::vector<Found>> all_found_in(const Deck&);
 
-/// The text of a file that the program carries ("circuits/parts/transducer.inc"), with each of these pieces replaced wherever it stands;
-/// refused where one does not stand.
+/// The text of an embedded file ("circuits/parts/transducer.inc") with every occurrence of each first text replaced by the second. Fails if
+/// a text does not occur.
 Result<std::string> changed_text(const std::string& file, const std::vector<std::pair<std::string, std::string>>& changes);
 
-/// The elaborated circuit: its sizes and counts.
+/// The elaborated circuit, for its sizes and counts.
 Result<std::shared_ptr<const circuit::Circuit>> circuit_of(const Deck&);
 
 }  // namespace corpuscle

@@ -24,9 +24,9 @@ Result<void> SpikesFile::begin(const Input& input) {
     return {};
 }
 
-Result<void> SpikesFile::block(const Input& input, const Answered& answered) {
+Result<void> SpikesFile::block(const Input& input, const Answered& block) {
     text_.clear();
-    for (const auto& s : answered.spikes)
+    for (const auto& s : block.spikes)
         fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[s.unit - input.first_unit],
                        input.source.clock().time(s.step, s.offset));
     return file_.write({text_.data(), text_.size()});
@@ -46,13 +46,13 @@ Result<void> TracesFile::begin(const Input& input) {
     return {};
 }
 
-Result<void> TracesFile::block(const Input& input, const Answered& answered) {
+Result<void> TracesFile::block(const Input& input, const Answered& block) {
     text_.clear();
     const auto out = std::back_inserter(text_);
-    for (std::size_t k = 0; k < answered.force.count; ++k) {
-        fmt::format_to(out, "{:.9f}", input.source.clock().time(answered.first + static_cast<std::int64_t>(k)));
-        for (const auto& channel : answered.force.force) fmt::format_to(out, ",{:.9g}", channel[k]);
-        for (const auto& unit : answered.probes)
+    for (std::size_t k = 0; k < block.force.count; ++k) {
+        fmt::format_to(out, "{:.9f}", input.source.clock().time(block.first + static_cast<std::int64_t>(k)));
+        for (const auto& channel : block.force.force) fmt::format_to(out, ",{:.9g}", channel[k]);
+        for (const auto& unit : block.probes)
             for (const auto& probe : unit) fmt::format_to(out, ",{:.9g}", probe[k]);
         text_.push_back('\n');
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The answer as files: spikes and traces, written as they come.
+// Output files of a run: spikes and probes, written block by block.
 
 #include <fmt/format.h>
 
@@ -8,14 +8,14 @@
 
 namespace corpuscle {
 
-/// Writes files that are put in their places at the end.
+/// A sink that writes files. The files get their final names in commit().
 class WrittenFile : public Listener {
 public:
     virtual std::vector<std::string> paths() const = 0;
     virtual Result<void> commit() = 0;
 };
 
-/// "sa1,press" of each unit of an input, as the fields of a CSV file.
+/// "sa1,press" of each afferent of an input, as fields of a CSV file.
 std::vector<std::string> unit_names(const Input&);
 
 /// DIR/traces.csv for the first input, DIR/traces-2.csv for the second.
@@ -24,7 +24,7 @@ std::string numbered(const std::string& directory, std::string_view name, std::s
 /// spikes.csv: afferent,channel,time_s; in order of time, input after input. Times to the nanosecond.
 class SpikesFile final : public WrittenFile {
     OutputFile file_;
-    std::vector<std::string> names_;  // "sa1,press" of each unit of the input at work
+    std::vector<std::string> names_;  // "sa1,press" of each afferent of the current input
     fmt::memory_buffer text_;
 
 public:
@@ -35,7 +35,8 @@ public:
     Result<void> commit() override { return file_.commit(); }
 };
 
-/// traces.csv: time_s, each channel's force, each afferent's probes on it; a row a sample. A second input makes traces-2.csv ...
+/// traces.csv: time_s, the force of each channel, the probes of each afferent on it; one row for each sample. A second input gives
+/// traces-2.csv ...
 class TracesFile final : public WrittenFile {
     std::string directory_;
     std::vector<OutputFile> files_;

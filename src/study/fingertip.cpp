@@ -8,23 +8,23 @@
 namespace corpuscle {
 namespace {
 
-constexpr double tip_rate = 1e3;          // Hz
-constexpr Position tip_middle{0, 12e-3};  // m, of the built-in fingertip
+constexpr double fingertip_rate = 1e3;          // Hz
+constexpr Position fingertip_centre{0, 12e-3};  // m, of the built-in fingertip
 
-Result<std::vector<Wish>> wishes_of(const std::vector<std::string>& texts) {
+Result<std::vector<Wish>> overrides_of(const std::vector<std::string>& texts) {
     std::vector<Wish> out;
     for (const auto& text : texts) {
-        auto wish = parse_wish(text);
-        if (!wish) return wish.error();
-        out.push_back(std::move(*wish));
+        auto parsed = parse_wish(text);
+        if (!parsed) return parsed.error();
+        out.push_back(std::move(*parsed));
     }
     return out;
 }
 
-Result<std::vector<TipTrain>> pressed_tip(const Innervation& tip, Skin& skin, SkinForce& force, const Clock& clock) {
+Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin, SkinForce& force, const Clock& clock) {
     std::vector<TipTrain> out;
     for (const auto& u : tip.units) {
-        const double dx = u.at.x - tip_middle.x, dy = u.at.y - tip_middle.y;
+        const double dx = u.at.x - fingertip_centre.x, dy = u.at.y - fingertip_centre.y;
         out.push_back({tip.plan.classes[u.of].name, num::sqrt(dx * dx + dy * dy), {}});
     }
     Pool pool(1);
@@ -48,20 +48,20 @@ Result<std::vector<TipTrain>> fingertip_under(const Punch& punch) {
     plan->nerve.reset();
     const auto tip = innervate(std::move(*plan));
     if (!tip) return tip.error();
-    const auto wishes =
-        wishes_of({"press.F_min=0", fmt::format("press.F_max={}", punch.force), fmt::format("contact.radius={}", punch.radius),
-                   fmt::format("contact.x={}", tip_middle.x), fmt::format("contact.y={}", tip_middle.y)});
-    if (!wishes) return wishes.error();
-    auto source = make_stimulus("press", *wishes, tip_rate, 0);
+    const auto overrides =
+        overrides_of({"press.F_min=0", fmt::format("press.F_max={}", punch.force), fmt::format("contact.radius={}", punch.radius),
+                      fmt::format("contact.x={}", fingertip_centre.x), fmt::format("contact.y={}", fingertip_centre.y)});
+    if (!overrides) return overrides.error();
+    auto source = make_stimulus("press", *overrides, fingertip_rate, 0);
     if (!source) return source.error();
-    auto contact = make_contact("flat", *wishes, (*tip)->plan.sites, (*source)->clock());
+    auto contact = make_contact("flat", *overrides, (*tip)->plan.sites, (*source)->clock());
     if (!contact) return contact.error();
     const auto set = instruction_set();
     if (!set) return set.error();
-    auto skin = Skin::make(*tip, {.dt = 1 / tip_rate}, *set);
+    auto skin = Skin::make(*tip, {.dt = 1 / fingertip_rate}, *set);
     if (!skin) return skin.error();
     const auto force = pressed_force(**source, **contact);
-    return pressed_tip(**tip, **skin, *force, (*source)->clock());
+    return press_fingertip(**tip, **skin, *force, (*source)->clock());
 }
 
 }  // namespace corpuscle

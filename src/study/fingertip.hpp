@@ -1,5 +1,5 @@
 #pragma once
-// The built-in fingertip pressed by a punch, for studies: what each of its afferents fires.
+// The built-in fingertip pressed by a punch, for studies: spikes of each afferent.
 
 #include <string>
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace corpuscle {
 
-/// A flat, round, rigid punch on the middle of the fingertip, pressed as in the thesis (1.2) from no force to `force`.
+/// A flat, round, rigid punch on the middle of the fingertip, pressed as in the thesis (1.2) from zero force to `force`.
 struct Punch {
     double radius = 0, force = 0;  ///< m, N
 };
 
-/// One afferent's spikes, s, without conduction.
+/// One afferent's spikes, s, without conduction delay.
 struct TipTrain {
-    std::string of;   ///< "sa1"
-    double from = 0;  ///< the punch's middle to the afferent's, m
+    std::string of;   ///< afferent type: "sa1"
+    double from = 0;  ///< from the punch's centre to the afferent, m
     std::vector<double> spikes;
 };
 Result<std::vector<TipTrain>> fingertip_under(const Punch&);

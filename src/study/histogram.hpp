@@ -1,11 +1,11 @@
 #pragma once
-// How often a number is where, to be drawn.
+// The histogram of a list of numbers, for plots.
 
 #include "study/line.hpp"
 
 namespace corpuscle {
 
-/// From the least to the largest value in `bins` equal parts; a pair is a part's middle and how many values are in it.
+/// Divides the range from the smallest to the largest value into `bins` equal parts. Each pair is the centre of a bin and its count.
 Line histogram_of(const std::vector<double>& values, int bins = 30);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// A number in a JSON document, which knows neither infinity nor NaN.
+// A number in a JSON document; infinity and NaN become null.
 
 #include <cmath>
 #include <nlohmann/json.hpp>

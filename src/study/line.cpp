@@ -11,12 +11,12 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-double Line::at(double place) const {
-    if (empty() || !(place >= x.front() && place <= x.back())) return none;
-    const auto after = std::lower_bound(x.begin(), x.end(), place);
+double Line::at(double at_x) const {
+    if (empty() || !(at_x >= x.front() && at_x <= x.back())) return none;
+    const auto after = std::lower_bound(x.begin(), x.end(), at_x);
     const auto k = static_cast<std::size_t>(after - x.begin());
-    if (x[k] == place) return y[k];
-    return y[k - 1] + (y[k] - y[k - 1]) * (place - x[k - 1]) / (x[k] - x[k - 1]);
+    if (x[k] == at_x) return y[k];
+    return y[k - 1] + (y[k] - y[k - 1]) * (at_x - x[k - 1]) / (x[k] - x[k - 1]);
 }
 
 double Line::where(double level, double from) const {

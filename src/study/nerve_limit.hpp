@@ -1,5 +1,5 @@
 #pragma once
-// What a nerve fibre can do at most, and what to say of an afferent that does more.
+// The highest firing rate of a nerve fibre, and a warning for afferents that exceed it.
 
 #include <string>
 
@@ -7,11 +7,10 @@
 
 namespace corpuscle {
 
-/// Hz: an absolute refractory period of about 1 ms ends the next spike no earlier (Hodgkin & Huxley 1952, J Physiol 117:500, and any
-/// textbook since).
+/// Hz. The absolute refractory period is about 1 ms (Hodgkin & Huxley 1952, J Physiol 117:500).
 inline constexpr double nerve_limit = 1e3;
 
-/// "it fires at up to 4.5 MHz ..., and what to look at". `name`: what --set calls the afferent.
+/// "spikes come at up to 4.5 MHz ...", with advice. `name`: the afferent's name for --set.
 std::string rate_sentence(double rate, const AfferentPlan&, const std::string& name);
 
 }  // namespace corpuscle

@@ -13,11 +13,11 @@ Result<void> NpzFile::begin(const Input& input) {
     return {};
 }
 
-Result<void> NpzFile::block(const Input& input, const Answered& answered) {
+Result<void> NpzFile::block(const Input& input, const Answered& block) {
     const auto& clock = input.source.clock();
     auto since_start = clock;
     since_start.t0 = 0;
-    for (const auto& s : answered.spikes) {
+    for (const auto& s : block.spikes) {
         indexes_.push_back(std::llround(since_start.time(s.step, s.offset) * ticks_per_second));
         labels_.push_back(s.unit);
         times_.push_back(clock.time(s.step, s.offset));

@@ -1,19 +1,19 @@
 #pragma once
-// Spikes as NumPy's lists, for SpikeInterface and for exact times.
+// Spikes as NumPy arrays, for SpikeInterface and for exact times.
 
 #include "io/npz.hpp"
 #include "study/files.hpp"
 
 namespace corpuscle {
 
-/// spikes.npz: what SpikeInterface's NpzSortingExtractor reads (unit_ids, num_segment, sampling_frequency, spike_indexes_seg0,
-/// spike_labels_seg0; a segment an input) and, beside it, unit_afferent, unit_channel, and exact times by the clock of the
-/// recording, spike_times_seg0. The indexes count microseconds from the segment's first sample: finer than any nerve, and whole numbers
-/// that people can read. The spikes are kept in memory until the end: a list's length stands before it.
+/// spikes.npz: the arrays that SpikeInterface's NpzSortingExtractor reads (unit_ids, num_segment, sampling_frequency, spike_indexes_seg0,
+/// spike_labels_seg0), with one segment for each input. In addition unit_afferent, unit_channel, and exact times on the clock of the
+/// recording, spike_times_seg0. The indexes count microseconds from the segment's first sample: finer than any nerve, and integers that are
+/// easy to read. The spikes are kept in memory until the end, because the length of an array precedes its data.
 class NpzFile final : public WrittenFile {
     OutputFile file_;
     NpzWriter npz_;
-    std::vector<std::string> afferents_, channels_;  // of each unit of all inputs
+    std::vector<std::string> afferents_, channels_;  // of each afferent of all inputs
     std::vector<std::int64_t> indexes_, labels_;
     std::vector<double> times_;  // s
     std::int64_t segments_ = 0;

@@ -1,11 +1,11 @@
 #pragma once
-// A netlist under other orders than its own.
+// A netlist with other directives than its own.
 
 #include <string>
 
 namespace corpuscle {
 
-/// The text without its analyses, measures and other orders, their lines left empty, and these lines at its end.
-std::string with_orders(const std::string& text, const std::string& orders);
+/// The text with its analyses, measures and other directives blanked, and these lines appended. Line numbers are preserved.
+std::string with_orders(const std::string& text, const std::string& directives);
 
 }  // namespace corpuscle

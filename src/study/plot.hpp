@@ -1,5 +1,5 @@
 #pragma once
-// Something to look at: lines, points, paths or rows of spikes over a common axis.
+// A plot of a study: lines, points, paths or spike rasters over a common axis.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace corpuscle {
 
 struct Plot {
-    enum class Style { line, points, raster, path };  ///< path: a line through its points as they come; NaN lifts the pen
+    enum class Style { line, points, raster, path };  ///< path: a line through the points in their order; NaN interrupts the line
     struct Series {
         std::string name;
         std::vector<double> x, y;
@@ -18,19 +18,19 @@ struct Plot {
     std::string title, x_label, y_label;
     std::vector<Series> series;
     bool log_x = false, log_y = false;
-    std::string printed = {};  ///< what was printed of it, in words: its shape
+    std::string printed = {};  ///< describes the shape of the published plot
 
     Plot& add(std::string name, Line line, Style style = Style::line) {
         series.push_back({std::move(name), std::move(line.x), std::move(line.y), style});
         return *this;
     }
     Plot& points(std::string name, Line line) { return add(std::move(name), std::move(line), Style::points); }
-    /// A row of spikes at these times.
+    /// A raster row with spikes at these times.
     Plot& row(std::string name, std::vector<double> times) {
         series.push_back({std::move(name), std::move(times), {}, Style::raster});
         return *this;
     }
-    Plot& shape(std::string words) { return printed = std::move(words), *this; }
+    Plot& shape(std::string text) { return printed = std::move(text), *this; }
 };
 
 }  // namespace corpuscle

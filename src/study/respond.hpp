@@ -1,5 +1,5 @@
 #pragma once
-// Every source of force through every afferent, block by block.
+// Simulates every source of force with every afferent, block by block.
 
 #include <functional>
 #include <memory>
@@ -10,32 +10,31 @@
 
 namespace corpuscle {
 
-/// One source with one afferent on each of its channels. A unit is an afferent on a channel:
-/// unit = first_unit + channel * afferents + afferent.
+/// One source with one afferent of each plan on each of its channels: afferent_index = first_afferent + channel * plans + plan.
 struct Input {
     const Source& source;
-    std::string name;  ///< the source's; a second of the same name is "press (2)"
+    std::string name;  ///< of the source; a second one of the same name is "press (2)"
     std::span<const AfferentPlan> afferents;
-    std::span<const std::span<const Probe>> probes;  ///< of each afferent; empty where nobody wants them and it is on lanes
+    std::span<const std::span<const Probe>> probes;  ///< for each plan; empty if no sink wants probes and the afferent runs on SIMD lanes
     std::uint32_t first_unit = 0;
-    std::size_t index = 0, of = 1;  ///< which input this is, of how many
+    std::size_t index = 0, of = 1;  ///< number of this input, and number of inputs
 
     std::size_t units() const { return source.channels().size() * afferents.size(); }
-    const AfferentPlan& afferent_of(std::size_t unit) const { return afferents[unit % afferents.size()]; }
-    std::size_t channel_of(std::size_t unit) const { return unit / afferents.size(); }
-    /// The channel as outputs call it: its name, with the source's before it if there are several sources.
+    const AfferentPlan& afferent_of(std::size_t afferent_index) const { return afferents[afferent_index % afferents.size()]; }
+    std::size_t channel_of(std::size_t afferent_index) const { return afferent_index / afferents.size(); }
+    /// The channel's name in outputs; preceded by the source's name if there are several sources.
     std::string channel_name(std::size_t channel) const;
 };
 
-/// What one block of force gave.
+/// The response to one block of force.
 struct Answered {
     std::int64_t first = 0;  ///< number of the block's first sample
     const Frames& force;
-    std::span<const Spike> spikes;                                ///< of all units, in order of time, then unit
-    const std::vector<std::vector<std::vector<double>>>& probes;  ///< [unit of this input][probe][sample]; empty if nobody wants them
+    std::span<const Spike> spikes;                                ///< of all afferents, in order of time, then afferent index
+    const std::vector<std::vector<std::vector<double>>>& probes;  ///< [afferent of this input][probe][sample]; empty if no sink wants them
 };
 
-/// Takes what comes: a file, a table, a page. Whatever it refuses ends the run.
+/// Receives the response block by block, e.g. a file, a table or a page. An error that it returns ends the run.
 class Listener {
 public:
     virtual ~Listener() = default;
@@ -49,38 +48,38 @@ struct Work {
     std::int64_t samples = 0;         ///< of force, over all channels
     std::int64_t afferent_steps = 0;  ///< samples times afferents
     std::int64_t spikes = 0;
-    std::int64_t capped_steps = 0;                         ///< steps cut short by the cap on spikes a step
-    std::int64_t clipped = 0;                              ///< samples beyond a sensor's electronics or converter
-    std::int64_t overflowed = 0;                           ///< results too large for a digital afferent's words
-    std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: in time, those taken again, and Newton's
-    std::vector<std::string> outside;                      ///< what did not stay where an afferent works as designed
-    std::vector<Spent> spent;  ///< of each afferent that is a circuit, over its channels; empty if none goes alone
-    std::vector<Error> lost;   ///< a netlist that did not converge, and when: it said no more on its channel
+    std::int64_t capped_steps = 0;                         ///< steps that reached the limit on spikes in one step
+    std::int64_t clipped = 0;                              ///< samples beyond the range of a sensor's electronics or converter
+    std::int64_t overflowed = 0;                           ///< results that overflowed the word length of a digital afferent
+    std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: time steps, rejected time steps, and Newton iterations
+    std::vector<std::string> outside;                      ///< quantities that left the range in which an afferent works as designed
+    std::vector<Spent> spent;  ///< of each circuit afferent, over its channels; empty if none is simulated alone
+    std::vector<Error> lost;   ///< netlists that did not converge, and when; their channels have no later spikes
 };
 
 struct RespondOptions {
     Method method = Method::exact;
     bool sampled = false;
-    double noise = 0;        ///< of every membrane: see Run
+    double noise = 0;        ///< of every membrane, see Run
     std::uint64_t seed = 0;  ///< of the noise
     Precision precision = Precision::in_double;
-    Pool* pool = nullptr;      ///< threads; the answer does not depend on it; null: the caller's alone
-    std::size_t block = 4096;  ///< samples; the answer does not depend on it
-    /// Called once a block with the share done, 0 to 1; false stops the run.
+    Pool* pool = nullptr;      ///< threads; the response does not depend on it; null: only the calling thread
+    std::size_t block = 4096;  ///< samples; the response does not depend on it
+    /// Called once a block with the completed fraction, 0 to 1; false stops the run.
     std::function<bool(double)> keep_on = [](double) { return true; };
 };
 
-/// Runs all sources through all afferents. Stopped by keep_on, it is an error of code `interrupted`.
+/// Runs all sources through all afferents. A run that is stopped by this callback returns an error of code `interrupted`.
 Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents,
-                     std::span<Listener* const> listeners, const RespondOptions&);
+                     std::span<Listener* const> sinks, const RespondOptions&);
 
-/// What the user should know of noise: whom it does not reach.
+/// Warnings about noise: the afferents that it does not affect.
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
 
-/// What the user should know of the answer: what was cut short, clipped or too large for its words.
+/// Warnings about the response: spikes that reached the limit, saturation, overflow.
 std::vector<std::string> work_warnings(const Work&);
 
-/// What the user should know before trusting the answer: a rate too low for an afferent.
+/// Warnings before the run: sample rates that are too low for an afferent.
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents);
 
 }  // namespace corpuscle

@@ -27,21 +27,21 @@ std::shared_ptr<const Innervation> sheet_innervation(const Sheet& sheet, const s
     for (std::size_t s = 0; s < sensors; ++s) {
         for (std::size_t k = 0; k < units; ++k) {
             const double dx = out->units[k].at.x - force.at[s].x, dy = out->units[k].at.y - force.at[s].y;
-            const double far = (dx * dx + dy * dy) / (sigma * sigma);
-            if (far > 16) continue;
-            fields.unit.push_back(static_cast<std::uint32_t>(k)), fields.weight.push_back(num::exp(-0.5 * far));
+            const double distance_squared = (dx * dx + dy * dy) / (sigma * sigma);
+            if (distance_squared > 16) continue;
+            fields.unit.push_back(static_cast<std::uint32_t>(k)), fields.weight.push_back(num::exp(-0.5 * distance_squared));
         }
         fields.begin.push_back(fields.unit.size());
     }
     return out;
 }
 
-/// Sums of weight, and of weight times place, of each stretch.
-struct TrackSums {
+/// Sums of weight, and of weight times position, in each time bin.
+struct CentroidSums {
     Track track;
     double from, bin;
 
-    TrackSums(double first, double to, double width) : from(first), bin(width) {
+    CentroidSums(double first, double to, double width) : from(first), bin(width) {
         const auto bins = static_cast<std::size_t>(std::round((to - first) / width));
         for (auto* v : {&track.x, &track.y, &track.weight}) v->assign(bins, 0);
         for (std::size_t b = 0; b < bins; ++b) track.t.push_back(first + (static_cast<double>(b) + 0.5) * width);
@@ -80,13 +80,13 @@ Result<std::vector<SheetSpike>> sheet_answer(const Sheet& sheet, const std::stri
 }
 
 Track track_of(const Sheet& sheet, const std::vector<SheetSpike>& spikes, double from, double to, double bin) {
-    TrackSums sums(from, to, bin);
+    CentroidSums sums(from, to, bin);
     for (const auto& s : spikes) sums.add(s.time, sheet.at(s.unit), 1);
     return sums.mean();
 }
 
 Track track_of(const SheetForce& force, double from, double to, double bin) {
-    TrackSums sums(from, to, bin);
+    CentroidSums sums(from, to, bin);
     for (std::size_t s = 0; s < force.at.size(); ++s)
         for (std::size_t k = 0; k < force.force[s].size(); ++k) sums.add(force.time(k), force.at[s], force.force[s][k]);
     return sums.mean();

@@ -10,18 +10,18 @@
 namespace corpuscle {
 namespace {
 
-constexpr double most_factor = 1e6, fineness = 1.02;
+constexpr double max_factor = 1e6, factor_tolerance = 1.02;
 
 bool fires(const Afferent& afferent, std::span<const double> force, double factor) {
     constexpr std::size_t block = 4096;
-    std::vector<double> some(block);
+    std::vector<double> scaled(block);
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    Answer response{spikes};
     auto state = afferent.start();
     for (std::size_t at = 0; at < force.size(); at += block) {
         const auto count = std::min(block, force.size() - at);
-        for (std::size_t k = 0; k < count; ++k) some[k] = factor * force[at + k];
-        if (!afferent.respond({some.data(), count}, state, answer)) return false;
+        for (std::size_t k = 0; k < count; ++k) scaled[k] = factor * force[at + k];
+        if (!afferent.respond({scaled.data(), count}, state, response)) return false;
         if (!spikes.empty()) return true;
     }
     return false;
@@ -33,12 +33,12 @@ std::optional<double> factor_to_fire(const AfferentPlan& plan, const Run& run, s
     const auto afferent = make_afferent(plan, run);
     double low = 1, high = 1;
     while (!fires(*afferent, force, high)) {
-        if (high >= most_factor) return {};
+        if (high >= max_factor) return {};
         low = high, high *= 2;
     }
-    while (high > low * fineness) {
-        const double middle = std::sqrt(low * high);
-        (fires(*afferent, force, middle) ? high : low) = middle;
+    while (high > low * factor_tolerance) {
+        const double midpoint = std::sqrt(low * high);
+        (fires(*afferent, force, midpoint) ? high : low) = midpoint;
     }
     return high;
 }
@@ -50,15 +50,15 @@ Result<void> Silence::begin(const Input& input) {
     return {};
 }
 
-Result<void> Silence::block(const Input& input, const Answered& answered) {
-    const std::size_t most = most_silent_samples / kept_.size();
+Result<void> Silence::block(const Input& input, const Answered& block) {
+    const std::size_t limit = most_silent_samples / kept_.size();
     for (std::size_t c = 0; c < kept_.size(); ++c) {
-        const auto* force = answered.force.force[c].data();
-        const auto count = std::min(answered.force.count, most - std::min(most, kept_[c].size()));
+        const auto* force = block.force.force[c].data();
+        const auto count = std::min(block.force.count, limit - std::min(limit, kept_[c].size()));
         kept_[c].insert(kept_[c].end(), force, force + count);
-        for (std::size_t k = 0; k < answered.force.count; ++k) largest_[c] = std::max(largest_[c], force[k]);
+        for (std::size_t k = 0; k < block.force.count; ++k) largest_[c] = std::max(largest_[c], force[k]);
     }
-    for (const auto& s : answered.spikes) fired_[(s.unit - input.first_unit) % input.afferents.size()] = 1;
+    for (const auto& s : block.spikes) fired_[(s.unit - input.first_unit) % input.afferents.size()] = 1;
     return {};
 }
 
@@ -87,9 +87,9 @@ std::vector<SilentAfferent> Silence::found(std::span<const AfferentPlan> afferen
 }
 
 std::string sentence_of(const SilentAfferent& silent) {
-    const auto never = fmt::format("{} never fired: the force was {:.3g} N at most", silent.name, silent.force);
-    if (silent.factor) return fmt::format("{}; it fires from about {} times the same force on", never, rounded_up(*silent.factor));
-    return silent.force > 0 ? fmt::format("{}, and a million times as much would not make it fire", never) : never;
+    const auto never = fmt::format("{} never fired: the largest force was {:.3g} N", silent.name, silent.force);
+    if (silent.factor) return fmt::format("{}; it would fire at about {} times this force", never, rounded_up(*silent.factor));
+    return silent.force > 0 ? fmt::format("{}, and even a million times this force would not make it fire", never) : never;
 }
 
 std::string rounded_up(double x) {

@@ -1,5 +1,5 @@
 #pragma once
-// Afferents that never fired: how much more of the same force would make them fire.
+// Afferents that never fired, and how much more of the same force would make them fire.
 
 #include <optional>
 #include <span>
@@ -10,40 +10,40 @@
 
 namespace corpuscle {
 
-/// Samples of force that are kept to answer the question; what comes later is left out.
+/// Number of force samples that are kept for this question; later samples are ignored.
 inline constexpr std::size_t most_silent_samples = std::size_t{1} << 18;
 
-/// The factor, from 1 on, by which force must be multiplied for the afferent to fire; to 2 %, and rather too large. None: it takes more
-/// than a million times as much.
+/// The factor, at least 1, by which force must be multiplied for the afferent to fire. Accurate to 2 %, rounded up. None if it exceeds a
+/// million.
 std::optional<double> factor_to_fire(const AfferentPlan&, const Run&, std::span<const double> force);
 
-/// An afferent, with all of its copies, that never fired on any channel of any input.
+/// An afferent that, with all of its copies, never fired on any channel of any input.
 struct SilentAfferent {
     std::string name;
-    double force = 0;              ///< N: the largest on the channel that had most
-    std::optional<double> factor;  ///< to fire
+    double force = 0;              ///< N: the largest force on any channel
+    std::optional<double> factor;  ///< by which force must be multiplied
 };
 
-/// Finds them. Netlists are left out: to ask one takes longer than all of the run.
+/// Finds silent afferents. Netlists are left out, because the search would take longer than the run.
 class Silence final : public Listener {
-    std::vector<std::vector<double>> kept_;  // of each channel of the input at work
-    std::vector<double> largest_;            // ... N
+    std::vector<std::vector<double>> kept_;  // force of each channel of the current input
+    std::vector<double> largest_;            // of each channel, N
     std::vector<char> fired_;                // of each afferent
-    std::vector<double> course_;             // of the channel with the largest force so far
+    std::vector<double> course_;             // force of the channel with the largest force so far
     double force_ = 0, dt_ = 0;
 
 public:
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const Answered&) override;
     Result<void> end(const Input&, std::int64_t samples) override;
-    /// `afferents`: those that took part, copies among them.
+    /// `afferents`: the plans of the run, including copies.
     std::vector<SilentAfferent> found(std::span<const AfferentPlan> afferents, const RespondOptions&) const;
 };
 
-/// "fa1 never fired: the force was 0.5 N at most; it fires from about 6.3 times the same force on".
+/// "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this force".
 std::string sentence_of(const SilentAfferent&);
 
-/// "1.5", "0.0021": two digits, rounded up.
+/// Two digits, rounded up: "1.5", "0.0021".
 std::string rounded_up(double);
 
 }  // namespace corpuscle

@@ -1,18 +1,18 @@
 #pragma once
-// Spikes of a skin's classes counted in even bins of time, written as the bins fill.
+// Counts spikes of a skin's classes in time bins of equal width and writes each bin as it completes.
 
 #include "study/bins.hpp"
 #include "study/skin_written.hpp"
 
 namespace corpuscle {
 
-/// psth.csv: afferent,channel,units,from_s,to_s,spikes,rate_Hz; a class in a region is a row, bin after bin. The rate is of one unit:
-/// spikes by units and seconds. Bins as in bins.hpp.
+/// psth.csv: afferent,channel,units,from_s,to_s,spikes,rate_Hz. One row for each class in a region, bin after bin. The rate is per
+/// afferent: spikes divided by afferents and seconds. Bins as in time_bins.hpp.
 class SkinBinsFile final : public SkinWrittenFile {
     OutputFile file_;
     double bin_;  // s
     EvenBins bins_;
-    std::vector<std::uint32_t> row_of_;  // of each unit
+    std::vector<std::uint32_t> row_of_;  // of each afferent
 
 public:
     SkinBinsFile(OutputFile file, double bin);

@@ -20,25 +20,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FILE: magic, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all of it.
+// FILE: magic, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of everything before.
 constexpr std::string_view checkpoint_magic = "corpuscle checkpoint ", checkpoint_version = "2";
 constexpr std::string_view spikes_header = "corpuscle told spikes 2\n";
 static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);
 
-/// A spike as FILE.spikes has it.
-struct KeptSpike {
+/// A spike as stored in FILE.spikes.
+struct StoredSpike {
     std::int64_t step;
     double offset;
     std::uint64_t unit;
 };
 
 template <class T>
-void append(std::string& to, const T& x) {
+void append_bytes(std::string& to, const T& x) {
     to.append(reinterpret_cast<const char*>(&x), sizeof x);
 }
 
 void append_text(std::string& to, std::string_view text) {
-    append(to, std::uint64_t{text.size()});
+    append_bytes(to, std::uint64_t{text.size()});
     to += text;
 }
 
@@ -72,7 +72,7 @@ std::string difference(const std::string& name, const std::string* then, const s
     return now ? fmt::format("{} was {} and now is {}", name, *then, *now) : fmt::format("{} was {} and now is not given", name, *then);
 }
 
-/// What differs between two runs, in words; "": nothing.
+/// The differences between two runs, in words; "" if there are none.
 std::string differences(const RunFingerprint& then, const RunFingerprint& now) {
     const auto value_in = [](const RunFingerprint& all, const std::string& name) {
         const auto at = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.first == name; });
@@ -86,19 +86,19 @@ std::string differences(const RunFingerprint& then, const RunFingerprint& now) {
     return fmt::format("{}", fmt::join(found, "; "));
 }
 
-/// Whether a regular file begins with these letters.
-bool begins_with(const std::string& path, std::string_view letters) {
+/// True for a regular file that begins with this text.
+bool begins_with(const std::string& path, std::string_view prefix) {
     std::error_code status;
     if (!fs::is_regular_file(path, status)) return false;
     std::ifstream in(path, std::ios::binary);
-    std::string head(letters.size(), '\0');
-    return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == letters;
+    std::string head(prefix.size(), '\0');
+    return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == prefix;
 }
 
-bool is_file_of_name(int file, const std::string& path) {
-    struct ::stat open_one = {}, there = {};
-    return ::fstat(file, &open_one) == 0 && ::stat(path.c_str(), &there) == 0 && open_one.st_ino == there.st_ino &&
-           open_one.st_dev == there.st_dev;
+bool is_file_at(int file, const std::string& path) {
+    struct ::stat open_file = {}, file_at_path = {};
+    return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
+           open_file.st_dev == file_at_path.st_dev;
 }
 
 }  // namespace
@@ -110,44 +110,44 @@ std::string SkinCheckpoint::remedy() const {
 }
 
 Error SkinCheckpoint::another_force() const {
-    return bad_input(fmt::format("the force up to this checkpoint is not the one that it was made with; {}", remedy()), {file_});
+    return bad_input(fmt::format("the force up to this checkpoint differs from the one that it was made with; {}", remedy()), {file_});
 }
 
 Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& file, Skin& skin, RunFingerprint fingerprint) {
-    std::unique_ptr<SkinCheckpoint> made(new SkinCheckpoint(file, skin, std::move(fingerprint)));
-    if (auto ok = made->check_file(); !ok) return ok.error();
-    if (auto ok = made->lock_spikes(); !ok) return ok.error();
+    std::unique_ptr<SkinCheckpoint> checkpoint(new SkinCheckpoint(file, skin, std::move(fingerprint)));
+    if (auto ok = checkpoint->check_file(); !ok) return ok.error();
+    if (auto ok = checkpoint->lock_spikes(); !ok) return ok.error();
     std::error_code status;
     if (fs::exists(file, status))
-        if (auto ok = made->resume(); !ok) return ok.error();
-    const auto end = spikes_header.size() + made->count_ * sizeof(KeptSpike);
-    if (::ftruncate(::fileno(made->spikes_), static_cast<off_t>(end)) != 0) return made->broken(made->spikes_file_);
-    return made;
+        if (auto ok = checkpoint->resume(); !ok) return ok.error();
+    const auto end = spikes_header.size() + checkpoint->count_ * sizeof(StoredSpike);
+    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0) return checkpoint->broken(checkpoint->spikes_file_);
+    return checkpoint;
 }
 
-/// Spikes without a checkpoint that counts them are of no use.
+/// Removes FILE.spikes if there is no checkpoint that refers to it.
 SkinCheckpoint::~SkinCheckpoint() {
     if (!spikes_) return;
     std::error_code ignored;
-    if (!fs::exists(file_, ignored) && is_file_of_name(::fileno(spikes_), spikes_file_) && begins_with(spikes_file_, spikes_header))
+    if (!fs::exists(file_, ignored) && is_file_at(::fileno(spikes_), spikes_file_) && begins_with(spikes_file_, spikes_header))
         fs::remove(spikes_file_, ignored);
     std::fclose(spikes_);
 }
 
-/// FILE is a checkpoint of a version that can be read, or is not there.
+/// Returns an error if FILE exists and is not a checkpoint of the current version.
 Result<void> SkinCheckpoint::check_file() const {
     std::error_code status;
     if (!fs::exists(file_, status)) return {};
     if (!begins_with(file_, checkpoint_magic))
-        return bad_input("this file is not a checkpoint and is left as it is; name another with --checkpoint", {file_});
+        return bad_input("this file is not a checkpoint and was left unchanged; name another with --checkpoint", {file_});
     if (!begins_with(file_, fmt::format("{}{}\n", checkpoint_magic, checkpoint_version))) {
         std::ifstream in(file_, std::ios::binary);
         std::string line;
         std::getline(in, line);
         const auto version = line.substr(checkpoint_magic.size(), 20);
         return bad_input(
-            fmt::format("a checkpoint of version {}; this program goes on from version {} only (version 1 does not hold what "
-                        "the force was made of). Finish the run with the program that began it, or {}",
+            fmt::format("a checkpoint of version {}; this program resumes version {} only (version 1 does not record how "
+                        "the force was made). Finish the run with the program that started it, or {}",
                         version.find_first_not_of("0123456789") == std::string::npos ? version : "?", checkpoint_version, remedy()),
             {file_});
     }
@@ -158,7 +158,7 @@ Result<void> SkinCheckpoint::check_file() const {
     return {};
 }
 
-/// Opens FILE.spikes and locks it. Another process may remove it between the opening and the lock: then once more.
+/// Opens FILE.spikes and locks it. Tries again if another process removes it between the two steps.
 Result<void> SkinCheckpoint::lock_spikes() {
     for (int tries = 0; tries < 100; ++tries) {
         int file = ::open(spikes_file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -174,7 +174,7 @@ Result<void> SkinCheckpoint::lock_spikes() {
             if (why != EWOULDBLOCK) return broken(spikes_file_);
             return bad_input("another run is using this checkpoint; wait for it to end, or name another file with --checkpoint", {file_});
         }
-        if (!is_file_of_name(file, spikes_file_)) {
+        if (!is_file_at(file, spikes_file_)) {
             ::close(file);
             continue;
         }
@@ -192,7 +192,7 @@ Result<void> SkinCheckpoint::lock_spikes() {
 
 Result<void> SkinCheckpoint::check_spikes_header() const {
     if (begins_with(spikes_file_, spikes_header)) return {};
-    return bad_input(fmt::format("this file was not written with a checkpoint of this version and is left as it is; move it away, or name "
+    return bad_input(fmt::format("this file was not written by a checkpoint of this version and was left unchanged; move it away, or name "
                                  "another file than {} with --checkpoint",
                                  file_),
                      {spikes_file_});
@@ -210,8 +210,10 @@ Result<void> SkinCheckpoint::resume() {
     left.remove_prefix(std::min(left.size(), left.find('\n') + 1));
     RunFingerprint then;
     if (!take_fingerprint(left, then)) return damaged;
-    if (const auto what = differences(then, fingerprint_); !what.empty())
-        return bad_input(fmt::format("this checkpoint is of another run: {}. Repeat the run as it was begun, {}", what, remedy()), {file_});
+    if (const auto differing = differences(then, fingerprint_); !differing.empty())
+        return bad_input(
+            fmt::format("this checkpoint belongs to another run: {}. Repeat the run with its original options, {}", differing, remedy()),
+            {file_});
     std::string state;
     if (!take_front(left, force_to_resumed_) || !take_front(left, count_) || !take_front(left, spikes_sum) || !take_text(left, state) ||
         !left.empty())
@@ -222,31 +224,31 @@ Result<void> SkinCheckpoint::resume() {
     return check_spikes(spikes_sum);
 }
 
-/// The spikes are as many as FILE has it, in order, of units of this skin, and what was written.
+/// Checks the spikes: their number and checksum as in FILE, in order, with valid afferent indexes and times.
 Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     std::error_code status;
-    const auto size = fs::file_size(spikes_file_, status), have = (size - std::min(size, spikes_header.size())) / sizeof(KeptSpike);
+    const auto size = fs::file_size(spikes_file_, status), have = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
     if (status || count_ > have)
-        return bad_input(fmt::format("it has {} spikes, and {} was written after {}; {}", have, file_, count_, remedy()), {spikes_file_});
+        return bad_input(fmt::format("it has {} spikes, but {} was written after {}; {}", have, file_, count_, remedy()), {spikes_file_});
     std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
-    std::array<KeptSpike, 1024> some;
+    std::array<StoredSpike, 1024> buffer;
     Spike last;
-    bool sound = true;
-    for (std::uint64_t at = 0; at < count_ && sound;) {
-        const auto count = std::fread(some.data(), sizeof some[0], std::min<std::uint64_t>(some.size(), count_ - at), spikes_);
+    bool is_valid = true;
+    for (std::uint64_t at = 0; at < count_ && is_valid;) {
+        const auto count = std::fread(buffer.data(), sizeof buffer[0], std::min<std::uint64_t>(buffer.size(), count_ - at), spikes_);
         if (count == 0) return broken(spikes_file_);
-        spikes_sum_.add(some.data(), count * sizeof some[0]);
+        spikes_sum_.add(buffer.data(), count * sizeof buffer[0]);
         for (std::size_t k = 0; k < count; ++k) {
-            const auto& s = some[k];
+            const auto& s = buffer[k];
             const Spike spike{s.step, s.offset, static_cast<std::uint32_t>(s.unit)};
-            sound &= s.unit < skin_.innervation().units.size() && s.step >= 0 && s.step < resumed_ && s.offset > 0 && s.offset <= 1 &&
-                     ((at == 0 && k == 0) || last <= spike);
+            is_valid &= s.unit < skin_.innervation().units.size() && s.step >= 0 && s.step < resumed_ && s.offset > 0 && s.offset <= 1 &&
+                        ((at == 0 && k == 0) || last <= spike);
             last = spike;
         }
         at += count;
     }
-    if (sound && spikes_sum_.value() == checksum) return {};
-    return bad_input(fmt::format("these spikes are damaged: they are not what {} was written after; {}", file_, remedy()), {spikes_file_});
+    if (is_valid && spikes_sum_.value() == checksum) return {};
+    return bad_input(fmt::format("these spikes are damaged: they do not match {}; {}", file_, remedy()), {spikes_file_});
 }
 
 Result<void> SkinCheckpoint::force(const SkinForce::Block& block, std::int64_t first) {
@@ -264,14 +266,14 @@ Result<void> SkinCheckpoint::force(const SkinForce::Block& block, std::int64_t f
 Result<void> SkinCheckpoint::ended(std::int64_t samples) { return samples < resumed_ ? Result<void>(another_force()) : Result<void>(); }
 
 Result<void> SkinCheckpoint::told(std::int64_t end, std::vector<Spike>& spikes) {
-    // Spikes of a block are those that arrive up to its last sample.
+    // A block includes the spikes that arrive up to its last sample.
     if (told_ == 0 && ahead_.empty()) std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
-    for (KeptSpike kept{};;) {
+    for (StoredSpike stored{};;) {
         if (ahead_.empty()) {
             if (told_ >= count_) return {};
-            if (std::fread(&kept, sizeof kept, 1, spikes_) != 1) return broken(spikes_file_);
+            if (std::fread(&stored, sizeof stored, 1, spikes_) != 1) return broken(spikes_file_);
             ++told_;
-            ahead_.push_back({kept.step, kept.offset, static_cast<std::uint32_t>(kept.unit)});
+            ahead_.push_back({stored.step, stored.offset, static_cast<std::uint32_t>(stored.unit)});
         }
         if (ahead_[0].step >= end) return {};
         spikes.push_back(ahead_[0]);
@@ -281,24 +283,24 @@ Result<void> SkinCheckpoint::told(std::int64_t end, std::vector<Spike>& spikes) 
 
 Result<void> SkinCheckpoint::answered(std::span<const Spike> spikes) {
     std::string bytes;
-    for (const auto& s : spikes) append(bytes, KeptSpike{s.step, s.offset, s.unit});
-    std::fseek(spikes_, static_cast<long>(spikes_header.size() + count_ * sizeof(KeptSpike)), SEEK_SET);
+    for (const auto& s : spikes) append_bytes(bytes, StoredSpike{s.step, s.offset, s.unit});
+    std::fseek(spikes_, static_cast<long>(spikes_header.size() + count_ * sizeof(StoredSpike)), SEEK_SET);
     if (std::fwrite(bytes.data(), 1, bytes.size(), spikes_) != bytes.size()) return broken(spikes_file_);
     spikes_sum_.add(bytes.data(), bytes.size());
     count_ += spikes.size();
     return {};
 }
 
-/// The spikes are on disk before FILE says that they are, and FILE before it has its name.
+/// Writes the spikes to disk before the FILE that counts them, and FILE before it gets its name.
 Result<void> SkinCheckpoint::keep() {
     if (std::fflush(spikes_) != 0 || ::fsync(::fileno(spikes_)) != 0) return broken(spikes_file_);
     std::string bytes = fmt::format("{}{}\n", checkpoint_magic, checkpoint_version);
-    append(bytes, std::uint64_t{fingerprint_.size()});
+    append_bytes(bytes, std::uint64_t{fingerprint_.size()});
     for (const auto& [name, value] : fingerprint_) append_text(bytes, name), append_text(bytes, value);
-    append(bytes, force_sum_.value()), append(bytes, count_), append(bytes, spikes_sum_.value());
+    append_bytes(bytes, force_sum_.value()), append_bytes(bytes, count_), append_bytes(bytes, spikes_sum_.value());
     const auto state = skin_.save();
     append_text(bytes, {reinterpret_cast<const char*>(state.data()), state.size()});
-    append(bytes, checksum_of(std::as_bytes(std::span(bytes))));
+    append_bytes(bytes, checksum_of(std::as_bytes(std::span(bytes))));
     auto out = OutputFile::create(file_);
     if (!out) return out.error();
     if (auto ok = out->write(bytes); !ok) return ok;
@@ -306,11 +308,11 @@ Result<void> SkinCheckpoint::keep() {
     return sync_directory_of(file_);
 }
 
-/// The lock is held until both are gone; an output of the same name is no checkpoint and stays.
+/// The lock is held until both files are removed. An output that has the same name is not a checkpoint and is kept.
 void SkinCheckpoint::done() {
     std::error_code ignored;
     if (begins_with(file_, checkpoint_magic)) fs::remove(file_, ignored);
-    if (is_file_of_name(::fileno(spikes_), spikes_file_)) fs::remove(spikes_file_, ignored);
+    if (is_file_at(::fileno(spikes_), spikes_file_)) fs::remove(spikes_file_, ignored);
     std::fclose(std::exchange(spikes_, nullptr));
 }
 
@@ -318,12 +320,12 @@ Result<std::string> contents_of(const std::string& path) {
     auto file = open_bytes(path);
     if (!file) return file.error();
     Checksum sum;
-    std::vector<std::byte> some(std::size_t{1} << 20);
+    std::vector<std::byte> buffer(std::size_t{1} << 20);
     for (auto left = (*file)->size(); left > 0;) {
-        const auto piece = std::span(some).first(std::min<std::uint64_t>(some.size(), left));
-        if (auto ok = (*file)->read(piece); !ok) return ok.error();
-        sum.add(piece.data(), piece.size());
-        left -= piece.size();
+        const auto chunk = std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), left));
+        if (auto ok = (*file)->read(chunk); !ok) return ok.error();
+        sum.add(chunk.data(), chunk.size());
+        left -= chunk.size();
     }
     return fmt::format("{} bytes, checksum {:016x}", (*file)->size(), sum.value());
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A run of a skin that can be killed and gone on with. FILE holds the skin's state at some sample, FILE.spikes all spikes up to then: the
-// same command reports them again and goes on, so every output is what it would have been.
+// Checkpoints of a skin run, so that it can be killed and resumed. FILE holds the skin's state at some sample, FILE.spikes all spikes
+// before it. The same command replays these spikes and continues, so every output is the same as without the interruption.
 
 #include <cstdio>
 #include <string>
@@ -12,13 +12,14 @@
 
 namespace corpuscle {
 
-/// What decides a run's answer, by name: {"--scale", "0.02"}. Checksums of files are among it; their names begin with "contents of".
+/// The inputs that determine a run's response, by name: {"--scale", "0.02"}. Checksums of files are included under names that begin with
+/// "contents of".
 using RunFingerprint = std::vector<std::pair<std::string, std::string>>;
 
 class SkinCheckpoint final : public SkinSpool {
 public:
-    /// Of a skin that has not begun; resumes it if FILE is there. Refuses a checkpoint of another skin or run, and names what differs; a
-    /// damaged one; one that another process uses; and files that no checkpoint wrote, which it leaves alone.
+    /// For a skin that has not started. Resumes it if FILE exists. Rejects a checkpoint of another skin or run and names the difference.
+    /// Also rejects a damaged file, one in use by another process, and a file that is not a checkpoint, and leaves it unchanged.
     static Result<std::unique_ptr<SkinCheckpoint>> open(const std::string& file, Skin&, RunFingerprint);
     ~SkinCheckpoint() override;
 
@@ -28,7 +29,7 @@ public:
     Result<void> answered(std::span<const Spike>) override;
     Result<void> keep() override;
     Result<void> ended(std::int64_t samples) override;
-    /// The run is over, and its outputs are in their places: removes both files.
+    /// Removes both files. Call it when the run is complete and its outputs have their final names.
     void done();
 
 private:
@@ -46,16 +47,16 @@ private:
     std::string file_, spikes_file_;
     Skin& skin_;
     RunFingerprint fingerprint_;
-    std::FILE* spikes_ = nullptr;  // locked as long as it is open
+    std::FILE* spikes_ = nullptr;  // locked while it is open
     std::int64_t resumed_ = 0;
-    std::uint64_t count_ = 0;  // of spikes written
-    std::uint64_t told_ = 0;   // of them, read again
+    std::uint64_t count_ = 0;  // spikes written
+    std::uint64_t told_ = 0;   // spikes of these that were read again
     Checksum spikes_sum_, force_sum_;
     std::uint64_t force_to_resumed_ = 0;  // checksum of the force up to `resumed_`
-    std::vector<Spike> ahead_;            // read, and of a later block
+    std::vector<Spike> ahead_;            // read already, but of a later block
 };
 
-/// Checksum of a file's contents, as a RunFingerprint has it.
+/// Checksum of a file's contents, as used in a RunFingerprint.
 Result<std::string> contents_of(const std::string& path);
 
 }  // namespace corpuscle

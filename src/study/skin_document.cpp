@@ -1,4 +1,4 @@
-// The summary of a skin as a document and as a table.
+// The summary of a skin run as a JSON document and as a table.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_first_spikes = 100;
+constexpr std::size_t max_first_spikes = 100;
 
 Json sources_document(const std::vector<Sourced>& all) {
     Json out = Json::array();
@@ -22,7 +22,7 @@ Json sources_document(const std::vector<Sourced>& all) {
     return out;
 }
 
-/// Units of a class in each region.
+/// Number of afferents of a class in each region.
 Json density_document(const Innervation& skin, std::size_t c) {
     const auto& plan = skin.plan;
     std::vector<std::int64_t> units(plan.sites.regions.size());
@@ -64,16 +64,16 @@ Json skin_document(const Innervation& skin) {
     return out;
 }
 
-Json skin_input_document(const SkinSummary& s, const SkinTold& told) {
+Json skin_input_document(const SkinSummary& s, const SkinTold& notes) {
     Json phases = Json::array(), facts = Json::object();
     for (const auto& p : s.phases()) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
-    for (const auto& f : told.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
+    for (const auto& f : notes.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
     return {{"name", s.name()},         {"sentence", s.sentence()},
-            {"contact", told.contact},  {"parameters", facts},
+            {"contact", notes.contact}, {"parameters", facts},
             {"force_min_N", s.least()}, {"force_max_N", s.greatest()},
             {"samples", s.samples()},   {"rate_Hz", s.clock().rate()},
             {"t0_s", s.clock().t0},     {"touched_from_s", json_number(s.touched_from())},
-            {"phases", phases},         {"remarks", told.remarks}};
+            {"phases", phases},         {"remarks", notes.remarks}};
 }
 
 std::string region_name(const SkinSummary& s, const SkinRow& r) {
@@ -102,23 +102,23 @@ std::string millisecond_cell(double x) { return std::isfinite(x) ? fmt::format("
 
 }  // namespace
 
-Json SkinSummary::document(const SkinTold& told) const {
+Json SkinSummary::document(const SkinTold& notes) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
-    out["options"] = {{"method", told.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", told.sampled}};
+    out["options"] = {{"method", notes.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", notes.sampled}};
     out["skin"] = skin_document(*skin_);
-    out["input"] = skin_input_document(*this, told);
+    out["input"] = skin_input_document(*this, notes);
     out["classes"] = Json::array(), out["rates"] = Json::array(), out["first_spikes"] = Json::array();
     for (std::size_t c = 0; c < skin_->plan.classes.size(); ++c) out["classes"].push_back(class_document(*skin_, c));
     for (const auto& r : rows_) out["rates"].push_back(skin_row_document(*this, r));
-    for (const auto& f : first_spikes(most_first_spikes))
+    for (const auto& f : first_spikes(max_first_spikes))
         out["first_spikes"].push_back({{"unit", f.unit},
                                        {"afferent", skin_->unit_name(f.unit)},
                                        {"region", skin_->plan.sites.regions[skin_->units[f.unit].region]},
                                        {"time_s", f.time}});
-    const auto& w = told.work;
+    const auto& w = notes.work;
     out["work"] = {
         {"steps", w.steps}, {"afferent_steps", w.afferent_steps}, {"at_rest", w.at_rest}, {"spikes", w.spikes}, {"capped_steps", w.capped}};
-    out["warnings"] = told.warnings;
+    out["warnings"] = notes.warnings;
     return out;
 }
 
@@ -127,7 +127,7 @@ std::vector<std::vector<std::string>> SkinSummary::table() const {
     std::vector<std::vector<std::string>> out = {{"afferent"}};
     if (regions) out[0].push_back("region");
     if (phases) out[0].push_back("phase");
-    for (const auto* heading : {"units", "touched", "active", "spikes", "touched (Hz)", "busiest (Hz)", "first (ms)", "median first (ms)"})
+    for (const auto* heading : {"afferents", "touched", "active", "spikes", "touched (Hz)", "max (Hz)", "first (ms)", "median first (ms)"})
         out[0].push_back(heading);
     const auto put = [&](const SkinRow& r) {
         std::vector<std::string> cells = {skin_->plan.classes[r.of].name};
@@ -138,9 +138,9 @@ std::vector<std::vector<std::string>> SkinSummary::table() const {
         for (const auto x : {r.first, r.median_first}) cells.push_back(millisecond_cell(x));
         out.push_back(std::move(cells));
     };
-    const auto put_if = [&](auto shown) {
+    const auto put_if = [&](auto wanted) {
         for (const auto& r : rows_)
-            if (shown(r)) put(r);
+            if (wanted(r)) put(r);
     };
     put_if([](const SkinRow& r) { return r.region == SkinRow::all && r.phase == SkinRow::all; });
     put_if([](const SkinRow& r) { return r.region == SkinRow::all && r.phase != SkinRow::all; });

@@ -1,5 +1,5 @@
 #pragma once
-// Spikes of a skin as events (doc/events.md), written as they come.
+// Spikes of a skin as events (doc/events.md), written block by block.
 
 #include "io/events.hpp"
 #include "study/skin_written.hpp"
@@ -18,7 +18,7 @@ public:
     /// `format`: one of event_formats().
     SkinEventsFile(OutputFile file, std::string format) : file_(std::move(file)), format_name_(std::move(format)) {}
     Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinAnswered& answered) override { return put(answered.spikes); }
+    Result<void> block(const SkinInput&, const SkinAnswered& block) override { return put(block.spikes); }
     Result<void> end(const SkinInput&, std::int64_t, std::span<const Spike> last) override { return put(last); }
     std::vector<std::string> paths() const override { return {file_.path()}; }
     Result<void> commit() override { return file_.commit(); }

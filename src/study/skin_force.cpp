@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-/// Few samples at a time: what is touched in a block is what is touched at any moment of it.
+/// Blocks are short, because all sites touched at any time within a block are simulated for the whole block.
 constexpr std::size_t pressed_block = 64, site_block = 256;
 
 class PressedForce final : public SkinForce {
@@ -29,10 +29,10 @@ public:
         if (const auto at = first_not_finite(force); at < force.size())
             return bad_input(
                 fmt::format("the force of sample {} is {}, not a finite number", first_ + static_cast<std::int64_t>(at), force[at]));
-        auto felt = contact_.press(force, first_);
-        if (!felt) return felt.error();
+        auto site_force = contact_.press(force, first_);
+        if (!site_force) return site_force.error();
         first_ += static_cast<std::int64_t>(force.size());
-        return Block{*felt, force};
+        return Block{*site_force, force};
     }
 };
 
@@ -74,13 +74,13 @@ Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const Source& 
     if (names == plan.sites.names) return in_order;
     auto named = sites_if_named(plan.sites, names);
     if (!named)
-        return bad_input(fmt::format("{}; --layout FILE gives channels other names, --channel chooses some", named.error().sentence),
+        return bad_input(fmt::format("{}; --layout FILE renames channels, --channel selects some", named.error().sentence),
                          {source.name()});
     if (*named) return **std::move(named);
     if (source.channels().size() != plan.sites.size())
         return bad_input(
-            fmt::format("{} has {} channels, and {} has {} sites, which are called {} ...; name the channels after sites with "
-                        "--layout, choose as many with --channel, or take a population that stands at the channels "
+            fmt::format("{} has {} channels, but {} has {} sites, named {} ...; name the channels after sites with "
+                        "--layout, select as many with --channel, or use a population with its sites at the channels "
                         "(sites = \"channels\")",
                         source.name(), source.channels().size(), plan.name, plan.sites.size(), plan.sites.names[0]));
     return in_order;

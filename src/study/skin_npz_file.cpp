@@ -17,8 +17,8 @@ void SkinNpzFile::put(const Clock& clock, std::span<const Spike> spikes) {
     }
 }
 
-Result<void> SkinNpzFile::block(const SkinInput& input, const SkinAnswered& answered) {
-    return put(input.clock, answered.spikes), Result<void>();
+Result<void> SkinNpzFile::block(const SkinInput& input, const SkinAnswered& block) {
+    return put(input.clock, block.spikes), Result<void>();
 }
 
 Result<void> SkinNpzFile::end(const SkinInput& input, std::int64_t, std::span<const Spike> last) {

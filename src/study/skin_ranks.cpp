@@ -9,17 +9,17 @@
 namespace corpuscle {
 namespace {
 
-/// The first byte of what ranks of a skin say to one another.
-enum SkinWord : char {
-    spikes_of_block = 's',  ///< follower: PackedRankSpike after PackedRankSpike
-    what_was_done = 'w',    ///< follower, last of all: SkinWork
-    went_wrong = 'e',       ///< follower: a code and a sentence
-    thanks = 't',           ///< leader: a block was taken
-    dismissed = 'd',        ///< leader: it is over
+/// The first byte of a message between the ranks of a skin run.
+enum SkinMessage : char {
+    spikes_of_block = 's',  ///< worker: any number of PackedRankSpike
+    worker_stats = 'w',     ///< worker, its last message: SkinWork
+    worker_error = 'e',     ///< worker: an error code and a message
+    acknowledged = 't',     ///< coordinator: a block was received
+    shutdown = 'd',         ///< coordinator: the run is over
 };
 
-/// A follower is at most so many blocks ahead of what was taken from it.
-constexpr int most_ahead = 8;
+/// Maximum number of messages that a worker sends without an acknowledgement.
+constexpr int max_unacknowledged = 8;
 
 struct PackedRankSpike {
     std::int64_t step;
@@ -27,7 +27,7 @@ struct PackedRankSpike {
     std::uint64_t unit;
 };
 
-std::string packed(const std::vector<Spike>& spikes) {
+std::string pack_spikes(const std::vector<Spike>& spikes) {
     std::string text(1 + spikes.size() * sizeof(PackedRankSpike), spikes_of_block);
     for (std::size_t k = 0; k < spikes.size(); ++k) {
         const PackedRankSpike s{spikes[k].step, spikes[k].offset, spikes[k].unit};
@@ -44,38 +44,38 @@ void unpack_into(const std::string& text, std::vector<Spike>& spikes) {
     }
 }
 
-std::string told_error(const Error& error) { return std::string(1, went_wrong) + static_cast<char>(error.code) + error.text(); }
+std::string pack_error(const Error& error) { return std::string(1, worker_error) + static_cast<char>(error.code) + error.text(); }
 
-void doze() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
+void pause_briefly() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
 
-class LeadingAnswerer final : public SkinAnswerer {
+class DistributedSimulator final : public SkinAnswerer {
     Ranks& ranks_;
     Skin& own_;
     Pool& pool_;
-    std::vector<std::deque<std::string>> heard_;  // of each rank
-    SkinWork others_;
+    std::vector<std::deque<std::string>> received_;  // of each rank
+    SkinWork others_stats_;
 
-    /// The next that a rank said.
-    Result<std::string> next_of(int rank) {
-        auto& queue = heard_[static_cast<std::size_t>(rank)];
+    /// The next message of a rank.
+    Result<std::string> next_from(int rank) {
+        auto& queue = received_[static_cast<std::size_t>(rank)];
         while (queue.empty()) {
             if (auto m = ranks_.receive())
-                heard_[static_cast<std::size_t>(m->from)].push_back(std::move(m->message));
+                received_[static_cast<std::size_t>(m->from)].push_back(std::move(m->message));
             else
-                doze();
+                pause_briefly();
         }
         auto text = std::move(queue.front());
         queue.pop_front();
-        if (text[0] == went_wrong) return Error{static_cast<Code>(static_cast<unsigned char>(text[1])), text.substr(2)};
+        if (text[0] == worker_error) return Error{static_cast<Code>(static_cast<unsigned char>(text[1])), text.substr(2)};
         return text;
     }
 
-    Result<void> add_others(std::vector<Spike>& spikes) {
+    Result<void> gather(std::vector<Spike>& spikes) {
         for (int rank = 1; rank < ranks_.size(); ++rank) {
-            auto text = next_of(rank);
+            auto text = next_from(rank);
             if (!text) return text.error();
             unpack_into(*text, spikes);
-            ranks_.send(rank, std::string(1, thanks));
+            ranks_.send(rank, std::string(1, acknowledged));
         }
         (void)ranks_.unsent();
         std::sort(spikes.begin(), spikes.end());
@@ -83,63 +83,63 @@ class LeadingAnswerer final : public SkinAnswerer {
     }
 
 public:
-    LeadingAnswerer(Ranks& ranks, Skin& own, Pool& pool)
-        : ranks_(ranks), own_(own), pool_(pool), heard_(static_cast<std::size_t>(ranks.size())) {}
+    DistributedSimulator(Ranks& ranks, Skin& own, Pool& pool)
+        : ranks_(ranks), own_(own), pool_(pool), received_(static_cast<std::size_t>(ranks.size())) {}
 
     Result<void> answer(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
         if (auto ok = own_.respond(force, steps, spikes, pool_); !ok) return ok;
-        return add_others(spikes);
+        return gather(spikes);
     }
     Result<void> last(std::vector<Spike>& spikes) override {
         own_.last(spikes);
-        if (auto ok = add_others(spikes); !ok) return ok;
+        if (auto ok = gather(spikes); !ok) return ok;
         for (int rank = 1; rank < ranks_.size(); ++rank) {
-            auto text = next_of(rank);
+            auto text = next_from(rank);
             if (!text) return text.error();
             SkinWork work;
             std::memcpy(&work, text->data() + 1, std::min(sizeof work, text->size() - 1));
-            others_.afferent_steps += work.afferent_steps, others_.at_rest += work.at_rest, others_.spikes += work.spikes;
-            others_.capped += work.capped;
+            others_stats_.afferent_steps += work.afferent_steps, others_stats_.at_rest += work.at_rest, others_stats_.spikes += work.spikes;
+            others_stats_.capped += work.capped;
         }
         return {};
     }
     SkinWork work() const override {
         auto all = own_.work();
-        all.afferent_steps += others_.afferent_steps, all.at_rest += others_.at_rest, all.spikes += others_.spikes;
-        all.capped += others_.capped;
+        all.afferent_steps += others_stats_.afferent_steps, all.at_rest += others_stats_.at_rest, all.spikes += others_stats_.spikes;
+        all.capped += others_stats_.capped;
         return all;
     }
 };
 
-/// What a follower has sent and not been thanked for.
-class Follower {
+/// A worker's connection to the coordinator; counts its unacknowledged messages.
+class WorkerChannel {
     Ranks& ranks_;
-    int ahead_ = 0;
-    bool dismissed_ = false;
+    int unacknowledged_ = 0;
+    bool is_shut_down_ = false;
 
-    void listen() {
+    void receive() {
         while (auto m = ranks_.receive()) {
-            if (m->message[0] == thanks) --ahead_;
-            if (m->message[0] == dismissed) dismissed_ = true;
+            if (m->message[0] == acknowledged) --unacknowledged_;
+            if (m->message[0] == shutdown) is_shut_down_ = true;
         }
     }
 
 public:
-    explicit Follower(Ranks& ranks) : ranks_(ranks) {}
-    /// False: dismissed.
-    bool say(std::string text) {
-        ++ahead_;
+    explicit WorkerChannel(Ranks& ranks) : ranks_(ranks) {}
+    /// Returns false if the coordinator has shut the run down.
+    bool send(std::string text) {
+        ++unacknowledged_;
         ranks_.send(0, std::move(text));
-        for (listen(); !dismissed_ && ahead_ >= most_ahead; listen()) doze();
-        return !dismissed_;
+        for (receive(); !is_shut_down_ && unacknowledged_ >= max_unacknowledged; receive()) pause_briefly();
+        return !is_shut_down_;
     }
-    void wait_for_the_end() {
-        for (listen(); !dismissed_ || ranks_.unsent() > 0; listen()) doze();
+    void wait_for_shutdown() {
+        for (receive(); !is_shut_down_ || ranks_.unsent() > 0; receive()) pause_briefly();
     }
 };
 
-/// False: dismissed before the end.
-Result<bool> follow_force(Follower& follower, SkinForce& force, Skin& skin, Pool& pool) {
+/// Returns false if the coordinator shut the run down before the end of the force.
+Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin, Pool& pool) {
     std::vector<Spike> spikes;
     for (;;) {
         auto block = force.next();
@@ -147,35 +147,35 @@ Result<bool> follow_force(Follower& follower, SkinForce& force, Skin& skin, Pool
         if (block->total.empty()) break;
         spikes.clear();
         if (auto ok = skin.respond(block->force, block->total.size(), spikes, pool); !ok) return ok.error();
-        if (!follower.say(packed(spikes))) return false;
+        if (!channel.send(pack_spikes(spikes))) return false;
     }
     spikes.clear();
     skin.last(spikes);
-    if (!follower.say(packed(spikes))) return false;
+    if (!channel.send(pack_spikes(spikes))) return false;
     const auto work = skin.work();
-    return follower.say(std::string(1, what_was_done) + std::string(reinterpret_cast<const char*>(&work), sizeof work));
+    return channel.send(std::string(1, worker_stats) + std::string(reinterpret_cast<const char*>(&work), sizeof work));
 }
 
 }  // namespace
 
 std::unique_ptr<SkinAnswerer> leading_answerer(Ranks& ranks, Skin& own, Pool& pool) {
-    return std::make_unique<LeadingAnswerer>(ranks, own, pool);
+    return std::make_unique<DistributedSimulator>(ranks, own, pool);
 }
 
 void dismiss_skin(Ranks& ranks) {
-    for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, std::string(1, dismissed));
+    for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, std::string(1, shutdown));
     while (ranks.unsent() > 0) {
         (void)ranks.receive();
-        doze();
+        pause_briefly();
     }
     ranks.leave(true);
 }
 
 Result<void> follow_skin(Ranks& ranks, Result<SkinForce*> force, Skin* skin, Pool& pool) {
-    Follower follower(ranks);
-    auto done = force ? follow_force(follower, **force, *skin, pool) : Result<bool>(force.error());
-    if (!done) (void)follower.say(told_error(done.error()));
-    follower.wait_for_the_end();
+    WorkerChannel channel(ranks);
+    auto done = force ? simulate_part(channel, **force, *skin, pool) : Result<bool>(force.error());
+    if (!done) (void)channel.send(pack_error(done.error()));
+    channel.wait_for_shutdown();
     ranks.leave(true);
     return {};
 }

@@ -1,17 +1,17 @@
 #pragma once
-// A skin on ranks: each has a range of the afferents of every class and works the force out for itself; rank 0 gathers the spikes, block by
-// block, and owns the files.
+// A skin distributed over MPI ranks. Each rank has a range of the afferents of every class and computes the force itself. Rank 0 gathers
+// the spikes block by block and writes the files.
 
 #include "study/skin_run.hpp"
 #include "study/sweep/ranks.hpp"
 
 namespace corpuscle {
 
-/// Rank 0: its own share and all others'. An error of any rank is its own.
+/// For rank 0: simulates its own part and gathers the others'. An error of any rank is reported as its own.
 std::unique_ptr<SkinAnswerer> leading_answerer(Ranks&, Skin& own, Pool&);
-/// Rank 0, at the end, however it came: the others end, too.
+/// For rank 0, at the end of the run or after an error: makes the other ranks end.
 void dismiss_skin(Ranks&);
-/// Any other rank: answers until the force ends or rank 0 dismisses it.
+/// For all other ranks: simulates until the force ends or rank 0 shuts the run down.
 Result<void> follow_skin(Ranks&, Result<SkinForce*>, Skin*, Pool&);
 
 }  // namespace corpuscle

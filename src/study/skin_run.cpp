@@ -5,12 +5,12 @@
 namespace corpuscle {
 namespace {
 
-class AloneAnswerer final : public SkinAnswerer {
+class LocalSimulator final : public SkinAnswerer {
     Skin& skin_;
     Pool& pool_;
 
 public:
-    AloneAnswerer(Skin& skin, Pool& pool) : skin_(skin), pool_(pool) {}
+    LocalSimulator(Skin& skin, Pool& pool) : skin_(skin), pool_(pool) {}
     Result<void> answer(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
         return skin_.respond(force, steps, spikes, pool_);
     }
@@ -18,23 +18,23 @@ public:
     SkinWork work() const override { return skin_.work(); }
 };
 
-/// Says when it is time again to keep what there is: so seldom that it costs nothing.
-class Every {
+/// Limits how often the log is flushed; the interval is long enough to make its cost negligible.
+class FlushTimer {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-    static constexpr std::chrono::seconds often{10};
+    static constexpr std::chrono::seconds interval{10};
 
 public:
-    bool now() {
+    bool is_due() {
         const auto t = std::chrono::steady_clock::now();
-        if (t - last_ < often) return false;
+        if (t - last_ < interval) return false;
         last_ = t;
         return true;
     }
 };
 
-/// One block: answered, or told again.
-Result<void> skin_block(const SkinForce::Block& block, std::int64_t first, SkinAnswerer& skin, SkinSpool* spool,
-                        std::vector<Spike>& spikes) {
+/// Gets the spikes of one block, by simulation or from the log.
+Result<void> run_block(const SkinForce::Block& block, std::int64_t first, SkinAnswerer& skin, SkinSpool* spool,
+                       std::vector<Spike>& spikes) {
     spikes.clear();
     const auto steps = block.total.size();
     if (spool && first < spool->step()) return spool->told(first + static_cast<std::int64_t>(steps), spikes);
@@ -44,15 +44,15 @@ Result<void> skin_block(const SkinForce::Block& block, std::int64_t first, SkinA
 
 }  // namespace
 
-std::unique_ptr<SkinAnswerer> alone_answerer(Skin& skin, Pool& pool) { return std::make_unique<AloneAnswerer>(skin, pool); }
+std::unique_ptr<SkinAnswerer> alone_answerer(Skin& skin, Pool& pool) { return std::make_unique<LocalSimulator>(skin, pool); }
 
-Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer& skin, std::span<SkinListener* const> listeners,
+Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer& skin, std::span<SkinListener* const> sinks,
                           const SkinRunOptions& options) {
-    for (auto* l : listeners)
+    for (auto* l : sinks)
         if (auto ok = l->begin(input); !ok) return ok.error();
     std::vector<Spike> spikes;
     std::int64_t samples = 0;
-    Every while_it_runs;
+    FlushTimer flush_timer;
     for (;;) {
         auto block = force.next();
         if (!block) return block.error();
@@ -60,12 +60,12 @@ Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer
         if (steps == 0) break;
         if (options.spool)
             if (auto ok = options.spool->force(*block, samples); !ok) return ok.error();
-        if (auto ok = skin_block(*block, samples, skin, options.spool, spikes); !ok) return ok.error();
-        for (auto* l : listeners)
+        if (auto ok = run_block(*block, samples, skin, options.spool, spikes); !ok) return ok.error();
+        for (auto* l : sinks)
             if (auto ok = l->block(input, {samples, steps, block->force, block->total, spikes}); !ok) return ok.error();
         samples += static_cast<std::int64_t>(steps);
         const bool stop = !options.keep_on(force.done());
-        if (options.spool && samples > options.spool->step() && (stop || while_it_runs.now()))
+        if (options.spool && samples > options.spool->step() && (stop || flush_timer.is_due()))
             if (auto ok = options.spool->keep(); !ok) return ok.error();
         if (stop) return Error{Code::interrupted, "interrupted"};
     }
@@ -74,7 +74,7 @@ Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer
         if (auto ok = options.spool->ended(samples); !ok) return ok.error();
     spikes.clear();
     if (auto ok = skin.last(spikes); !ok) return ok.error();
-    for (auto* l : listeners)
+    for (auto* l : sinks)
         if (auto ok = l->end(input, samples, spikes); !ok) return ok.error();
     return skin.work();
 }

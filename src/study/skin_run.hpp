@@ -1,5 +1,5 @@
 #pragma once
-// Force through a whole skin to listeners: what respond.hpp is for afferents on channels.
+// Runs force through a whole skin into sinks: the counterpart of afferent_run.hpp, which is for afferents on channels.
 
 #include <functional>
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace corpuscle {
 
-/// What is answered.
+/// The input of a run.
 struct SkinInput {
     std::string name;      ///< of the force: "press"
     std::string sentence;  ///< "a sphere of 5 mm, pressed with ..."
@@ -19,13 +19,13 @@ struct SkinInput {
     const Innervation& skin;
 };
 
-/// What one block gave.
+/// The response to one block of force.
 struct SkinAnswered {
     std::int64_t first = 0;  ///< number of the block's first sample
     std::size_t steps = 0;
     const SiteForce& force;
-    std::span<const double> total;  ///< force of all sites together at each step, N
-    std::span<const Spike> spikes;  ///< in order of time, then unit
+    std::span<const double> total;  ///< total force of all sites at each step, N
+    std::span<const Spike> spikes;  ///< in order of time, then afferent index
 };
 
 class SkinListener {
@@ -33,32 +33,32 @@ public:
     virtual ~SkinListener() = default;
     virtual Result<void> begin(const SkinInput&) { return {}; }
     virtual Result<void> block(const SkinInput&, const SkinAnswered&) { return {}; }
-    /// `last`: spikes still on their way at the end of the force.
+    /// `last`: spikes that are still under conduction at the end of the force.
     virtual Result<void> end(const SkinInput&, std::int64_t /*samples*/, std::span<const Spike> /*last*/) { return {}; }
 };
 
 /// Force at the sites, block after block.
 class SkinForce {
 public:
-    /// What one block is; it stays until the next.
+    /// Valid until the next block.
     struct Block {
         SiteForce force;
-        std::span<const double> total;  ///< of all sites together, N; as long as the block
+        std::span<const double> total;  ///< of all sites together, N; one value for each step of the block
     };
     virtual ~SkinForce() = default;
-    /// No samples: the end.
+    /// A block without samples is the end.
     virtual Result<Block> next() = 0;
-    virtual double done() const = 0;  ///< 0 to 1
+    virtual double done() const = 0;  ///< completed fraction, 0 to 1
 };
 
 /// One channel of force, pressed onto the skin.
 std::unique_ptr<SkinForce> pressed_force(Source&, Contact&);
-/// A channel a site; `sites`: of each channel.
+/// One channel for each site; `sites`: the site of each channel.
 std::unique_ptr<SkinForce> site_force(Source&, std::vector<std::uint32_t> sites, std::size_t all_sites);
-/// Which site each channel of a recording is: by name, or where there are as many of both, in order.
+/// The site of each channel of a recording: by name, or by order if there are as many channels as sites.
 Result<std::vector<std::uint32_t>> sites_of(const SkinPlan&, const Source&);
 
-/// Who answers: one skin, or shares of it in several processes.
+/// Simulates a skin, in one process or divided among several.
 class SkinAnswerer {
 public:
     virtual ~SkinAnswerer() = default;
@@ -66,33 +66,33 @@ public:
     virtual Result<void> last(std::vector<Spike>&) = 0;
     virtual SkinWork work() const = 0;
 };
-/// All of it in this process.
+/// Simulates the complete skin in this process.
 std::unique_ptr<SkinAnswerer> alone_answerer(Skin&, Pool&);
 
-/// A run that can be stopped and gone on with: what was answered so far, to be told again, and where to go on.
+/// A record of a run that can be stopped and resumed: the spikes so far, to be replayed, and the sample at which to continue.
 class SkinSpool {
 public:
     virtual ~SkinSpool() = default;
-    virtual std::int64_t step() const = 0;  ///< answered before this run
-    /// The force of the next block, answered before or not; refuses one that is not what it was before.
+    virtual std::int64_t step() const = 0;  ///< samples simulated before this run
+    /// Takes the force of the next block. If the block was simulated before, returns an error unless its force is the same.
     virtual Result<void> force(const SkinForce::Block&, std::int64_t first) = 0;
-    /// Of those, the spikes of the next block.
+    /// Replays the spikes of the next block that was simulated before.
     virtual Result<void> told(std::int64_t end, std::vector<Spike>&) = 0;
-    /// A block answered now.
+    /// Appends the spikes of a newly simulated block.
     virtual Result<void> answered(std::span<const Spike>) = 0;
-    /// Nothing is lost of what was answered so far.
+    /// Makes everything so far durable.
     virtual Result<void> keep() = 0;
-    /// The force had so many samples.
+    /// The force had this many samples.
     virtual Result<void> ended(std::int64_t samples) = 0;
 };
 
 struct SkinRunOptions {
-    /// Called once a block with the share done, 0 to 1; false stops the run.
+    /// Called once a block with the completed fraction, 0 to 1; false stops the run.
     std::function<bool(double)> keep_on = [](double) { return true; };
     SkinSpool* spool = nullptr;
 };
 
-/// Runs a force through a skin. Stopped by keep_on, it is an error of code `interrupted`.
+/// Runs a force through a skin. A run that is stopped by the callback returns an error of code `interrupted`.
 Result<SkinWork> run_skin(SkinForce&, const SkinInput&, SkinAnswerer&, std::span<SkinListener* const>, const SkinRunOptions&);
 
 }  // namespace corpuscle

@@ -14,38 +14,37 @@ Result<void> SkinSilence::begin(const SkinInput& input) {
     return {};
 }
 
-/// The sites with force, and how much each has at most.
-void SkinSilence::find_peaks(const SkinAnswered& answered) {
+/// Finds the sites with force, and the largest force of each.
+void SkinSilence::find_peaks(const SkinAnswered& block) {
     touched_.clear();
     const auto add = [&](std::uint32_t site) {
-        const double* force = answered.force.of + site * answered.force.stride;
-        const double most = *std::max_element(force, force + answered.steps);
-        if (most > 0) peak_[site] = most, touched_.push_back(site);
+        const double* force = block.force.of + site * block.force.stride;
+        const double max = *std::max_element(force, force + block.steps);
+        if (max > 0) peak_[site] = max, touched_.push_back(site);
     };
-    for (std::uint32_t s = 0; answered.force.all && s < peak_.size(); ++s) add(s);
-    for (const auto s : answered.force.touched)
-        if (!answered.force.all) add(s);
+    for (std::uint32_t s = 0; block.force.all && s < peak_.size(); ++s) add(s);
+    for (const auto s : block.force.touched)
+        if (!block.force.all) add(s);
 }
 
-double SkinSilence::most_felt(std::size_t of) {
-    const auto& fields = skin_->fields[of];
-    double most = 0;
+double SkinSilence::most_felt(std::size_t class_index) {
+    const auto& fields = skin_->fields[class_index];
+    double max = 0;
     for (const auto s : touched_)
         for (auto k = fields.begin[s]; k < fields.begin[s + 1]; ++k)
-            most = std::max(most, of_unit_[fields.unit[k]] += fields.weight[k] * peak_[s]);
+            max = std::max(max, of_unit_[fields.unit[k]] += fields.weight[k] * peak_[s]);
     for (const auto s : touched_)
         for (auto k = fields.begin[s]; k < fields.begin[s + 1]; ++k) of_unit_[fields.unit[k]] = 0;
-    return most;
+    return max;
 }
 
-Result<void> SkinSilence::block(const SkinInput&, const SkinAnswered& answered) {
-    for (const auto& s : answered.spikes) fired_[skin_->units[s.unit].of] = 1;
-    if (std::find(fired_.begin(), fired_.end(), 0) == fired_.end() || answered.steps == 0) return {};
-    const auto room = most_silent_samples - std::min(most_silent_samples, course_.size());
-    course_.insert(course_.end(), answered.total.begin(),
-                   answered.total.begin() + static_cast<std::ptrdiff_t>(std::min(room, answered.steps)));
-    largest_ = std::max(largest_, *std::max_element(answered.total.begin(), answered.total.end()));
-    find_peaks(answered);
+Result<void> SkinSilence::block(const SkinInput&, const SkinAnswered& block) {
+    for (const auto& s : block.spikes) fired_[skin_->units[s.unit].of] = 1;
+    if (std::find(fired_.begin(), fired_.end(), 0) == fired_.end() || block.steps == 0) return {};
+    const auto remaining = most_silent_samples - std::min(most_silent_samples, course_.size());
+    course_.insert(course_.end(), block.total.begin(), block.total.begin() + static_cast<std::ptrdiff_t>(std::min(remaining, block.steps)));
+    largest_ = std::max(largest_, *std::max_element(block.total.begin(), block.total.end()));
+    find_peaks(block);
     for (std::size_t c = 0; c < fired_.size(); ++c)
         if (!fired_[c]) felt_[c] = std::max(felt_[c], most_felt(c));
     return {};
@@ -62,9 +61,9 @@ std::vector<SilentClass> SkinSilence::found(Method method, bool sampled) const {
         if (fired_[c] || skin_->first[c + 1] == skin_->first[c]) continue;
         out.push_back({c, felt_[c], {}});
         if (!(felt_[c] > 0 && largest_ > 0)) continue;
-        auto felt = course_;  // as the unit that felt most felt it
-        for (auto& f : felt) f *= felt_[c] / largest_;
-        out.back().factor = factor_to_fire(skin_->plan.classes[c].afferent, {dt_, method, sampled, 0, 0}, felt);
+        auto force_on_afferent = course_;  // force on the afferent with the largest force
+        for (auto& f : force_on_afferent) f *= felt_[c] / largest_;
+        out.back().factor = factor_to_fire(skin_->plan.classes[c].afferent, {dt_, method, sampled, 0, 0}, force_on_afferent);
     }
     return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Spikes of a skin as text, written as they come.
+// Spikes of a skin as text, written block by block.
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 
 namespace corpuscle {
 
-/// spikes.csv: afferent,channel,time_s, as of afferents on channels; the channel is the region. In order of time; to the nanosecond.
+/// spikes.csv: afferent,channel,time_s, as for afferents on channels; the channel is the region. In order of time, to the nanosecond.
 class SkinSpikesFile final : public SkinWrittenFile {
     OutputFile file_;
-    std::vector<std::string> names_;  // "sa1#17,palm" of each unit
+    std::vector<std::string> names_;  // "sa1#17,palm" of each afferent
     fmt::memory_buffer text_;
 
     Result<void> put(const Clock&, std::span<const Spike>);

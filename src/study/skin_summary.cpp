@@ -7,16 +7,16 @@
 namespace corpuscle {
 namespace {
 
-/// Of each unit the site that it feels most; the first of equals.
-std::vector<std::uint32_t> felt_most(const Innervation& skin) {
+/// For each afferent the site with its largest weight; the first of equals.
+std::vector<std::uint32_t> main_sites(const Innervation& skin) {
     std::vector<std::uint32_t> site(skin.units.size());
     std::vector<double> weight(skin.units.size());
     for (std::size_t c = 0; c < skin.fields.size(); ++c) {
         const auto& field = skin.fields[c];
         for (std::uint32_t s = 0; s + 1 < field.begin.size(); ++s)
             for (std::size_t k = field.begin[s]; k < field.begin[s + 1]; ++k)
-                if (const auto unit = skin.first[c] + field.unit[k]; field.weight[k] > weight[unit])
-                    weight[unit] = field.weight[k], site[unit] = s;
+                if (const auto afferent_index = skin.first[c] + field.unit[k]; field.weight[k] > weight[afferent_index])
+                    weight[afferent_index] = field.weight[k], site[afferent_index] = s;
     }
     return site;
 }
@@ -33,7 +33,7 @@ double median_of(std::vector<double>& values) {
 Result<void> SkinSummary::begin(const SkinInput& input) {
     skin_ = &input.skin;
     name_ = input.name, sentence_ = input.sentence, clock_ = since_start_ = input.clock, phases_ = input.phases;
-    since_start_.t0 = 0;  // the digits of a time since 1970 would be lost to its seconds
+    since_start_.t0 = 0;  // times since 1970 would lose precision
     const auto units = skin_->units.size();
     if (phases_.size() * units > most_phase_counts) phases_.clear();
     samples_ = all_spikes_ = 0, least_ = greatest_ = 0, touched_from_ = no_value;
@@ -42,63 +42,63 @@ Result<void> SkinSummary::begin(const SkinInput& input) {
     phase_counts_.assign(phases_.size() * units, 0);
     site_touched_.assign((phases_.size() + 1) * skin_->plan.sites.size(), 0);
     while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * skin_->plan.sites.regions.size(), 0);
-    felt_most_ = felt_most(*skin_);
+    felt_most_ = main_sites(*skin_);
     return {};
 }
 
-/// Phases do not overlap; behind the last: none.
+/// Phases do not overlap. Returns the number of phases if none contains t.
 std::size_t SkinSummary::phase_of(double t) const {
     const auto found = std::find_if(phases_.begin(), phases_.end(), [t](const Phase& p) { return t >= p.from && t < p.to; });
     return static_cast<std::size_t>(found - phases_.begin());
 }
 
-/// Whether the site that a unit feels most has force at a sample of the block.
-bool SkinSummary::touches(const SkinAnswered& answered, std::size_t unit, std::int64_t sample) const {
-    const auto site = felt_most_[unit];
-    const auto& [of, stride, touched, all] = answered.force;
+/// True if the site of an afferent's largest weight has force at this sample of the block.
+bool SkinSummary::touches(const SkinAnswered& block, std::size_t afferent_index, std::int64_t sample) const {
+    const auto site = felt_most_[afferent_index];
+    const auto& [of, stride, touched, all] = block.force;
     if (!all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
-    return of[site * stride + static_cast<std::size_t>(sample - answered.first)] > 0;
+    return of[site * stride + static_cast<std::size_t>(sample - block.first)] > 0;
 }
 
-/// `answered`: the block in which they arrive; none: after the last.
-void SkinSummary::add(std::span<const Spike> spikes, const SkinAnswered* answered) {
+/// `block`: the block in which the spikes arrive; null after the last block.
+void SkinSummary::add(std::span<const Spike> spikes, const SkinAnswered* block) {
     for (const auto& s : spikes) {
         const double t = since_start_.time(s.step, s.offset);
         const auto phase = phase_of(t);
         if (counts_[s.unit]++ == 0) first_times_[s.unit] = t;
         shortest_[s.unit] = std::min(shortest_[s.unit], t - std::exchange(last_times_[s.unit], t));
         if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.unit];
-        if (answered && touches(*answered, s.unit, s.step)) ++while_touched_[group(skin_->units[s.unit], phase)];
+        if (block && touches(*block, s.unit, s.step)) ++while_touched_[group(skin_->units[s.unit], phase)];
     }
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
 
-/// Stretches of the block that are in one phase; in each, how many samples of each site have force.
-void SkinSummary::add_touch(const SkinAnswered& answered) {
+/// Splits the block into parts that are in one phase and counts the samples with force at each site.
+void SkinSummary::add_touch(const SkinAnswered& block) {
     const auto sites = skin_->plan.sites.size();
-    const auto time = [&](std::size_t k) { return since_start_.time(answered.first + static_cast<std::int64_t>(k)); };
-    for (std::size_t from = 0, to = 0; from < answered.steps; from = to) {
+    const auto time = [&](std::size_t k) { return since_start_.time(block.first + static_cast<std::int64_t>(k)); };
+    for (std::size_t from = 0, to = 0; from < block.steps; from = to) {
         const auto phase = phase_of(time(from));
-        while (to < answered.steps && phase_of(time(to)) == phase) ++to;
+        while (to < block.steps && phase_of(time(to)) == phase) ++to;
         const auto count = [&](std::size_t s) {
-            const double* force = answered.force.of + s * answered.force.stride;
+            const double* force = block.force.of + s * block.force.stride;
             site_touched_[phase * sites + s] += std::count_if(force + from, force + to, [](double f) { return f > 0; });
         };
-        for (std::size_t s = 0; answered.force.all && s < sites; ++s) count(s);
-        for (const auto s : answered.force.touched)
-            if (!answered.force.all) count(s);
+        for (std::size_t s = 0; block.force.all && s < sites; ++s) count(s);
+        for (const auto s : block.force.touched)
+            if (!block.force.all) count(s);
     }
 }
 
-Result<void> SkinSummary::block(const SkinInput&, const SkinAnswered& answered) {
-    for (std::size_t k = 0; k < answered.steps; ++k) {
-        const double f = answered.total[k];
-        if (answered.first == 0 && k == 0) least_ = greatest_ = f;
+Result<void> SkinSummary::block(const SkinInput&, const SkinAnswered& block) {
+    for (std::size_t k = 0; k < block.steps; ++k) {
+        const double f = block.total[k];
+        if (block.first == 0 && k == 0) least_ = greatest_ = f;
         least_ = std::min(least_, f), greatest_ = std::max(greatest_, f);
-        if (f > 0 && std::isnan(touched_from_)) touched_from_ = since_start_.time(answered.first + static_cast<std::int64_t>(k));
+        if (f > 0 && std::isnan(touched_from_)) touched_from_ = since_start_.time(block.first + static_cast<std::int64_t>(k));
     }
-    add_touch(answered);
-    add(answered.spikes, &answered);
+    add_touch(block);
+    add(block.spikes, &block);
     return {};
 }
 
@@ -108,7 +108,7 @@ std::size_t SkinSummary::group(const SkinUnit& u, std::size_t phase) const {
     return (phase * skin_->plan.classes.size() + u.of) * skin_->plan.sites.regions.size() + u.region;
 }
 
-/// Spikes of a class that arrived while their units were touched; in a region or phase, or in all.
+/// Spikes of a class that arrived while their afferents were touched; in one region and phase, or in all.
 std::int64_t SkinSummary::spikes_while_touched(const SkinRow& r) const {
     std::int64_t sum = 0;
     for (std::uint32_t region = 0; region < skin_->plan.sites.regions.size(); ++region)
@@ -118,40 +118,40 @@ std::int64_t SkinSummary::spikes_while_touched(const SkinRow& r) const {
     return sum;
 }
 
-/// In a phase, or in all.
-std::int64_t SkinSummary::touched_samples(std::size_t unit, std::size_t phase) const {
+/// In one phase, or in all.
+std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_t phase) const {
     const auto sites = skin_->plan.sites.size();
-    if (phase != SkinRow::all) return site_touched_[phase * sites + felt_most_[unit]];
+    if (phase != SkinRow::all) return site_touched_[phase * sites + felt_most_[afferent_index]];
     std::int64_t sum = 0;
-    for (std::size_t p = 0; p <= phases_.size(); ++p) sum += site_touched_[p * sites + felt_most_[unit]];
+    for (std::size_t p = 0; p <= phases_.size(); ++p) sum += site_touched_[p * sites + felt_most_[afferent_index]];
     return sum;
 }
 
-SkinRow SkinSummary::row(std::size_t of, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const {
-    SkinRow r{.of = of, .region = region, .phase = phase, .units = static_cast<std::int64_t>(units.size())};
+SkinRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const {
+    SkinRow r{.of = class_index, .region = region, .phase = phase, .units = static_cast<std::int64_t>(units.size())};
     r.seconds = phase == SkinRow::all ? seconds() : std::max(std::min(phases_[phase].to, seconds()) - phases_[phase].from, 0.0);
-    std::int64_t most = 0, touched = 0;
+    std::int64_t max_spikes = 0, touched = 0;
     std::vector<double> firsts;
     for (const auto u : units) {
         const std::int64_t spikes = phase == SkinRow::all ? counts_[u] : phase_counts_[phase * counts_.size() + u];
         const auto samples = touched_samples(u, phase);
         r.spikes += spikes, r.active += spikes > 0, r.touched += samples > 0;
-        most = std::max(most, spikes), touched += samples;
+        max_spikes = std::max(max_spikes, spikes), touched += samples;
         if (phase == SkinRow::all && spikes > 0) firsts.push_back(first_times_[u]);
     }
-    if (most == 1)
+    if (max_spikes == 1)
         r.busiest = no_value;
     else if (r.seconds > 0)
-        r.busiest = static_cast<double>(most) / r.seconds;
+        r.busiest = static_cast<double>(max_spikes) / r.seconds;
     if (touched > 0 && r.spikes != 1) r.touched_rate = static_cast<double>(spikes_while_touched(r)) / since_start_.time(touched);
     if (!firsts.empty()) r.first = *std::min_element(firsts.begin(), firsts.end());
     r.median_first = median_of(firsts);
     return r;
 }
 
-void SkinSummary::add_rows(std::size_t of, std::size_t region, const std::vector<std::uint32_t>& units) {
-    rows_.push_back(row(of, region, SkinRow::all, units));
-    for (std::size_t p = 0; p < phases_.size(); ++p) rows_.push_back(row(of, region, p, units));
+void SkinSummary::add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& units) {
+    rows_.push_back(row(class_index, region, SkinRow::all, units));
+    for (std::size_t p = 0; p < phases_.size(); ++p) rows_.push_back(row(class_index, region, p, units));
 }
 
 Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
@@ -173,21 +173,21 @@ Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<
     return {};
 }
 
-std::pair<std::size_t, double> SkinSummary::faster_than(std::size_t of, double rate) const {
-    const auto from = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[of]),
-               to = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[of + 1]);
+std::pair<std::size_t, double> SkinSummary::faster_than(std::size_t class_index, double rate) const {
+    const auto from = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[class_index]),
+               to = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[class_index + 1]);
     const auto units = std::count_if(from, to, [&](double interval) { return interval < 1 / rate; });
     return {static_cast<std::size_t>(units), from == to ? 0 : 1 / *std::min_element(from, to)};
 }
 
-std::vector<SkinSummary::First> SkinSummary::first_spikes(std::size_t most) const {
+std::vector<SkinSummary::First> SkinSummary::first_spikes(std::size_t count) const {
     std::vector<First> all;
     for (std::size_t u = 0; u < first_times_.size(); ++u)
         if (!std::isnan(first_times_[u])) all.push_back({u, first_times_[u]});
-    const auto some = all.begin() + static_cast<std::ptrdiff_t>(std::min(most, all.size()));
-    std::partial_sort(all.begin(), some, all.end(),
+    const auto end_of_first = all.begin() + static_cast<std::ptrdiff_t>(std::min(count, all.size()));
+    std::partial_sort(all.begin(), end_of_first, all.end(),
                       [](const First& a, const First& b) { return std::pair(a.time, a.unit) < std::pair(b.time, b.unit); });
-    all.erase(some, all.end());
+    all.erase(end_of_first, all.end());
     for (auto& f : all) f.time += clock_.t0;
     return all;
 }

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-std::string unit_row(const SkinSummary& summary, std::size_t u) {
+std::string afferent_row(const SkinSummary& summary, std::size_t u) {
     const auto& skin = summary.skin();
     const auto& unit = skin.units[u];
     const double first = summary.first_times()[u], seconds = summary.seconds();
@@ -25,7 +25,7 @@ std::string unit_row(const SkinSummary& summary, std::size_t u) {
 Result<void> SkinUnitsFile::end(const SkinInput&, std::int64_t, std::span<const Spike>) {
     if (auto ok = file_.write("unit,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n"); !ok) return ok;
     for (std::size_t u = 0; u < summary_.skin().units.size(); ++u)
-        if (auto ok = file_.write(unit_row(summary_, u)); !ok) return ok;
+        if (auto ok = file_.write(afferent_row(summary_, u)); !ok) return ok;
     return {};
 }
 

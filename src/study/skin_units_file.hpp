@@ -1,13 +1,13 @@
 #pragma once
-// Every unit of a skin, where it is and what it said: a row a unit.
+// Position and response of every afferent of a skin, one row each.
 
 #include "study/skin_summary.hpp"
 #include "study/skin_written.hpp"
 
 namespace corpuscle {
 
-/// units.csv: unit,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz. `unit` is the number that spikes have, the
-/// rate is over the whole force. Of what the summary counted, which stands before it among the listeners.
+/// units.csv: unit,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz. `unit` is the index that spikes have; the
+/// rate is over the complete force. Takes the counts from the summary, which must precede it among the sinks.
 class SkinUnitsFile final : public SkinWrittenFile {
     OutputFile file_;
     const SkinSummary& summary_;

@@ -1,12 +1,12 @@
 #pragma once
-// A skin's answer as files, written as it comes.
+// Output files of a skin run, written block by block.
 
 #include "io/output.hpp"
 #include "study/skin_run.hpp"
 
 namespace corpuscle {
 
-/// Writes files that are put in their places at the end.
+/// A sink that writes files. The files get their final names in commit().
 class SkinWrittenFile : public SkinListener {
 public:
     virtual std::vector<std::string> paths() const = 0;

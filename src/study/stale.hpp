@@ -1,6 +1,6 @@
 #pragma once
-// What an earlier run has written into a directory, by its summary.json there ("files"). Such a file may come with anybody's data: it is
-// believed of names that this program writes, and of nothing else.
+// The files that an earlier run wrote into a directory, as its summary.json there lists them ("files"). A summary.json may come from
+// anyone, so only names that this program writes are trusted.
 
 #include <string>
 #include <string_view>
@@ -8,16 +8,17 @@
 
 namespace corpuscle {
 
-/// A name that 'respond' writes into a directory: "spikes.csv", "traces-2.csv", "vectors-sa1.csv", any page ("*.html").
+/// True for a name that 'respond' writes into a directory: "spikes.csv", "traces-2.csv", "vectors-sa1.csv", any page ("*.html").
 bool is_output_name(std::string_view name);
 
-/// "summary.json", if it is one of ours, and what it lists, if these are regular files there; pages only if they are ours.
+/// "summary.json", if it is one of ours, and the files that it lists, if they are regular files in that directory. Pages only if this
+/// program wrote them.
 std::vector<std::string> earlier_outputs(const std::string& directory);
 
-/// Removes of these what this run has not written and does not read; gives the names of what was removed.
+/// Removes those that this run neither wrote nor reads; returns the names of the removed files.
 std::vector<std::string> remove_stale(const std::string& directory, const std::vector<std::string>& written);
 
-/// Whether a file that begins so is one of our pages.
+/// True if a file with this beginning is a page of this program.
 bool is_own_page(std::string_view beginning);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The studies that studies.def names. Each has a file in studies/ and in it a namespace of its own, corpuscle::studies::NAME.
+// The studies that studies.def names. Each has a file in studies/ and a namespace of its own in it, corpuscle::studies::NAME.
 
 #include "study/study.hpp"
 
@@ -18,7 +18,7 @@ inline constexpr const Study* all_studies[] = {
 };
 #undef STUDY
 
-/// Of recordings that others made, which lie beside the project and may be absent: no part of "all", asked for by name.
+/// Studies of published recordings, which are kept beside the project and may be absent. Not part of "all"; they run if named.
 namespace studies::eskin_press {
 extern const Study study;
 }

@@ -10,20 +10,21 @@
 namespace corpuscle {
 namespace {
 
-/// How far several are, asked and told by one thread at a time.
-class Together {
+/// Progress and first error of several studies that run on different threads.
+class StudyProgress {
     const StudyOptions& options_;
     std::mutex guard_;
-    std::vector<double> shares_;
+    std::vector<double> fractions_;
     std::optional<Error> error_;
 
 public:
-    Together(const StudyOptions& options, std::size_t count) : options_(options), shares_(count) {}
+    StudyProgress(const StudyOptions& options, std::size_t count) : options_(options), fractions_(count) {}
 
-    bool keep_on(std::size_t which, double share) {
+    bool update(std::size_t which, double fraction) {
         const std::lock_guard lock(guard_);
-        shares_[which] = share;
-        return !error_ && options_.keep_on(std::accumulate(shares_.begin(), shares_.end(), 0.0) / static_cast<double>(shares_.size()));
+        fractions_[which] = fraction;
+        return !error_ &&
+               options_.keep_on(std::accumulate(fractions_.begin(), fractions_.end(), 0.0) / static_cast<double>(fractions_.size()));
     }
     void fail(std::string_view name, Error error) {
         const std::lock_guard lock(guard_);
@@ -38,13 +39,13 @@ public:
 
 Result<std::vector<Outcome>> run_studies(std::span<const Study* const> studies, const StudyOptions& options) {
     std::vector<Outcome> outcomes(studies.size());
-    Together together(options, studies.size());
+    StudyProgress progress(options, studies.size());
     Pool pool;
     pool.each(studies.size(), [&](std::size_t k, unsigned) {
-        auto outcome = studies[k]->run({[&, k](double share) { return together.keep_on(k, share); }, options.recordings});
-        outcome ? void(outcomes[k] = std::move(*outcome)) : together.fail(studies[k]->name, outcome.error());
+        auto outcome = studies[k]->run({[&, k](double fraction) { return progress.update(k, fraction); }, options.recordings});
+        outcome ? void(outcomes[k] = std::move(*outcome)) : progress.fail(studies[k]->name, outcome.error());
     });
-    if (together.error()) return *together.error();
+    if (progress.error()) return *progress.error();
     return outcomes;
 }
 

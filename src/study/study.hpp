@@ -1,5 +1,5 @@
 #pragma once
-// A study makes again what somebody printed, or asks a question of the models, and says what came out beside what was printed.
+// A study reproduces a published result, or asks a question of the models, and lists computed values beside published ones.
 
 #include <functional>
 #include <span>
@@ -16,16 +16,16 @@ namespace corpuscle {
 struct Outcome {
     std::vector<Claim> claims;
     std::vector<Plot> plots;
-    std::vector<std::string> notes;  ///< what was learned, and what is left out
+    std::vector<std::string> notes;  ///< findings, and what is left out
 
-    /// A number made here; what it is held against follows: claim("V_Q", v, "V").printed_as(350.1e-3, "table 17").
-    Claim& claim(std::string what, double made, std::string unit = {}) {
-        return claims.emplace_back(Claim{.what = std::move(what), .made = made, .unit = std::move(unit)});
+    /// A computed number. The published value follows: claim("V_Q", v, "V").published_as(350.1e-3, "table 17").
+    Claim& claim(std::string label, double computed, std::string unit = {}) {
+        return claims.emplace_back(Claim{.what = std::move(label), .made = computed, .unit = std::move(unit)});
     }
-    /// Whether something is as it was said to be.
-    Claim& finds(std::string what, bool is_so, std::string source) {
+    /// A statement that is true or false.
+    Claim& finds(std::string label, bool is_true, std::string source) {
         return claims.emplace_back(
-            Claim{.what = std::move(what), .made = is_so ? 1.0 : 0.0, .low = 1, .source = std::move(source), .is_truth = true});
+            Claim{.what = std::move(label), .made = is_true ? 1.0 : 0.0, .low = 1, .source = std::move(source), .is_truth = true});
     }
     Plot& plot(std::string title, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false) {
         return plots.emplace_back(Plot{std::move(title), std::move(x_label), std::move(y_label), {}, log_x, log_y});
@@ -34,21 +34,21 @@ struct Outcome {
 };
 
 struct StudyOptions {
-    /// Called with the share done, 0 to 1; false stops the study.
+    /// Called with the completed fraction, 0 to 1; false stops the study.
     std::function<bool(double)> keep_on = [](double) { return true; };
-    std::string recordings = {};  ///< the folder in which others' recordings lie, for studies of them
+    std::string recordings = {};  ///< the folder of published recordings, for studies of them
 
-    /// The same, as an error that a study hands on.
-    Result<void> at(double share) const { return keep_on(share) ? Result<void>() : Error{Code::interrupted, "interrupted"}; }
+    /// The same, as an error that a study returns.
+    Result<void> at(double fraction) const { return keep_on(fraction) ? Result<void>() : Error{Code::interrupted, "interrupted"}; }
 };
 
 struct Study {
     std::string_view name, title;
-    std::string_view question;  ///< what was printed, in words, or what is asked; and where it comes from
+    std::string_view question;  ///< the published statement or the question, and its source
     Result<Outcome> (*work)(const StudyOptions&);
-    std::string_view recording = {};  ///< the folder that it needs within StudyOptions::recordings; "": none
+    std::string_view recording = {};  ///< the folder it needs within StudyOptions::recordings; "": none
 
-    /// Works, unless it is stopped before or after.
+    /// Runs the study, unless it is stopped before or after.
     Result<Outcome> run(const StudyOptions& options) const {
         if (auto ok = options.at(0); !ok) return ok.error();
         auto outcome = work(options);
@@ -58,7 +58,7 @@ struct Study {
     }
 };
 
-/// All of them, several at once. The first error ends them all.
+/// Runs all of them, several at once. The first error ends the run.
 Result<std::vector<Outcome>> run_studies(std::span<const Study* const>, const StudyOptions&);
 
 }  // namespace corpuscle

@@ -50,15 +50,15 @@ std::string cell(std::string_view text) {
     return out;
 }
 
-/// How many claims of a kind came out in each way.
-struct Count {
-    int good = 0, bad = 0;
-    void add(const Claim& c) { c.needs_reason() ? ++bad : ++good; }
+/// Number of claims of a kind that agree, and that do not.
+struct VerdictCount {
+    int agreeing = 0, deviating = 0;
+    void add(const Claim& c) { c.needs_reason() ? ++deviating : ++agreeing; }
 };
 
 void put_table(std::string& text, const Outcome& outcome) {
     if (outcome.claims.empty()) return;
-    text += "| | made | printed | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
+    text += "| | computed | published | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
     for (const auto& c : outcome.claims)
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.what), quantity_of(c.made, c), printed_of(c), deviation_of(c),
                             allowed_of(c), c.verdict(), cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
@@ -66,7 +66,7 @@ void put_table(std::string& text, const Outcome& outcome) {
 }
 
 void put_deviations(std::string& text, std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
-    text += "| study | what | made | printed | deviation | allowed | reason, where it is off |\n|---|---|---|---|---|---|---|\n";
+    text += "| study | what | computed | published | deviation | allowed | reason, if it deviates |\n|---|---|---|---|---|---|---|\n";
     for (std::size_t k = 0; k < studies.size(); ++k)
         for (const auto& c : outcomes[k].claims)
             if (belongs_on_top(c))
@@ -80,14 +80,14 @@ void put_deviations(std::string& text, std::span<const Study* const> studies, st
 bool belongs_on_top(const Claim& c) { return c.needs_reason() || (!std::isnan(c.printed) && !c.follows); }
 
 std::string tally_of(std::span<const Outcome> outcomes) {
-    Count printed, follow, other;
+    VerdictCount printed, follow, other;
     for (const auto& outcome : outcomes)
         for (const auto& c : outcome.claims)
             if (*c.verdict() != 0) (c.judged() ? other : c.follows ? follow : printed).add(c);
     return fmt::format(
-        "{} printed numbers agree within a tenth, {} differ by more. {} numbers agree with what follows from the printed ones (in "
-        "brackets: by an equation, by words, by the thesis's model), {} differ. {} claims in words hold, {} do not.",
-        printed.good, printed.bad, follow.good, follow.bad, other.good, other.bad);
+        "{} published numbers agree within a tenth, {} differ by more. {} numbers agree with values derived from published ones (in "
+        "brackets: by an equation, a sentence or the thesis's model), {} differ. {} claims in words hold, {} do not.",
+        printed.agreeing, printed.deviating, follow.agreeing, follow.deviating, other.agreeing, other.deviating);
 }
 
 Json document_of(const Study& study, const Outcome& outcome) {
@@ -99,19 +99,18 @@ Json document_of(const Study& study, const Outcome& outcome) {
 }
 
 std::string markdown_of(std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
-    const bool recorded = !studies.empty() && !studies.front()->recording.empty();
+    const bool from_recording = !studies.empty() && !studies.front()->recording.empty();
     std::string text = fmt::format(
-        "# {}, made again\n\nMade by `corpuscle study {}` (`make reproduction` writes this page{}); no number on it is typed in but the "
-        "printed ones. {} Whatever is off says why, if that is known.\n\n## Printed numbers, and whatever is off\n\n",
-        recorded ? "What others recorded" : "Every figure and table", recorded ? studies.front()->name : "all",
-        recorded ? " where the recording is at hand: CORPUSCLE_DATA" : ", and with its pictures `out/reproduction.html`",
-        tally_of(outcomes));
+        "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}); its only typed numbers are the "
+        "published ones. {} Deviations have a reason if one is known.\n\n## Published numbers, and deviations\n\n",
+        from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",
+        from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures", tally_of(outcomes));
     put_deviations(text, studies, outcomes);
     for (std::size_t k = 0; k < studies.size(); ++k) {
         text += fmt::format("\n## {}\n\n**{}.** {}\n\n", studies[k]->name, studies[k]->title, studies[k]->question);
         put_table(text, outcomes[k]);
         for (const auto& p : outcomes[k].plots)
-            text += fmt::format("- Picture: {}.{}\n", p.title, p.printed.empty() ? "" : fmt::format(" Printed: {}", p.printed));
+            text += fmt::format("- Picture: {}.{}\n", p.title, p.printed.empty() ? "" : fmt::format(" Published: {}", p.printed));
         for (const auto& n : outcomes[k].notes) text += fmt::format("- {}\n", n);
     }
     return text;

@@ -1,5 +1,5 @@
 #pragma once
-// What studies made, for programs and for people.
+// The results of studies, for programs and for readers.
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -8,15 +8,15 @@
 
 namespace corpuscle {
 
-/// Everything that a study made, as `--json` gives it.
+/// The complete result of a study, as `--json` prints it.
 nlohmann::ordered_json document_of(const Study&, const Outcome&);
 
-/// How many claims came out in each way, in words.
+/// The number of claims with each verdict, in words.
 std::string tally_of(std::span<const Outcome>);
-/// Whether a claim is told before all studies, too: a printed number, or one that is off.
+/// True for a claim that is listed at the top as well: it has a published number, or it deviates.
 bool belongs_on_top(const Claim&);
 
-/// All of them as one Markdown text: first what belongs on top, then study by study.
+/// All results as one Markdown text: the top claims first, then study by study.
 std::string markdown_of(std::span<const Study* const>, std::span<const Outcome>);
 
 }  // namespace corpuscle

@@ -14,10 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A key that the object does not have yet: with 100,000 channels it is not looked for.
+/// Adds a key that the object does not have yet. Skips the search for it, which matters with 100,000 channels.
 void add(Json& object, std::string key, Json value) { object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)}); }
 
-/// Where the sensors sit, by channel; empty if nobody said.
+/// Positions of the sensors, by channel; empty if unknown.
 Json position_document(const Summary::InputFacts& input) {
     Json out = Json::object();
     for (std::size_t c = 0; c < input.sensors.size(); ++c)
@@ -27,7 +27,7 @@ Json position_document(const Summary::InputFacts& input) {
 
 Json quality_document(const Summary::InputFacts& input) {
     Json channels = Json::object();
-    const auto& findings = input.quality.findings;  // channel by channel
+    const auto& findings = input.quality.findings;  // in order of channels
     for (std::size_t k = 0; k < findings.size();) {
         Json one = Json::object();
         const auto channel = findings[k].channel;
@@ -58,18 +58,18 @@ Json input_document(const Summary::InputFacts& input) {
             {"quality", quality_document(input)}};
 }
 
-Json over_document(const OverCopies& over) {
-    return {{"mean", json_number(over.mean())},
-            {"standard_deviation", json_number(over.deviation())},
-            {"least", json_number(over.least)},
-            {"greatest", json_number(over.greatest)},
-            {"copies", over.copies}};
+Json copies_document(const OverCopies& o) {
+    return {{"mean", json_number(o.mean())},
+            {"standard_deviation", json_number(o.deviation())},
+            {"least", json_number(o.least)},
+            {"greatest", json_number(o.greatest)},
+            {"copies", o.copies}};
 }
 
 Json row_document(const RateRow& row) {
     Json out = {{"afferent", row.afferent}, {"channel", row.channel}, {"phase", row.phase}};
     for (std::size_t m = 0; m < std::size(measures); ++m)
-        out[key_of(measures[m])] = !row.over.empty()           ? over_document(row.over[m])
+        out[key_of(measures[m])] = !row.over.empty()           ? copies_document(row.over[m])
                                    : measures[m].decimals == 0 ? Json(static_cast<std::int64_t>(row.values[m]))
                                                                : json_number(row.values[m]);
     return out;
@@ -82,9 +82,9 @@ void OverCopies::add(double x) {
     if (copies++ == 0) least = greatest = x;
     least = std::min(least, x), greatest = std::max(greatest, x);
     sum_ += x;
-    const double off = x - middle_;
-    middle_ += off / static_cast<double>(copies);
-    squares_ += off * (x - middle_);
+    const double distance = x - middle_;
+    middle_ += distance / static_cast<double>(copies);
+    squares_ += distance * (x - middle_);
 }
 
 std::string key_of(const Measure& m) { return m.unit.empty() ? std::string(m.name) : fmt::format("{}_{}", m.name, m.unit); }
@@ -119,9 +119,7 @@ Json document_of(std::span<const Spread> all) {
     return spreads;
 }
 
-Json document_of(const Copies& population) {
-    return {{"of_each_afferent", population.copies}, {"spreads", document_of(population.spreads)}};
-}
+Json document_of(const Copies& copies) { return {{"of_each_afferent", copies.copies}, {"spreads", document_of(copies.spreads)}}; }
 
 std::string heading(const Measure& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
@@ -132,7 +130,7 @@ Result<void> Summary::begin(const Input& input) {
     facts.sensors = input.source.channels();
     inputs_.push_back(std::move(facts));
     since_start_ = input.source.clock();
-    since_start_.t0 = 0;  // the digits of a time since 1970 would be lost to its seconds
+    since_start_.t0 = 0;  // times since 1970 would lose precision
     std::vector<Stretch> stretches;
     for (const auto& p : inputs_.back().phases) stretches.push_back({p.from, p.to, input.source.cycle()});
     if (stretches.empty()) stretches.push_back({.cycle = input.source.cycle()});
@@ -140,13 +138,13 @@ Result<void> Summary::begin(const Input& input) {
     return comparisons_.begin(input);
 }
 
-Result<void> Summary::block(const Input& input, const Answered& answered) {
+Result<void> Summary::block(const Input& input, const Answered& block) {
     auto& facts = inputs_.back();
-    for (const auto& channel : answered.force.force)
-        for (std::size_t k = 0; k < answered.force.count; ++k)
+    for (const auto& channel : block.force.force)
+        for (std::size_t k = 0; k < block.force.count; ++k)
             facts.least = std::min(facts.least, channel[k]), facts.greatest = std::max(facts.greatest, channel[k]);
-    for (const auto& s : answered.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
-    return comparisons_.block(input, answered);
+    for (const auto& s : block.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
+    return comparisons_.block(input, block);
 }
 
 Result<void> Summary::end(const Input& input, std::int64_t samples) {
@@ -162,14 +160,14 @@ Result<void> Summary::end(const Input& input, std::int64_t samples) {
     return comparisons_.end(input, samples);
 }
 
-/// Of the afferents from ... to - 1, which are one, or the copies of one.
+/// A row for the afferents from ... to - 1, which are one afferent or the copies of one.
 RateRow Summary::row(const Input& input, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const {
     const auto& facts = inputs_.back();
     const std::size_t first = channel * input.afferents.size();
     RateRow row{base_name(input.afferents[from]), facts.channels[channel], facts.phases.empty() ? "all" : facts.phases[phase].name,
                 tally_.values(first + from, phase)};
     if (input.afferents[from].copy == 0) {
-        if (row.values[place_of_measure<SpikeCount>] == 1) row.values[place_of_measure<MeanRate>] = no_value;  // one spike is no rate
+        if (row.values[place_of_measure<SpikeCount>] == 1) row.values[place_of_measure<MeanRate>] = no_value;  // one spike has no rate
         return row;
     }
     row.over.resize(std::size(measures));
@@ -182,13 +180,13 @@ RateRow Summary::row(const Input& input, std::size_t channel, std::size_t from, 
 }
 
 std::vector<std::size_t> Summary::columns() const {
-    std::vector<std::size_t> told;
+    std::vector<std::size_t> columns;
     for (std::size_t m = 0; m < std::size(measures); ++m)
-        if (std::any_of(rows_.begin(), rows_.end(), [m](const RateRow& r) { return std::isfinite(r.values[m]); })) told.push_back(m);
-    return told;
+        if (std::any_of(rows_.begin(), rows_.end(), [m](const RateRow& r) { return std::isfinite(r.values[m]); })) columns.push_back(m);
+    return columns;
 }
 
-Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work, const RespondOptions& options, std::uint64_t seed,
+Json Summary::document(std::span<const AfferentPlan> afferents, const Work& stats, const RespondOptions& options, std::uint64_t seed,
                        const std::vector<std::string>& warnings) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
     out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"},
@@ -203,15 +201,15 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& work
     out["rates"] = Json::array();
     for (const auto& r : rows_) out["rates"].push_back(row_document(r));
     if (!comparisons_.rows().empty()) out["comparisons"] = comparisons_.document();
-    out["work"] = {{"samples", work.samples}, {"afferent_steps", work.afferent_steps},
-                   {"spikes", work.spikes},   {"capped_steps", work.capped_steps},
-                   {"clipped", work.clipped}, {"overflowed", work.overflowed}};
-    if (work.steps > 0 || !work.lost.empty())
+    out["work"] = {{"samples", stats.samples}, {"afferent_steps", stats.afferent_steps},
+                   {"spikes", stats.spikes},   {"capped_steps", stats.capped_steps},
+                   {"clipped", stats.clipped}, {"overflowed", stats.overflowed}};
+    if (stats.steps > 0 || !stats.lost.empty())
         out["work"]["circuits"] = {
-            {"steps", work.steps}, {"rejected", work.rejected}, {"iterations", work.iterations}, {"not_converged", work.lost.size()}};
+            {"steps", stats.steps}, {"rejected", stats.rejected}, {"iterations", stats.iterations}, {"not_converged", stats.lost.size()}};
     double least = INFINITY;
     for (const auto& i : inputs_) least = std::min(least, i.least);
-    if (auto costs = costs_of(afferents, work, least); !costs.empty()) out["costs"] = std::move(costs);
+    if (auto costs = costs_of(afferents, stats, least); !costs.empty()) out["costs"] = std::move(costs);
     out["warnings"] = warnings;
     return out;
 }

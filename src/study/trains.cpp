@@ -8,22 +8,22 @@
 namespace corpuscle {
 namespace {
 
-Result<std::vector<Wish>> wishes_of(const Asked& asked) {
-    std::vector<Wish> wishes;
-    for (const auto& text : asked.settings) {
-        auto wish = parse_wish(text);
-        if (!wish) return wish.error();
-        wishes.push_back(std::move(*wish));
+Result<std::vector<Wish>> trial_overrides(const Asked& spec) {
+    std::vector<Wish> overrides;
+    for (const auto& text : spec.settings) {
+        auto parsed = parse_wish(text);
+        if (!parsed) return parsed.error();
+        overrides.push_back(std::move(*parsed));
     }
-    return wishes;
+    return overrides;
 }
 
 }  // namespace
 
-Result<Touched> touch_of(const Asked& asked) {
-    const auto wishes = wishes_of(asked);
-    if (!wishes) return wishes.error();
-    auto source = make_stimulus(asked.stimulus, *wishes, asked.rate, asked.seed);
+Result<Touched> touch_of(const Asked& spec) {
+    const auto overrides = trial_overrides(spec);
+    if (!overrides) return overrides.error();
+    auto source = make_stimulus(spec.stimulus, *overrides, spec.rate, spec.seed);
     if (!source) return source.error();
     Touched out{(*source)->clock(), {}, (*source)->phases()};
     for (Frames block(1, 4096);;) {
@@ -41,15 +41,15 @@ Line Touched::line() const {
 
 namespace {
 
-/// Which of its probes, by number, each trace is; a netlist's follow the order in which they are asked for.
-Result<std::vector<std::size_t>> places_of(const Asked& asked, const Afferent& afferent) {
+/// The index of the probe for each requested name. A netlist's probes are in the order of the request.
+Result<std::vector<std::size_t>> probe_indexes(const Asked& spec, const Afferent& afferent) {
     std::vector<std::size_t> out;
-    for (std::size_t k = 0; k < asked.traces.size(); ++k) {
+    for (std::size_t k = 0; k < spec.traces.size(); ++k) {
         std::size_t at = 0;
         const auto probes = afferent.probes();
-        while (at < probes.size() && probes[at].name != asked.traces[k]) ++at;
-        if (at == probes.size() && names_netlist(asked.afferent) && asked.traces.size() == probes.size()) at = k;
-        if (at == probes.size()) return bad_input(fmt::format("{} does not show '{}'", asked.afferent, asked.traces[k]));
+        while (at < probes.size() && probes[at].name != spec.traces[k]) ++at;
+        if (at == probes.size() && names_netlist(spec.afferent) && spec.traces.size() == probes.size()) at = k;
+        if (at == probes.size()) return bad_input(fmt::format("{} has no recordable quantity '{}'", spec.afferent, spec.traces[k]));
         out.push_back(at);
     }
     return out;
@@ -57,41 +57,42 @@ Result<std::vector<std::size_t>> places_of(const Asked& asked, const Afferent& a
 
 }  // namespace
 
-Result<Told> told_of(const Asked& asked) {
-    auto touch = touch_of(asked);
-    if (!touch) return touch.error();
-    const auto plan = plan_any_afferent(asked.afferent, *wishes_of(asked), {.traces = asked.traces});
+Result<Told> told_of(const Asked& spec) {
+    auto trial = touch_of(spec);
+    if (!trial) return trial.error();
+    const auto plan = plan_any_afferent(spec.afferent, *trial_overrides(spec), {.traces = spec.traces});
     if (!plan) return plan.error();
-    const auto afferent = make_afferent(*plan, {touch->clock.T(), asked.method, asked.sampled});
-    const auto places = places_of(asked, *afferent);
-    if (!places) return places.error();
-    const auto late = static_cast<std::size_t>(afferent->delay());
-    touch->force.insert(touch->force.end(), late, touch->force.back());
+    const auto afferent = make_afferent(*plan, {trial->clock.T(), spec.method, spec.sampled});
+    const auto indexes = probe_indexes(spec, *afferent);
+    if (!indexes) return indexes.error();
+    const auto delay = static_cast<std::size_t>(afferent->delay());
+    trial->force.insert(trial->force.end(), delay, trial->force.back());
     auto state = afferent->start();
     std::vector<Spike> spikes;
     std::vector<Outside> outside(afferent->ranges().size());
-    std::vector<std::vector<double>> seen(asked.traces.empty() ? 0 : afferent->probes().size(), std::vector<double>(touch->force.size()));
+    std::vector<std::vector<double>> probe_values(spec.traces.empty() ? 0 : afferent->probes().size(),
+                                                  std::vector<double>(trial->force.size()));
     std::vector<double*> probes;
-    for (auto& values : seen) probes.push_back(values.data());
-    Answer answer{spikes};
-    answer.outside = outside, answer.probes = probes;
-    if (auto ok = afferent->respond(touch->force, state, answer); !ok) return ok.error();
-    Told out{times(spikes, touch->clock), {}, {}};
+    for (auto& values : probe_values) probes.push_back(values.data());
+    Answer response{spikes};
+    response.outside = outside, response.probes = probes;
+    if (auto ok = afferent->respond(trial->force, state, response); !ok) return ok.error();
+    Told out{times(spikes, trial->clock), {}, {}};
     for (std::size_t k = 0; k < outside.size(); ++k)
         if (outside[k].samples > 0) out.outside.emplace_back(afferent->ranges()[k].meaning);
-    for (std::size_t k = 0; k < asked.traces.size(); ++k) {
-        auto& line = out.traces[asked.traces[k]];
-        const auto& values = seen[(*places)[k]];
-        for (std::size_t j = late; j < values.size(); ++j)
-            line.x.push_back(touch->clock.time(static_cast<std::int64_t>(j - late))), line.y.push_back(values[j]);
+    for (std::size_t k = 0; k < spec.traces.size(); ++k) {
+        auto& line = out.traces[spec.traces[k]];
+        const auto& values = probe_values[(*indexes)[k]];
+        for (std::size_t j = delay; j < values.size(); ++j)
+            line.x.push_back(trial->clock.time(static_cast<std::int64_t>(j - delay))), line.y.push_back(values[j]);
     }
     return out;
 }
 
-Result<std::vector<double>> train_of(const Asked& asked) {
-    auto told = told_of(asked);
-    if (!told) return told.error();
-    return std::move(told->spikes);
+Result<std::vector<double>> train_of(const Asked& spec) {
+    auto result = told_of(spec);
+    if (!result) return result.error();
+    return std::move(result->spikes);
 }
 
 }  // namespace corpuscle

@@ -8,18 +8,18 @@
 namespace corpuscle {
 namespace {
 
-/// Units that are worth a population: with fewer, lanes are mostly empty.
-constexpr std::size_t least_crowd = 4;
+/// Smallest number of afferents for which SIMD lanes are used; with fewer, most lanes are empty.
+constexpr std::size_t min_lane_group = 4;
 
-/// Fewer samples at a time where there are many channels, or many units that show their probes: some 64 MB of either. Where there
-/// are very many units, so few that somebody who waits is still told how far it is.
-std::size_t block_for(const Input& input, const RespondOptions& options, bool probed) {
-    constexpr std::size_t most_values = std::size_t{1} << 23, most_steps = std::size_t{1} << 28, probes = 8;
-    const std::size_t values = probed ? input.units() * probes : input.source.channels().size();
-    return std::clamp<std::size_t>(std::min(most_values / (values + 1), most_steps / (input.units() + 1)), 1, options.block);
+/// Uses shorter blocks if there are many channels, or many afferents with probes: about 64 MB of either. With very many afferents blocks
+/// are short enough that progress is still reported.
+std::size_t block_for(const Input& input, const RespondOptions& options, bool wants_probes) {
+    constexpr std::size_t max_values = std::size_t{1} << 23, max_steps = std::size_t{1} << 28, probes = 8;
+    const std::size_t values = wants_probes ? input.units() * probes : input.source.channels().size();
+    return std::clamp<std::size_t>(std::min(max_values / (values + 1), max_steps / (input.units() + 1)), 1, options.block);
 }
 
-/// What units must share to stand side by side.
+/// Two afferents can share SIMD lanes if this text is equal.
 std::string kind_of(const AfferentPlan& plan) {
     std::string kind = plan.made_of();
     for (std::size_t k = 0; k < plan.values.size(); ++k)
@@ -27,10 +27,10 @@ std::string kind_of(const AfferentPlan& plan) {
     return kind;
 }
 
-/// The plans of each kind that goes on lanes, by their numbers; and those that do not, each alone.
+/// The plans that can share lanes, by index; and those that are simulated alone.
 struct Kinds {
-    std::vector<std::vector<std::size_t>> together;
-    std::vector<std::size_t> alone;
+    std::vector<std::vector<std::size_t>> on_lanes;
+    std::vector<std::size_t> scalar;
 };
 
 Kinds kinds_of(std::span<const AfferentPlan> plans, const Run& run) {
@@ -38,27 +38,27 @@ Kinds kinds_of(std::span<const AfferentPlan> plans, const Run& run) {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < plans.size(); ++k) {
         if (!goes_on_lanes(plans[k], run)) {
-            kinds.alone.push_back(k);
+            kinds.scalar.push_back(k);
             continue;
         }
         const auto kind = kind_of(plans[k]);
         const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), kind) - names.begin());
-        if (at == names.size()) names.push_back(kind), kinds.together.emplace_back();
-        kinds.together[at].push_back(k);
+        if (at == names.size()) names.push_back(kind), kinds.on_lanes.emplace_back();
+        kinds.on_lanes[at].push_back(k);
     }
     return kinds;
 }
 
 }  // namespace
 
-Units::Units(Input input, std::size_t block, bool probed)
-    : input_(std::move(input)), probed_(probed), force_(input_.source.channels().size(), block), ahead_(0, 0) {}
+Units::Units(Input input, std::size_t block, bool wants_probes)
+    : input_(std::move(input)), probed_(wants_probes), force_(input_.source.channels().size(), block), ahead_(0, 0) {}
 
-Result<Units> Units::make(Input input, const RespondOptions& options, bool probed) {
+Result<Units> Units::make(Input input, const RespondOptions& options, bool wants_probes) {
     const auto set = instruction_set();
     if (!set) return set.error();
-    const std::size_t block = block_for(input, options, probed);
-    Units units(std::move(input), block, probed);
+    const std::size_t block = block_for(input, options, wants_probes);
+    Units units(std::move(input), block, wants_probes);
     if (auto ok = units.seat(options, *set); !ok) return ok.error();
     return units;
 }
@@ -68,31 +68,31 @@ Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
     const auto plans = input_.afferents;
     const std::size_t channels = input_.source.channels().size();
     const bool in_float = options.precision == Precision::in_float;
-    if (in_float && set == InstructionSet::scalar) return bad_usage("float needs lanes: CORPUSCLE_ISA=scalar has none");
+    if (in_float && set == InstructionSet::scalar) return bad_usage("float needs SIMD lanes: CORPUSCLE_ISA=scalar has none");
     auto kinds = kinds_of(plans, run);
-    if (in_float && (probed_ || !kinds.alone.empty()))
-        return bad_usage(probed_ ? "in float no currents and membranes are kept: leave out --traces"
-                                 : fmt::format("{}: {} are not in float", plans[kinds.alone[0]].name,
-                                               plans[kinds.alone[0]].design ? "netlists" : "sensors, converters and noise"));
-    std::vector<bool> single(plans.size());
-    for (const auto k : kinds.alone) single[k] = true;
-    for (const auto& kind : kinds.together) {
-        if (!in_float && (probed_ || set == InstructionSet::scalar || kind.size() * channels < least_crowd))
-            for (const auto k : kind) single[k] = true;
+    if (in_float && (probed_ || !kinds.scalar.empty()))
+        return bad_usage(probed_ ? "in float no probes are recorded: leave out --traces"
+                                 : fmt::format("{}: {} cannot run in float", plans[kinds.scalar[0]].name,
+                                               plans[kinds.scalar[0]].design ? "netlists" : "sensors, converters and noise"));
+    std::vector<bool> is_scalar(plans.size());
+    for (const auto k : kinds.scalar) is_scalar[k] = true;
+    for (const auto& kind : kinds.on_lanes) {
+        if (!in_float && (probed_ || set == InstructionSet::scalar || kind.size() * channels < min_lane_group))
+            for (const auto k : kind) is_scalar[k] = true;
         else if (auto ok = seat_crowds(kind, run, options, set); !ok)
             return ok;
     }
     afferents_.resize(plans.size());
     probes_of_.resize(plans.size());
     for (std::size_t k = 0; k < plans.size(); ++k)
-        if (single[k]) afferents_[k] = make_afferent(plans[k], run), probes_of_[k] = afferents_[k]->probes();
+        if (is_scalar[k]) afferents_[k] = make_afferent(plans[k], run), probes_of_[k] = afferents_[k]->probes();
     input_.probes = probes_of_;
     std::int64_t delay = 0;
     for (const auto& a : afferents_) delay = std::max(delay, a ? a->delay() : 0);
     ahead_ = Ahead(channels, static_cast<std::size_t>(delay));
     for (std::size_t u = 0; u < input_.units(); ++u) {
         const std::size_t plan = u % plans.size();
-        if (!single[plan]) continue;
+        if (!is_scalar[plan]) continue;
         singles_.push_back({static_cast<std::uint32_t>(u), afferents_[plan]->start({static_cast<std::uint32_t>(input_.channel_of(u)),
                                                                                     static_cast<std::uint32_t>(channels)})});
         singles_.back().outside.resize(afferents_[plan]->ranges().size());
@@ -103,140 +103,141 @@ Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
     return {};
 }
 
-/// One population for all channels; or, where most of a kind feel the same force, one for each channel.
+/// Packs all channels into one population, or one population for each channel if most of its afferents have the same force.
 Result<void> Units::seat_crowds(std::span<const std::size_t> plans, const Run& run, const RespondOptions& options, InstructionSet set) {
     const std::size_t channels = input_.source.channels().size(), all = input_.afferents.size();
     const bool by_channel = plans.size() >= channels;
-    Crowd crowd{{}, {}, by_channel};
-    std::vector<const AfferentPlan*> of;
+    Crowd group{{}, {}, by_channel};
+    std::vector<const AfferentPlan*> lane_plans;
     for (std::size_t c = 0; c < channels; ++c) {
         for (const auto k : plans) {
-            crowd.units.push_back(static_cast<std::uint32_t>(c * all + k));
-            if (plans.size() > 1) of.push_back(&input_.afferents[k]);
+            group.units.push_back(static_cast<std::uint32_t>(c * all + k));
+            if (plans.size() > 1) lane_plans.push_back(&input_.afferents[k]);
         }
         if (!by_channel && c + 1 < channels) continue;
-        if (plans.size() == 1) of = {&input_.afferents[plans[0]]};
+        if (plans.size() == 1) lane_plans = {&input_.afferents[plans[0]]};
         std::vector<std::uint32_t> numbers;
-        for (const auto u : crowd.units) numbers.push_back(input_.first_unit + u);
-        auto made = make_population({of, crowd.units.size(), numbers, options.precision}, run, set);
-        if (!made) return made.error();
-        crowd.population = std::move(*made);
-        crowds_.push_back(std::exchange(crowd, {{}, {}, by_channel}));
-        of.clear();
+        for (const auto u : group.units) numbers.push_back(input_.first_unit + u);
+        auto population = make_population({lane_plans, group.units.size(), numbers, options.precision}, run, set);
+        if (!population) return population.error();
+        group.population = std::move(*population);
+        crowds_.push_back(std::exchange(group, {{}, {}, by_channel}));
+        lane_plans.clear();
     }
     return {};
 }
 
-Error Units::of_unit(Error error, std::size_t unit) const {
-    error.sentence =
-        fmt::format("{} on {}: {}", input_.afferent_of(unit).name, input_.channel_name(input_.channel_of(unit)), error.sentence);
+Error Units::of_unit(Error error, std::size_t afferent_index) const {
+    error.sentence = fmt::format("{} on {}: {}", input_.afferent_of(afferent_index).name,
+                                 input_.channel_name(input_.channel_of(afferent_index)), error.sentence);
     return error;
 }
 
-Result<void> Units::answer_crowd(Crowd& crowd, Pool& pool, Work& work) {
+Result<void> Units::answer_crowd(Crowd& group, Pool& pool, Work& stats) {
     std::vector<const double*> columns;
     PopulationForce force;
-    if (crowd.one_channel) {
-        force = ForceProfile{{force_of(crowd.units[0]), force_.count}};
+    if (group.one_channel) {
+        force = ForceProfile{{force_of(group.units[0]), force_.count}};
     } else {
-        for (const auto u : crowd.units) columns.push_back(force_of(u));
+        for (const auto u : group.units) columns.push_back(force_of(u));
         force = ForceColumns{columns};
     }
-    PopulationAnswer answer{&spikes_};
-    if (auto ok = crowd.population->respond(force, force_.count, answer, pool); !ok) return of_unit(ok.error(), crowd.units[answer.failed]);
-    work.capped_steps += answer.capped;
+    PopulationAnswer response{&spikes_};
+    if (auto ok = group.population->respond(force, force_.count, response, pool); !ok)
+        return of_unit(ok.error(), group.units[response.failed]);
+    stats.capped_steps += response.capped;
     return {};
 }
 
 void Units::answer_single(Single& single) {
     const std::size_t u = single.unit;
-    std::vector<double*> shown;
+    std::vector<double*> probe_values;
     if (probed_)
-        for (auto& p : shown_[u]) shown.push_back(p.data());
+        for (auto& p : shown_[u]) probe_values.push_back(p.data());
     single.spikes.clear();
-    Answer answer{single.spikes, input_.first_unit + single.unit};
+    Answer response{single.spikes, input_.first_unit + single.unit};
     if (single.lost)
-        for (double* p : shown) std::fill_n(p, force_.count, std::numeric_limits<double>::quiet_NaN());
-    else if (auto ok = answer_force(single, answer, shown); !ok)
+        for (double* p : probe_values) std::fill_n(p, force_.count, std::numeric_limits<double>::quiet_NaN());
+    else if (auto ok = answer_force(single, response, probe_values); !ok)
         single.error = of_unit(ok.error(), u);
-    single.capped = answer.capped, single.clipped = answer.clipped, single.overflowed = answer.overflowed;
-    single.steps = answer.steps, single.rejected = answer.rejected, single.iterations = answer.iterations;
-    single.spent = answer.spent;
+    single.capped = response.capped, single.clipped = response.clipped, single.overflowed = response.overflowed;
+    single.steps = response.steps, single.rejected = response.rejected, single.iterations = response.iterations;
+    single.spent = response.spent;
 }
 
-/// One whose answer is behind the force has heard so much more of it before the first block.
-Result<void> Units::answer_force(Single& single, Answer& answer, std::span<double* const> shown) {
+/// An afferent with a delay first receives that many samples before the first block.
+Result<void> Units::answer_force(Single& single, Answer& response, std::span<double* const> probe_values) {
     const auto& afferent = *afferents_[single.unit % afferents_.size()];
     const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(single.unit);
     if (delay > 0 && samples_ == 0)
-        if (auto ok = afferent.respond(ahead_.of(channel, 0, delay), single.state, answer); !ok) return ok;
+        if (auto ok = afferent.respond(ahead_.of(channel, 0, delay), single.state, response); !ok) return ok;
     const std::span<const double> force =
         delay > 0 ? ahead_.of(channel, delay, force_.count) : std::span(force_of(single.unit), force_.count);
-    answer.probes = shown, answer.outside = single.outside;
-    return afferent.respond(force, single.state, answer);
+    response.probes = probe_values, response.outside = single.outside;
+    return afferent.respond(force, single.state, response);
 }
 
-/// The one of this plan's units that was outside a range longest, or null; and how many were.
+/// The afferent of this plan that was outside a range longest, or null; and the number of afferents that were outside it.
 std::pair<const Units::Single*, std::size_t> Units::longest_outside(std::size_t plan, std::size_t range) const {
     const Single* longest = nullptr;
-    std::size_t left = 0;
+    std::size_t count = 0;
     for (const auto& s : singles_) {
         if (s.unit % afferents_.size() != plan || s.outside[range].samples == 0) continue;
-        ++left;
+        ++count;
         if (!longest || s.outside[range].samples > longest->outside[range].samples) longest = &s;
     }
-    return {longest, left};
+    return {longest, count};
 }
 
 std::vector<std::string> Units::outside() const {
-    std::vector<std::string> sentences;
+    std::vector<std::string> warnings;
     const double T = input_.source.clock().T();
     for (std::size_t plan = 0; plan < afferents_.size(); ++plan) {
         const auto ranges = afferents_[plan] ? afferents_[plan]->ranges() : std::span<const Range>{};
         for (std::size_t r = 0; r < ranges.size(); ++r) {
-            const auto [single, left] = longest_outside(plan, r);
+            const auto [single, count] = longest_outside(plan, r);
             if (!single) continue;
             const auto& o = single->outside[r];
-            const auto what = outside_sentence(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
-                                               static_cast<double>(o.first) * T);
-            sentences.push_back(fmt::format("{} on {}: {}{}", input_.afferents[plan].name,
-                                            input_.channel_name(input_.channel_of(single->unit)), what,
-                                            left > 1 ? fmt::format(" (on {} more channels, too, not as long)", left - 1) : ""));
+            const auto violation = outside_sentence(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
+                                                    static_cast<double>(o.first) * T);
+            warnings.push_back(fmt::format("{} on {}: {}{}", input_.afferents[plan].name,
+                                           input_.channel_name(input_.channel_of(single->unit)), violation,
+                                           count > 1 ? fmt::format(" (also on {} more channels, for less time)", count - 1) : ""));
         }
     }
-    return sentences;
+    return warnings;
 }
 
-Result<void> Units::answer_singles(Pool& pool, Work& work) {
+Result<void> Units::answer_singles(Pool& pool, Work& stats) {
     pool.each(singles_.size(), [this](std::size_t k, unsigned) { answer_single(singles_[k]); });
     for (auto& s : singles_) {
         if (s.error && !(s.error->code == Code::not_converged && input_.afferent_of(s.unit).design)) return *s.error;
-        if (s.error) s.lost = true, work.lost.push_back(*std::exchange(s.error, {}));
+        if (s.error) s.lost = true, stats.lost.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
-        work.capped_steps += s.capped, work.clipped += s.clipped, work.overflowed += s.overflowed;
-        work.steps += s.steps, work.rejected += s.rejected, work.iterations += s.iterations;
-        work.spent.resize(afferents_.size());
-        work.spent[s.unit % afferents_.size()] += s.spent;
+        stats.capped_steps += s.capped, stats.clipped += s.clipped, stats.overflowed += s.overflowed;
+        stats.steps += s.steps, stats.rejected += s.rejected, stats.iterations += s.iterations;
+        stats.spent.resize(afferents_.size());
+        stats.spent[s.unit % afferents_.size()] += s.spent;
     }
     return {};
 }
 
-Result<bool> Units::answer_block(Source& source, std::span<Listener* const> listeners, Pool& pool, Work& work) {
+Result<bool> Units::answer_block(Source& source, std::span<Listener* const> sinks, Pool& pool, Work& stats) {
     if (auto ok = ahead_.next(source, force_); !ok) return ok.error();
     if (force_.count == 0) return false;
     spikes_.clear();
-    for (auto& crowd : crowds_)
-        if (auto ok = answer_crowd(crowd, pool, work); !ok) return ok.error();
-    if (auto ok = answer_singles(pool, work); !ok) return ok.error();
+    for (auto& group : crowds_)
+        if (auto ok = answer_crowd(group, pool, stats); !ok) return ok.error();
+    if (auto ok = answer_singles(pool, stats); !ok) return ok.error();
     if (!std::is_sorted(spikes_.begin(), spikes_.end())) std::sort(spikes_.begin(), spikes_.end());
-    const Answered answered{samples_, force_, spikes_, shown_};
-    for (auto* listener : listeners)
-        if (auto ok = listener->block(input_, answered); !ok) return ok.error();
+    const Answered block{samples_, force_, spikes_, shown_};
+    for (auto* sink : sinks)
+        if (auto ok = sink->block(input_, block); !ok) return ok.error();
     samples_ += static_cast<std::int64_t>(force_.count);
     const auto samples = static_cast<std::int64_t>(force_.count * force_.force.size());
-    work.samples += samples;
-    work.afferent_steps += samples * static_cast<std::int64_t>(input_.afferents.size());
-    work.spikes += static_cast<std::int64_t>(spikes_.size());
+    stats.samples += samples;
+    stats.afferent_steps += samples * static_cast<std::int64_t>(input_.afferents.size());
+    stats.spikes += static_cast<std::int64_t>(spikes_.size());
     return true;
 }
 

@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-/// What stands above the rows: whose they are, and every constant.
+/// The comment lines above the rows: the afferent, and every constant.
 std::string header(const AfferentPlan& plan, const std::string& channel, const Digital& afferent) {
     const auto& constants = afferent.chain().constants();
     std::string text = "# corpuscle vectors 1, as doc/fixed-point.md tells them\n";
@@ -18,7 +18,7 @@ std::string header(const AfferentPlan& plan, const std::string& channel, const D
         text += c.shift < 0 ? fmt::format("# level {} {} {}\n", c.name, c.value, c.word)
                             : fmt::format("# factor {} {} {} {}\n", c.name, c.value, c.word, c.shift);
     std::string columns = "code,F", bits;
-    for (const auto& [name, unit] : afferent.chain().shown()) {
+    for (const auto& [name, afferent_index] : afferent.chain().shown()) {
         columns += "," + name;
         if (name.starts_with("I")) bits += ",s" + name.substr(1);
     }
@@ -31,7 +31,7 @@ std::string rom(const Digital& afferent) {
     return text;
 }
 
-/// A channel's name in a comment: one line, whatever bytes it holds.
+/// A channel's name as one line of a comment.
 std::string one_line(std::string name) {
     for (char& c : name)
         if (c == '\n' || c == '\r') c = ' ';
@@ -40,13 +40,13 @@ std::string one_line(std::string name) {
 
 }  // namespace
 
-/// The afferents at this input's clock; at the first input, their tables.
+/// Makes the digital afferents at this input's sample rate; for the first input also writes their tables.
 Result<void> VectorsFile::make_afferents(const Input& input) {
     digital_.clear();
     for (const auto& plan : input.afferents) {
-        const bool in_words = !plan.converter.empty();
-        digital_.push_back(in_words ? make_digital(plan, {input.source.clock().T()}) : nullptr);
-        if (!in_words || input.index > 0) continue;
+        const bool is_digital = !plan.converter.empty();
+        digital_.push_back(is_digital ? make_digital(plan, {input.source.clock().T()}) : nullptr);
+        if (!is_digital || input.index > 0) continue;
         paths_.push_back(fmt::format("{}/rom-{}.csv", directory_, plan.name));
         auto file = OutputFile::create(paths_.back());
         if (!file) return file.error();
@@ -57,15 +57,15 @@ Result<void> VectorsFile::make_afferents(const Input& input) {
     return {};
 }
 
-Result<void> VectorsFile::open(const Input& input, std::size_t unit) {
-    const auto a = unit % input.afferents.size(), c = input.channel_of(unit);
+Result<void> VectorsFile::open(const Input& input, std::size_t afferent_index) {
+    const auto a = afferent_index % input.afferents.size(), c = input.channel_of(afferent_index);
     const auto number = ++made_[a] == 1 ? "" : fmt::format("-{}", made_[a]);
     paths_.push_back(fmt::format("{}/vectors-{}{}.csv", directory_, input.afferents[a].name, number));
     auto file = OutputFile::create(paths_.back());
     if (!file) return file.error();
     if (auto ok = file->write(header(input.afferents[a], one_line(input.channel_name(c)), *digital_[a])); !ok) return ok;
     const Turn turn{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(input.source.channels().size())};
-    units_[unit] = Unit{a, std::move(*file), digital_[a]->start(turn)};
+    units_[afferent_index] = Unit{a, std::move(*file), digital_[a]->start(turn)};
     return {};
 }
 
@@ -79,7 +79,7 @@ Result<void> VectorsFile::begin(const Input& input) {
     return {};
 }
 
-Result<void> VectorsFile::block(const Input& input, const Answered& answered) {
+Result<void> VectorsFile::block(const Input& input, const Answered& block) {
     for (std::size_t u = 0; u < units_.size(); ++u) {
         if (!units_[u]) continue;
         fmt::memory_buffer text;
@@ -90,17 +90,17 @@ Result<void> VectorsFile::block(const Input& input, const Answered& answered) {
             text.push_back('\n');
         };
         std::vector<Spike> spikes;
-        Answer answer{spikes};
-        const std::span force(answered.force.force[input.channel_of(u)].data(), answered.force.count);
-        if (auto ok = digital_[units_[u]->afferent]->convert(force, units_[u]->state, answer, row); !ok) return ok;
+        Answer response{spikes};
+        const std::span force(block.force.force[input.channel_of(u)].data(), block.force.count);
+        if (auto ok = digital_[units_[u]->afferent]->convert(force, units_[u]->state, response, row); !ok) return ok;
         if (auto ok = units_[u]->file.write({text.data(), text.size()}); !ok) return ok;
     }
     return {};
 }
 
 Result<void> VectorsFile::end(const Input&, std::int64_t) {
-    for (auto& unit : units_)
-        if (unit) whole_.push_back(std::move(unit->file));
+    for (auto& afferent_index : units_)
+        if (afferent_index) whole_.push_back(std::move(afferent_index->file));
     units_.clear();
     return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a digital afferent computed, word by word, so that hardware built to doc/fixed-point.md can be checked against it.
+// Test vectors: each word that a digital afferent computed, to verify hardware built to doc/fixed-point.md.
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 
 namespace corpuscle {
 
-/// vectors-AFFERENT.csv: the constants as comments, then a row a conversion; a second channel makes vectors-AFFERENT-2.csv ...
-/// rom-AFFERENT.csv: the table from codes to words of force. Afferents without a converter make none.
+/// vectors-AFFERENT.csv: the constants as comments, then one row for each conversion; a second channel gives vectors-AFFERENT-2.csv ...
+/// rom-AFFERENT.csv: the table from codes to force words. Afferents without a converter have no such files.
 class VectorsFile final : public WrittenFile {
     struct Unit {
         std::size_t afferent;
@@ -18,14 +18,14 @@ class VectorsFile final : public WrittenFile {
         State state;
     };
     std::string directory_;
-    std::vector<std::unique_ptr<Digital>> digital_;  // of each afferent, or none; of the input at work
-    std::vector<std::optional<Unit>> units_;         // of the input at work
+    std::vector<std::unique_ptr<Digital>> digital_;  // of the current input, for each plan; null if it is not digital
+    std::vector<std::optional<Unit>> units_;         // of the current input
     std::vector<OutputFile> whole_;
-    std::vector<int> made_;  // files of each afferent
+    std::vector<int> made_;  // number of files for each plan
     std::vector<std::string> paths_;
 
     Result<void> make_afferents(const Input&);
-    Result<void> open(const Input&, std::size_t unit);
+    Result<void> open(const Input&, std::size_t afferent_index);
 
 public:
     explicit VectorsFile(std::string directory) : directory_(std::move(directory)) {}

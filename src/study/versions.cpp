@@ -14,24 +14,24 @@ std::string in_lower_case(std::string text) {
     return text;
 }
 
-/// The afferent of the catalogue that goes by this name or another of its names; null if there is none.
-const NamedAfferent* named(const std::string& name) {
+/// The catalogue's afferent with this name or alias; null if there is none.
+const NamedAfferent* find_afferent(const std::string& name) {
     for (const auto& a : named_afferents())
         if (a.name == name || std::find(a.other_names.begin(), a.other_names.end(), name) != a.other_names.end()) return &a;
     return nullptr;
 }
 
-/// The lowest is what the others are held against: 0 the receptor itself, 1 another model, 2 a netlist.
-int rank(const AfferentPlan& plan, const std::string& receptor) { return plan.design ? 2 : plan.name == receptor ? 0 : 1; }
+/// The afferent with the lowest rank is the reference: 0 the receptor itself, 1 another model, 2 a netlist.
+int reference_rank(const AfferentPlan& plan, const std::string& receptor) { return plan.design ? 2 : plan.name == receptor ? 0 : 1; }
 
 }  // namespace
 
 std::string receptor_of(const AfferentPlan& plan) {
-    const auto whole = names_netlist(plan.name) ? std::filesystem::path(plan.name).stem().string() : plan.name;
-    const auto name = in_lower_case(whole);
-    if (const auto* a = named(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);
-    const auto* begun = named(name.substr(0, name.find_first_of("-_")));
-    return begun ? std::string(begun->name) : whole;
+    const auto stem = names_netlist(plan.name) ? std::filesystem::path(plan.name).stem().string() : plan.name;
+    const auto name = in_lower_case(stem);
+    if (const auto* a = find_afferent(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);
+    const auto* prefix_match = find_afferent(name.substr(0, name.find_first_of("-_")));
+    return prefix_match ? std::string(prefix_match->name) : stem;
 }
 
 std::vector<Versions> versions_of(std::span<const AfferentPlan> plans) {
@@ -44,7 +44,7 @@ std::vector<Versions> versions_of(std::span<const AfferentPlan> plans) {
     }
     for (auto& v : all)
         std::sort(v.members.begin(), v.members.end(), [&](std::size_t a, std::size_t b) {
-            return std::pair(rank(plans[a], v.receptor), a) < std::pair(rank(plans[b], v.receptor), b);
+            return std::pair(reference_rank(plans[a], v.receptor), a) < std::pair(reference_rank(plans[b], v.receptor), b);
         });
     return all;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Which afferents are versions of one receptor: its model, its chip, another's model of it.
+// Groups the afferents that are versions of one receptor: its model, its chip, another author's model.
 
 #include <string>
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace corpuscle {
 
-/// "sa1" of sa1, SA-I, sa1-circuit, sa1-kim and any circuits/sa1.cir or sa1_biased.cir. Of a name that begins with no named afferent's,
-/// the whole of it; of a netlist the file's stem.
+/// "sa1" for sa1, SA-I, sa1-circuit, sa1-kim and any circuits/sa1.cir or sa1_biased.cir. A name that does not begin with a known afferent's
+/// name is returned complete; of a netlist path, the file's stem.
 std::string receptor_of(const AfferentPlan&);
 
-/// Afferents of one receptor, by number. The first is what the others are held against: the receptor's own name, else a model, else
-/// who was asked for first.
+/// Afferents of one receptor, by index. The first is the reference: the afferent with the receptor's own name, otherwise the first model,
+/// otherwise the first requested.
 struct Versions {
     std::string receptor;
     std::vector<std::size_t> members;
 };
 
-/// All receptors in the order they were asked for; many have one version only.
+/// All receptors in the order of the request; many have only one version.
 std::vector<Versions> versions_of(std::span<const AfferentPlan>);
 
 }  // namespace corpuscle

@@ -111,10 +111,10 @@ TEST(Program, FloatAnswersWithinMicrosecondsAndKeepsNoInnerTraces) {
     EXPECT_EQ(Json::parse(test::read_file(folder / "float/summary.json"))["options"]["precision"], "float");
     const auto traces = run(folder, "respond press --float --out float --traces");
     EXPECT_EQ(traces.status, 2);
-    EXPECT_NE(traces.err.find("in float no currents and membranes are kept: leave out --traces"), std::string::npos) << traces.err;
+    EXPECT_NE(traces.err.find("in float no probes are recorded: leave out --traces"), std::string::npos) << traces.err;
     const auto sensor = run(folder, "respond press --float --afferent fsr+sa1");
     EXPECT_EQ(sensor.status, 2);
-    EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise are not in float"), std::string::npos) << sensor.err;
+    EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise cannot run in float"), std::string::npos) << sensor.err;
     EXPECT_EQ(run(folder, "respond press -j 99999").status, 2);
 }
 
@@ -203,7 +203,7 @@ TEST(Program, CompareTellsWhatMatches) {
     EXPECT_EQ(two["total"]["extra"], 1);
     const auto other = run(folder, "compare a/spikes.csv b/spikes.csv --pair sa1=sa2");
     EXPECT_EQ(other.status, 2);
-    EXPECT_EQ(other.err, "corpuscle: --pair sa1=sa2: no train of the second file is called 'sa2'; there are fa1,press; sa1,press\n");
+    EXPECT_EQ(other.err, "corpuscle: --pair sa1=sa2: the second file has no train 'sa2'; it has fa1,press; sa1,press\n");
 }
 
 TEST(Program, CompareReadsTheSpikesOfTheElectronicSkin) {
@@ -215,7 +215,7 @@ TEST(Program, CompareReadsTheSpikesOfTheElectronicSkin) {
     EXPECT_EQ(itself["total"]["victor_purpura"], 0.0);
     const auto other = run(folder, "compare '" + motor + "' '" + snn + "'");
     EXPECT_EQ(other.status, 2);
-    EXPECT_NE(other.err.find("no train is called the same in both files: 6; 11; 16 | 243; "), std::string::npos) << other.err;
+    EXPECT_NE(other.err.find("no train has the same name in both files: 6; 11; 16 | 243; "), std::string::npos) << other.err;
 }
 
 TEST(Program, ReportAloneGoesWhereItIsToldOrHere) {
@@ -298,7 +298,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --copies 51 --vectors --out answer -a sa1-kim", 2,
          "--vectors is for 50 copies at the most, not 51: ask for fewer, or --set what one of copies.csv has"},
         {"respond press --copies 30000 --wav --out answer --set press.t_hold=0s", 1,
-         "'press': of 60000 units at once each would be too soft for 16 bits; answer it without --wav"},
+         "'press': 60000 afferents at once would make each click too soft for 16 bits; run it without --wav"},
         {"respond press --scale 2", 2, "--scale is for recordings, and press is a stimulus; --set press.PARAMETER=VALUE changes it"},
         {"respond press --wav", 2, "--wav needs --out DIR to write into"},
         {"respond press --bin 0s --out answer", 2, "--bin 0s: a bin is longer than nothing, such as 10ms"},
@@ -410,13 +410,13 @@ TEST(Program, ProgressWithTimeLeftIsDrawnToATerminalAndNowhereElse) {
 TEST(Program, WhatWasClippedOrDidNotFitOrWasNotReachedIsTold) {
     const Folder folder;
     EXPECT_EQ(run(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
-              "corpuscle: warning: 3335 samples were clipped by a transducer or a converter: the afferent saw less force than there was; "
+              "corpuscle: warning: 3335 samples saturated a transducer or a converter, so the afferent received less force than was applied; "
               "lower R_fb or V_FSR, raise V_DD or I_max, or widen F_low to F_high\n");
     EXPECT_NE(run(folder, "respond press -q -a sa1-kim --set sa1-kim.frac=28 --set sa1-kim.k_s=10e-6")
-                  .err.find("results did not fit their words"),
+                  .err.find("results overflowed their words"),
               std::string::npos);
     EXPECT_EQ(run(folder, "respond press -q -a sa1-kim --noise 1nA").err,
-              "corpuscle: warning: sa1-kim: --noise does not reach it; behind a converter membranes are numbers\n");
+              "corpuscle: warning: sa1-kim: --noise has no effect; behind a converter the membrane is digital\n");
     const auto noisy = Json::parse(run(folder, "respond press --noise 200nA --seed 5 --json").out);
     EXPECT_DOUBLE_EQ(noisy["options"]["noise_A"].get<double>(), 200e-9);
     EXPECT_EQ(noisy["work"]["clipped"], 0);

@@ -880,7 +880,7 @@ class Sweeps(unittest.TestCase):
         self.assertLess(told.index("all limits"), told.index("v(q) (mV)"))
         self.assertIn("temp = 85 degC", told)
         wrong = subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--by", "tmp"], capture_output=True, text=True)
-        self.assertEqual((wrong.returncode, wrong.stderr.strip()), (2, "corpuscle: --by tmp: no axis is called so; did you mean 'temp'?; there are temp"))
+        self.assertEqual((wrong.returncode, wrong.stderr.strip()), (2, "corpuscle: --by tmp: unknown axis; did you mean 'temp'?; known: temp"))
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
             options = webdriver.ChromeOptions()
             options.binary_location = shutil.which("chromium")

@@ -32,7 +32,7 @@ std::string dump(const Folder& folder, const std::string& results) {
 TEST(SweepProgram, SaysWhatItHasDoneAndGoesOnWhereItStopped) {
     const Folder folder;
     folder.write("a.toml", sweep_of(50));
-    EXPECT_NE(run(folder, "sweep a.toml --status").err.find("a.sqlite: is not there"), std::string::npos);
+    EXPECT_NE(run(folder, "sweep a.toml --status").err.find("a.sqlite: does not exist"), std::string::npos);
     ASSERT_EQ(run(folder, "sweep a.toml --shard 1/4 -o a.sqlite --quiet").status, 0);
     const auto status = Json::parse(run(folder, "sweep a.toml --status --json").out);
     EXPECT_EQ(status["ended"], 25);
@@ -133,7 +133,7 @@ TEST(SweepRanks, OneThatDiesCostsItsBlockOnly) {
     EXPECT_TRUE(dump(folder, "r") == alone) << "all of it, in one run";
     // Without rank 0 the others end, and the same command goes on.
     const auto headless = run_ranks(folder, 3, "h", "--enable-recovery", 0);
-    EXPECT_NE(headless.said.find("rank 0, which writes the results, is gone; what it wrote is kept"), std::string::npos) << headless.said;
+    EXPECT_NE(headless.said.find("rank 0, which writes the results, has died; results so far are kept"), std::string::npos) << headless.said;
     ASSERT_EQ(run(folder, "sweep a.toml -o h").status, 0);
     EXPECT_TRUE(dump(folder, "h") == alone);
 }

@@ -367,7 +367,7 @@ TEST_F(Responding, AnswersAlikeInSmallBlocks) {
     ASSERT_EQ(corpuscle::test::run(folder, words("spiker.cir", "--out whole")).status, 0);
     ASSERT_EQ(corpuscle::test::run(folder, words("spiker.cir", "--out float --float")).status, 2);
     const auto refused = corpuscle::test::run(folder, words("spiker.cir", "--float"));
-    EXPECT_NE(refused.err.find("spiker.cir: netlists are not in float"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("spiker.cir: netlists cannot run in float"), std::string::npos) << refused.err;
 }
 
 TEST_F(Responding, OneThatDoesNotConvergeIsToldAndTheOthersGoOn) {

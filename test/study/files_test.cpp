@@ -246,7 +246,7 @@ TEST(ClicksFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {
             hand(source, plans({"sa1"}), {}, 30, 1, {&clicks});
             ADD_FAILURE() << "was written";
         } catch (const std::runtime_error& e) {
-            EXPECT_NE(std::string(e.what()).find("'still' is longer than the 6 hours that a WAV file can hold; answer it without --wav"),
+            EXPECT_NE(std::string(e.what()).find("'still' is longer than the 6 hours that a WAV file can hold; run it without --wav"),
                       std::string::npos)
                 << e.what();
         }

@@ -79,7 +79,7 @@ TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
     const Folder later;
     const auto refused = SweepResults::look(written(later, std::string(first_format) + "PRAGMA user_version = 2;"));
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use that one"),
+    EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use the later version"),
               std::string::npos)
         << refused.error().text();
 }
@@ -92,9 +92,9 @@ TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
                  {"ALTER TABLE spikes RENAME COLUMN times TO t", "its table 'spikes' has no column 'times'"},
                  {"ALTER TABLE columns RENAME COLUMN unit TO u", "its table 'columns' has no column 'unit'"},
                  {"ALTER TABLE traces RENAME TO trace", "it has no table 'traces'"},
-                 {"PRAGMA user_version = 0", "it does not say of which format it is"},
-                 {"UPDATE about SET value = '-5' WHERE key = 'units'", "it is of -5 units"},
-                 {"UPDATE about SET value = '[[' WHERE key = 'trains'", "says nothing readable of its sweep"}};
+                 {"PRAGMA user_version = 0", "its format version is missing"},
+                 {"UPDATE about SET value = '-5' WHERE key = 'units'", "its number of units is -5"},
+                 {"UPDATE about SET value = '[[' WHERE key = 'trains'", "its tables about and columns cannot be read"}};
     for (const auto& c : cases) {
         const Folder folder;
         const auto said = refusal_of(changed_results(folder, c.statements));
@@ -144,7 +144,7 @@ TEST(HostileResults, WithAViewForATableAreRefused) {
 TEST(HostileResults, WithAVeryLargeTextAreRefusedBeforeItIsTakenIn) {
     const Folder folder;
     const auto path = changed_results(folder, "UPDATE columns SET words = '[\"' || hex(zeroblob(5000000)) || '\"]' WHERE position = 0");
-    EXPECT_NE(refusal_of(path).find("its table columns holds more than 4 MB of words"), std::string::npos) << refusal_of(path);
+    EXPECT_NE(refusal_of(path).find("its table columns holds more than 4 MB of labels"), std::string::npos) << refusal_of(path);
     const Folder other;
     const auto big = changed_results(other, "UPDATE about SET value = zeroblob(100000000) WHERE key = 'trace_times'");
     EXPECT_NE(refusal_of(big).find("a text or a blob is larger than 64 MB"), std::string::npos) << refusal_of(big);
@@ -175,7 +175,7 @@ TEST(HostileResults, NeverMakeALinkOrSomebodysFileEmpty) {
     std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-writer");
     const auto refused = SweepResults::open(folder / "r.sqlite", PlainSweep(10));
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().text().find("r.sqlite-writer: stands where the mark"), std::string::npos) << refused.error().text();
+    EXPECT_NE(refused.error().text().find("r.sqlite-writer: is at the path of the results' lock file"), std::string::npos) << refused.error().text();
     std::filesystem::remove(folder / "r.sqlite-writer");
     folder.write("r.sqlite-writer", "years of work\n");
     EXPECT_FALSE(SweepResults::open(folder / "r.sqlite", PlainSweep(10)));

@@ -109,7 +109,7 @@ TEST(Respond, ARateTooLowForAnAfferentIsTold) {
     sources.push_back(test::sure(make_stimulus("press", {}, 500, 0)));
     const auto fa2 = test::sure(plan_afferent("fa2", {})), sa1 = test::sure(plan_afferent("sa1", {}));
     EXPECT_EQ(rate_warnings(sources, std::span(&fa2, 1)).at(0),
-              "fa2 on press: the samples come at 500 Hz, but what it answers to needs 1000 Hz or more; do not trust its spikes");
+              "fa2 on press: the sample rate is 500 Hz, but this afferent needs 1000 Hz or more; do not trust its spikes");
     EXPECT_TRUE(rate_warnings(sources, std::span(&sa1, 1)).empty());
 }
 

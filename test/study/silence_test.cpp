@@ -58,7 +58,7 @@ TEST(Silence, NumbersOfARemedyAreRoundedUpToTwoDigits) {
 TEST(Silence, AnAfferentThatNeverFiresSaysByHowMuchMoreForceItWould) {
     const Folder folder;
     const auto ran = run(folder, "respond ramp-hold --rate 1kHz --json");
-    const auto said = found(ran.err, "fa1 never fired: the force was 1 N at most; it fires from about ([0-9.]+) times the same force on");
+    const auto said = found(ran.err, "fa1 never fired: the largest force was 1 N; it would fire at about ([0-9.]+) times this force");
     ASSERT_FALSE(said.empty()) << ran.err;
     const auto document = nlohmann::json::parse(ran.out);
     ASSERT_EQ(document["silent"].size(), 1U);

@@ -71,7 +71,7 @@ TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, Code::bad_input);
     EXPECT_NE(other.error().sentence.find("--scale was 1 and now is 3; --abs was true and now is not given; the contents of the recording "
-                                          "have changed; --despike was not given and now is auto. Repeat the run as it was begun, remove "),
+                                          "have changed; --despike was not given and now is auto. Repeat the run with its original options, remove "),
               std::string::npos)
         << other.error().sentence;
     EXPECT_EQ(read_file(folder / "state"), kept);
@@ -83,7 +83,7 @@ TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto other = press_fingertip(folder, "a", -1, true, {{"FORCE", "press"}}, 1.5);
     ASSERT_FALSE(other);
-    EXPECT_NE(other.error().sentence.find("the force up to this checkpoint is not the one that it was made with"), std::string::npos)
+    EXPECT_NE(other.error().sentence.find("the force up to this checkpoint differs from the one that it was made with"), std::string::npos)
         << other.error().sentence;
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
 }
@@ -175,7 +175,7 @@ TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
         folder.write("mine.spikes", mine);
         const auto ran = test::run(folder, "respond press --population fingertip --checkpoint mine");
         EXPECT_EQ(ran.status, 1);
-        EXPECT_NE(ran.err.find("mine.spikes: this file was not written with a checkpoint"), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("mine.spikes: this file was not written by a checkpoint"), std::string::npos) << ran.err;
         EXPECT_EQ(read_file(folder / "mine.spikes"), mine);
         EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes"}));
     }

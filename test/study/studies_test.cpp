@@ -157,7 +157,7 @@ TEST(Studies, TheirTextKeepsItsTableWhateverIsInIt) {
     out.claim("|a| over b", 1, "V").printed_as(2, "table 1").because("x | y");
     const auto text = markdown_of(all, std::span(&out, 1));
     EXPECT_NE(text.find("| \\|a\\| over b | 1 V | 2 V | -50.0 % | - | differs | table 1; x \\| y |\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("0 printed numbers agree within a tenth, 1 differ by more. 0 numbers agree with what follows"), std::string::npos)
+    EXPECT_NE(text.find("0 published numbers agree within a tenth, 1 differ by more. 0 numbers agree with values derived"), std::string::npos)
         << text;
 }
 

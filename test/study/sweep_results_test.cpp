@@ -215,7 +215,7 @@ TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
             for (std::int64_t k = unit; k < unit + 100; ++k) some.push_back(sweep.outcome(k));
             ok = results.add(sweep, std::move(some));
         }
-        if (ok || ok.error().text().find("as large as a file may become here ('ulimit -f'); all that was written before is kept") ==
+        if (ok || ok.error().text().find("has reached the limit on file sizes ('ulimit -f'); everything written before is kept") ==
                       std::string::npos)
             throw std::runtime_error(ok ? "all of it fitted" : ok.error().text());
         const rlimit less{40'000, 40'000};
@@ -240,7 +240,7 @@ TEST(SweepResults, InAFolderThatCannotBeWrittenAreReadAndNotBegun) {
         if (sure(SweepResults::look(folder / "r.sqlite")).finished() != 50) throw std::runtime_error("rows are missing");
         for (const char* name : {"r.sqlite", "new.sqlite"}) {
             const auto results = SweepResults::open(folder / name, sweep);
-            if (results || results.error().text().find("give a place that can be written to with --out") == std::string::npos)
+            if (results || results.error().text().find("give a writable path with --out") == std::string::npos)
                 throw std::runtime_error(results ? "opened" : results.error().text());
         }
     });
@@ -261,18 +261,18 @@ TEST(SweepResults, RefuseTheFileOfAnotherSweepAndSayWhatHasChanged) {
     EXPECT_EQ(refusal(path, PlainSweep(20, "a\nB\nc\n")),
               path +
                   ": holds results of another sweep: netlist circuits/sa1.cir has changed since, in line 2. Give another file with --out, "
-                  "or put back what has changed, or remove this one");
+                  "undo the change, or remove this file");
     EXPECT_NE(refusal(path, PlainSweep(30)).find("the number of units was 20 and is 30 now"), std::string::npos);
     PlainSweep more(20);
     more.facts_.insert(more.facts_.begin(), {"card process/x.lib", "y"});
-    EXPECT_NE(refusal(path, more).find("of 'card process/x.lib' it knows nothing"), std::string::npos);
+    EXPECT_NE(refusal(path, more).find("it has no entry 'card process/x.lib'"), std::string::npos);
 }
 
 TEST(SweepResults, RefuseWhatIsNoSuchFile) {
     const Folder folder;
-    EXPECT_NE(refusal(folder.write("text", std::string(5000, 'x')), PlainSweep(2)).find("is no SQLite file"), std::string::npos);
+    EXPECT_NE(refusal(folder.write("text", std::string(5000, 'x')), PlainSweep(2)).find("is not an SQLite file"), std::string::npos);
     EXPECT_NE(refusal(folder.write("empty", ""), PlainSweep(2)).find("holds no results of a sweep"), std::string::npos);
-    EXPECT_NE(SweepResults::look(folder / "none").error().text().find("is not there"), std::string::npos);
+    EXPECT_NE(SweepResults::look(folder / "none").error().text().find("does not exist"), std::string::npos);
     run_sweep_of(PlainSweep(2), folder / "r.sqlite", {});
     const int file = ::open((folder / "r.sqlite").c_str(), O_RDWR);
     ASSERT_EQ(::pwrite(file, "\0\0\0\7", 4, 60), 4) << "SQLite's user version";
@@ -318,9 +318,9 @@ TEST(SweepResults, ShardsMergeIntoTheWholeAndNothingIsCountedTwice) {
     run_sweep_of(Changed(1001), folder / "changed", {.shard = {1, 3}});
     const auto taken = all.take(sure(SweepResults::look(folder / "changed")));
     ASSERT_FALSE(taken);
-    EXPECT_NE(taken.error().text().find("changed: of unit 7 it has other results than"), std::string::npos) << taken.error().text();
+    EXPECT_NE(taken.error().text().find("changed: unit 7 has other results than"), std::string::npos) << taken.error().text();
     run_sweep_of(PlainSweep(1001, "other"), folder / "other", {});
-    EXPECT_NE(all.take(sure(SweepResults::look(folder / "other"))).error().text().find("is of another sweep than"), std::string::npos);
+    EXPECT_NE(all.take(sure(SweepResults::look(folder / "other"))).error().text().find("belongs to another sweep than"), std::string::npos);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// An axis of a sweep file: what it says, and whom it means, made one.
+// An axis of a sweep: combines the text of the sweep file with the quantity that it varies.
 
 #include <functional>
 #include <limits>
@@ -9,28 +9,30 @@
 
 namespace corpuscle::sweeps {
 
-/// Something of a subject that can vary.
+/// A quantity of a subject that can vary.
 struct Target {
     SweepColumn column;
-    std::optional<double> nominal = {};  ///< what it is if nothing is said
+    std::optional<double> nominal = {};  ///< value without a setting
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-    std::function<Result<double>(const Said&)> read = {};              ///< a text as a number
-    std::function<Result<void>(const std::string& value)> check = {};  ///< whether the subject takes it; null: low and high say it
-    bool words_alone = false, words_too = false;                       ///< "ss"; "8x4"
+    std::function<Result<double>(const Said&)> read = {};  ///< converts a text to a number
+    /// returns an error if the subject rejects the value; null: low and high are the only check
+    std::function<Result<void>(const std::string& value)> check = {};
+    /// only labels such as "ss"; or labels such as "8x4" as well as numbers
+    bool words_alone = false, words_too = false;
 };
 
-/// How many units and which seed, of the axes that are drawn; `dimension` counts those with Sobol's points.
+/// Number of samples and seed for the axes that are sampled; `dimension` counts those with Sobol points.
 struct Drawing {
     std::uint64_t seed = 0;
     std::uint64_t draws = 1;
     std::size_t dimension = 0;
 };
 
-/// Whether it is drawn rather than listed.
+/// True if the axis is sampled rather than listed.
 bool is_drawn(const SaidAxis&);
 Result<SweepAxis> axis_of(const SaidAxis&, const Target&, Drawing&);
 
-/// A whole number from least to most.
-Result<std::int64_t> whole_of(const Said&, std::string_view what, double least, double most);
+/// An integer from min to max.
+Result<std::int64_t> whole_of(const Said&, std::string_view name, double min, double max);
 
 }  // namespace corpuscle::sweeps

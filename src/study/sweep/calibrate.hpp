@@ -1,5 +1,5 @@
 #pragma once
-// Chips brought back to what they were designed for: each is pressed, its spikes are counted, its trims are set, as a tester would do it.
+// Calibration of chips: each chip is pressed, its spikes are counted, and its trims are set, as a tester would do it.
 
 #include <functional>
 #include <memory>
@@ -12,48 +12,48 @@
 
 namespace corpuscle {
 
-/// What can be set of a chip once it is made, by a binary code: designed * (1 + range * code / 2^(bits - 1)), code from 1 - 2^(bits - 1) to
-/// 2^(bits - 1); 0 is as designed. One bit: as designed, or the most.
+/// A parameter that can be set on a finished chip by a binary code: designed * (1 + range * code / 2^(bits - 1)), with code from 1 -
+/// 2^(bits - 1) to 2^(bits - 1); 0 is the designed value. With one bit: the designed value or the largest.
 struct Trim {
-    std::vector<std::string> names;  ///< knobs that are numbers: "i_leak"; "rect.p1b.m" and "rect.n2b.m", switched together
+    std::vector<std::string> names;  ///< numeric netlist parameters: "i_leak"; "rect.p1b.m" and "rect.n2b.m" are switched together
     double designed = 0;
-    double range = 0.5;  ///< the largest code's share more than designed
-    bool whole = false;  ///< columns of an array: to the nearest whole number, 1 at least
+    double range = 0.5;  ///< relative change at the largest code
+    bool whole = false;  ///< columns of an array: rounded to the nearest integer, at least 1
 
     double value(int code, int bits) const;
 };
 
-/// Which chips are trimmed, how, and to what.
+/// The chips to calibrate, their trims, and the target.
 struct ChipCalibration {
     std::string netlist;
-    std::vector<circuit::Knob> knobs = {};  ///< set of it anyhow: its corner
+    std::vector<circuit::Knob> knobs = {};  ///< fixed settings, e.g. the process corner
     std::vector<Trim> trims = {};
-    int bits = 4;               ///< of each trim, at the most
+    int bits = 4;               ///< of each trim, at most
     std::vector<double> force;  ///< N, of one press
     double T = 1e-4;            ///< s
     FiringLimits limits;
     circuit::BatchOptions batch = {};
-    unsigned threads = 0;  ///< 0: as many as there are cores
+    unsigned threads = 0;  ///< 0: one for each core
     std::function<void(std::size_t chips_left, std::size_t presses)> told = {};
 };
 
-/// One chip's calibration. codes and distance at k: the best found with k bits, at 0 as it was made.
+/// One chip's calibration. codes[k] and distance[k]: the best result with k bits; at 0 the chip without calibration.
 struct CalibratedChip {
-    std::vector<std::vector<int>> codes;  ///< in steps of the finest converter
+    std::vector<std::vector<int>> codes;  ///< in steps of the finest code
     std::vector<double> distance;
-    int bits = -1;                              ///< with so many it keeps to the limits: 0 as it was made; -1: with none tried
-    int presses = 0;                            ///< in all
-    std::vector<double> spikes_before, spikes;  ///< s, as it was made and at the last
-    bool lost = false;                          ///< as it was made it did not converge
+    int bits = -1;                              ///< number of bits with which it meets the limits: 0 without calibration; -1 if none
+    int presses = 0;                            ///< total number of presses
+    std::vector<double> spikes_before, spikes;  ///< s, before calibration and after
+    bool lost = false;                          ///< did not converge without calibration
 };
 
-/// Each chip by itself, coarse steps before fine ones: with one bit, then two ..., from the best so far one step up or down with each trim,
-/// then along all that helped together, until nothing is better. A chip that keeps to the limits is let go. So the first steps with many
-/// bits are those with few, and one search tells what each number of bits is worth.
+/// Calibrates each chip separately, from coarse steps to fine ones: with one bit, then two, and so on. From the best codes so far, each
+/// trim is moved one step up or down, then all improving trims together, until nothing improves. A chip that meets the limits is finished.
+/// The first steps with many bits are those with few, so one search gives the result for each number of bits.
 Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration&, const std::vector<circuit::Draw>& chips);
 
-/// The trim with what the netlist has of its first name; refused if that is no number there.
+/// The trim with the netlist's value of its first name; fails if that is not a number.
 Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>&, std::vector<std::string> names, double range,
-                     bool whole);
+                     bool is_integer);
 
 }  // namespace corpuscle

@@ -29,41 +29,41 @@ std::string CalibrationTold::names() const {
     return out;
 }
 
-int bits_worth_having(const CalibrationTold& told, int most) {
-    for (int b = 0; b < most; ++b)
-        if ((told.kept(most) - told.kept(b)) * 100 <= told.chips.size()) return b;
-    return most;
+int bits_worth_having(const CalibrationTold& result, int max) {
+    for (int b = 0; b < max; ++b)
+        if ((result.kept(max) - result.kept(b)) * 100 <= result.chips.size()) return b;
+    return max;
 }
 
-std::string text_of(const ChipCalibration& asked, const std::vector<CalibrationTold>& all) {
+std::string text_of(const ChipCalibration& options, const std::vector<CalibrationTold>& all) {
     std::size_t width = 5;
     for (const auto& set : all) width = std::max(width, set.names().size());
-    std::string out = fmt::format("{}: {} chips; a chip keeps to the limits with {}\n\n{:{}}  as made", asked.netlist,
-                                  all.empty() ? 0 : all[0].chips.size(), asked.limits.text(), "trims", width);
-    for (int b = 1; b <= asked.bits; ++b) out += fmt::format("  {} bit{}", b, b == 1 ? " " : "s");
-    out += "  presses of a chip that is trimmed\n";
+    std::string out = fmt::format("{}: {} chips; limits: {}\n\n{:{}}  as made", options.netlist, all.empty() ? 0 : all[0].chips.size(),
+                                  options.limits.text(), "trims", width);
+    for (int b = 1; b <= options.bits; ++b) out += fmt::format("  {} bit{}", b, b == 1 ? " " : "s");
+    out += "  presses per trimmed chip\n";
     for (const auto& set : all) {
         out += fmt::format("{:{}}", set.names(), width);
-        for (int b = 0; b <= asked.bits; ++b)
+        for (int b = 0; b <= options.bits; ++b)
             out += fmt::format("{:{}.1f}{}", 100 * static_cast<double>(set.kept(b)) / static_cast<double>(set.chips.size()), b == 0 ? 8 : 7,
                                " %");
         out += fmt::format("  {:.1f}\n", set.presses_of_one());
     }
     for (const auto& t : all.empty() ? std::vector<Trim>() : all[0].trims)
         out += fmt::format("\n{}: {:g} as designed, {:g} to {:g} with {} bits{}", fmt::join(t.names, " and "), t.designed,
-                           t.value(1 - (1 << (asked.bits - 1)), asked.bits), t.value(1 << (asked.bits - 1), asked.bits), asked.bits,
-                           t.whole ? ", whole columns" : "");
-    if (!all.empty()) out += fmt::format("\nworth having: {} bits\n", bits_worth_having(all[0], asked.bits));
+                           t.value(1 - (1 << (options.bits - 1)), options.bits), t.value(1 << (options.bits - 1), options.bits),
+                           options.bits, t.whole ? ", integer columns" : "");
+    if (!all.empty()) out += fmt::format("\nuseful: {} bits\n", bits_worth_having(all[0], options.bits));
     return out;
 }
 
-nlohmann::ordered_json document_of(const ChipCalibration& asked, const std::vector<CalibrationTold>& all) {
-    nlohmann::ordered_json out = {{"netlist", asked.netlist}, {"limits", asked.limits.text()}, {"bits", asked.bits}};
+nlohmann::ordered_json document_of(const ChipCalibration& options, const std::vector<CalibrationTold>& all) {
+    nlohmann::ordered_json out = {{"netlist", options.netlist}, {"limits", options.limits.text()}, {"bits", options.bits}};
     for (const auto& set : all) {
         nlohmann::ordered_json one, trims, kept, chips;
         for (const auto& t : set.trims)
             trims.push_back({{"names", t.names}, {"designed", t.designed}, {"range", t.range}, {"whole", t.whole}});
-        for (int b = 0; b <= asked.bits; ++b) kept.push_back(set.kept(b));
+        for (int b = 0; b <= options.bits; ++b) kept.push_back(set.kept(b));
         for (const auto& c : set.chips)
             chips.push_back({{"bits", c.bits},
                              {"presses", c.presses},
@@ -72,7 +72,7 @@ nlohmann::ordered_json document_of(const ChipCalibration& asked, const std::vect
                              {"spikes", c.spikes}});
         out["sets"].push_back({{"trims", trims},
                                {"kept", kept},
-                               {"bits_worth_having", bits_worth_having(set, asked.bits)},
+                               {"bits_worth_having", bits_worth_having(set, options.bits)},
                                {"presses", set.presses()},
                                {"chips", chips}});
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What a calibration of many chips came to: yields with each number of bits, in words and as JSON.
+// Results of calibrating many chips: yield for each number of bits, as text and as JSON.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -7,24 +7,24 @@
 
 namespace corpuscle {
 
-/// One set of trims and what it did.
+/// One set of trims and its results.
 struct CalibrationTold {
     std::vector<Trim> trims;
     std::vector<CalibratedChip> chips;
 
-    std::size_t kept(int bits) const;  ///< chips that keep to the limits with so many bits or fewer; 0: as they were made
+    std::size_t kept(int bits) const;  ///< number of chips that meet the limits with at most this many bits; 0: without calibration
     long presses() const;              ///< of all chips
-    /// Of the chips that did not keep to the limits as they were made: the mean.
+    /// Mean over the chips that do not meet the limits without calibration.
     double presses_of_one() const;
     std::string names() const;
 };
 
-/// A table, a row a set of trims: yield before and with 1, 2 ... bits, presses. Then how many bits are worth having: the fewest with which
-/// the first set keeps as many as with all of them, less one in a hundred.
+/// A table with one row for each set of trims: yield without calibration and with 1, 2 ... bits, presses. Then the useful number of bits,
+/// see useful_bits().
 std::string text_of(const ChipCalibration&, const std::vector<CalibrationTold>&);
 nlohmann::ordered_json document_of(const ChipCalibration&, const std::vector<CalibrationTold>&);
 
-/// The fewest bits beyond which no more than a hundredth of the chips is gained.
-int bits_worth_having(const CalibrationTold&, int most);
+/// The smallest number of bits with which at most 1 % of the chips fail that meet the limits with all bits.
+int bits_worth_having(const CalibrationTold&, int max);
 
 }  // namespace corpuscle

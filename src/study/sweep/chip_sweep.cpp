@@ -1,4 +1,5 @@
-// A sweep of an afferent that is a netlist: many chips at once, each with its own draw; where other numbers differ, with its own design.
+// A sweep over an afferent that is a netlist: simulates many chips at once, each with its own mismatch sample and, if values vary, its own
+// design.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -18,35 +19,35 @@ using circuit::ChipAnswer;
 using circuit::CircuitDesign;
 using DesignPointer = std::shared_ptr<const CircuitDesign>;
 
-constexpr std::size_t designs_kept = 16;
+constexpr std::size_t max_cached_designs = 16;
 
 class ChipSweep final : public PlannedSweep {
     NetlistMaker netlist_{};
     ForceMaker force_;
     DesignPointer nominal_;
-    std::unique_ptr<AfferentMeasures> measured_;
+    std::unique_ptr<AfferentMeasures> afferent_measures_;
     std::size_t every_ = 0, lanes_ = circuit::BatchOptions{}.lanes;
-    long most_ = 0;  // iterations that the file allows; 0: it says nothing
+    long iteration_limit_ = 0;  // iteration limit of the file; 0 if it has none
 
-    mutable std::mutex guard_;
+    mutable std::mutex mutex_;
     mutable std::map<std::vector<double>, Result<DesignPointer>> designs_;
-    mutable std::mutex nominal_guard_;
-    mutable std::optional<long> most_by_nominal_;
+    mutable std::mutex nominal_mutex_;
+    mutable std::optional<long> nominal_iteration_limit_;
 
-    /// A chip at work, and what it needs until it has ended.
-    struct AtWork {
+    /// The data of a chip that is being simulated.
+    struct ActiveChip {
         std::shared_ptr<const FeltForce> force;
         DesignPointer design;
     };
 
     Result<void> set(const SweepText&);
-    Result<void> choose(const SweepText&);
-    Result<void> show(const SweepText&);
+    Result<void> select_measures(const SweepText&);
+    Result<void> select_probes(const SweepText&);
     Result<DesignPointer> design(std::span<const double> values) const;
-    std::optional<circuit::Draw> draw(std::int64_t unit, const CircuitDesign&) const;
+    std::optional<circuit::Draw> draw(std::int64_t item, const CircuitDesign&) const;
     long most_iterations(const std::function<bool()>& stop) const;
-    UnitOutcome outcome(std::int64_t unit, const AtWork&, ChipAnswer&&) const;
-    UnitOutcome lost(std::int64_t unit, const Error&) const;
+    UnitOutcome outcome(std::int64_t item, const ActiveChip&, ChipAnswer&&) const;
+    UnitOutcome failed_outcome(std::int64_t item, const Error&) const;
 
 public:
     static Result<std::unique_ptr<Sweep>> make(const SweepText&, const std::string& folder);
@@ -54,33 +55,34 @@ public:
     Result<void> work(const Next&, const Told&, const std::function<bool()>& stop) const override;
 };
 
-Result<void> ChipSweep::set(const SweepText& said) {
-    for (const auto& s : said.set)
+Result<void> ChipSweep::set(const SweepText& spec) {
+    for (const auto& s : spec.set)
         if (auto ok = force_.owns(s.name) ? force_.set(s) : netlist_.set(s); !ok) return ok;
     return {};
 }
 
-/// Measures and limits.
-Result<void> ChipSweep::choose(const SweepText& said) {
+/// Selects measures and limits.
+Result<void> ChipSweep::select_measures(const SweepText& spec) {
     std::vector<std::string> ranges;
     for (const auto& w : nominal_->kept) ranges.emplace_back(w.range().of);
-    measured_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
-    if (auto ok = measured_->choose(said.measures); !ok) return ok;
-    const Limiting limiting{
-        [&](const Said& name) { return measured_->column_of(name); },
-        [&](const Said& model, std::size_t column) { return model_says(model, force_, {measured_->columns()[column].name, model.place}); }};
-    if (auto ok = set_limits(said, limiting, measured_->columns()); !ok) return ok;
-    measures_ = measured_->columns();
+    afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
+    if (auto ok = afferent_measures_->choose(spec.measures); !ok) return ok;
+    const Limiting limiting{[&](const Said& name) { return afferent_measures_->column_of(name); },
+                            [&](const Said& model, std::size_t column) {
+                                return model_says(model, force_, {afferent_measures_->columns()[column].name, model.place});
+                            }};
+    if (auto ok = set_limits(spec, limiting, afferent_measures_->columns()); !ok) return ok;
+    measures_ = afferent_measures_->columns();
     return {};
 }
 
-/// The traces that are kept, in place of what the netlist saves.
-Result<void> ChipSweep::show(const SweepText& said) {
-    for (const auto& word : said.traces) {
+/// Selects the probes to keep, in place of those that the netlist saves.
+Result<void> ChipSweep::select_probes(const SweepText& spec) {
+    for (const auto& word : spec.traces) {
         const auto found = circuit::traced(*nominal_->circuit, word.text);
         if (!found) return word.wrong(found.error().sentence);
         if (!*found)
-            return word.wrong(fmt::format("traces: {} has no such node or device as '{}'{}", netlist_.name(), word.text,
+            return word.wrong(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), word.text,
                                           circuit::meant_trace(*nominal_->circuit, word.text)));
         traces_.push_back(**found);
     }
@@ -92,26 +94,26 @@ Result<void> ChipSweep::show(const SweepText& said) {
     if (!design) return design.error();
     nominal_ = std::move(*design);
     const auto& force = *force_.nominal();
-    const auto every = samples_between(said, force.clock.T());
+    const auto every = samples_between(spec, force.clock.T());
     if (!every) return every.error();
     every_ = *every;
     for (std::size_t k = 0; k < force.samples.size(); k += every_) trace_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
     return {};
 }
 
-Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& said, const std::string& folder) {
+Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std::string& folder) {
     auto out = std::make_unique<ChipSweep>();
     auto& s = *out;
-    if (said.orders) return said.orders->wrong("orders are those of a netlist = ...; an afferent = ... answers to its force");
-    auto netlist = NetlistMaker::of(*said.afferent, folder);
+    if (spec.orders) return spec.orders->wrong("orders is for netlist = ...; an afferent = ... responds to its force");
+    auto netlist = NetlistMaker::of(*spec.afferent, folder);
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
-    const auto seed = seed_of(said);
+    const auto seed = seed_of(spec);
     if (!seed) return seed.error();
-    auto force = ForceMaker::of(said, folder, *seed);
+    auto force = ForceMaker::of(spec, folder, *seed);
     if (!force) return force.error();
     s.force_ = std::move(*force);
-    if (auto ok = s.set(said); !ok) return ok.error();
+    if (auto ok = s.set(spec); !ok) return ok.error();
     const auto nominal = s.netlist_.nominal();
     if (!nominal) return nominal.error();
     auto design = CircuitDesign::of(*nominal);
@@ -121,27 +123,29 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& said, const std:
     if (!written) return written.error();
     Varying varying;
     varying.named = s.netlist_.name(), varying.chips = true;
-    varying.target = [&](const Said& what) { return s.force_.owns(what.text) ? s.force_.target(what) : s.netlist_.target(what); };
-    varying.vary = [&](const SweepAxis& a, const std::string& what, std::size_t axis) {
-        s.force_.owns(what) ? s.force_.vary(what, axis) : s.netlist_.vary(what, axis, a.column.words);
+    varying.target = [&](const Said& quantity) {
+        return s.force_.owns(quantity.text) ? s.force_.target(quantity) : s.netlist_.target(quantity);
     };
-    auto units = plan_of(said, varying, &*written);
-    if (!units) return units.error();
-    s.plan_ = std::move(*units);
+    varying.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
+        s.force_.owns(quantity) ? s.force_.vary(quantity, axis) : s.netlist_.vary(quantity, axis, a.column.words);
+    };
+    auto plan = plan_of(spec, varying, &*written);
+    if (!plan) return plan.error();
+    s.plan_ = std::move(*plan);
     if (s.plan_.draws_chips() && s.nominal_->circuit->mismatch)
-        return bad_input("[set] chooses one chip by mismatch = ..., and the sweep draws others; leave one of them out", {said.file});
-    if (said.iterations) {
-        const auto most = whole_of(*said.iterations, "iterations", 1, 1e12);
-        if (!most) return most.error();
-        s.most_ = static_cast<long>(*most);
+        return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file});
+    if (spec.iterations) {
+        const auto limit = whole_of(*spec.iterations, "iterations", 1, 1e12);
+        if (!limit) return limit.error();
+        s.iteration_limit_ = static_cast<long>(*limit);
     }
     if (auto ok = s.force_.prepare(); !ok) return ok.error();
-    if (auto ok = s.choose(said); !ok) return ok.error();
-    const auto keeps = keeps_spikes(said);
+    if (auto ok = s.select_measures(spec); !ok) return ok.error();
+    const auto keeps = keeps_spikes(spec);
     if (!keeps) return keeps.error();
     if (*keeps) s.trains_ = {s.netlist_.name()};
-    if (auto ok = s.show(said); !ok) return ok.error();
-    s.facts_ = first_facts(said, s.nominal_->circuit->title);
+    if (auto ok = s.select_probes(spec); !ok) return ok.error();
+    s.facts_ = first_facts(spec, s.nominal_->circuit->title);
     for (auto& fact : s.netlist_.facts()) s.facts_.push_back(std::move(fact));
     if (auto recorded = s.force_.recorded(); !recorded.empty()) s.facts_.push_back({"recording " + s.force_.name(), std::move(recorded)});
     s.tell_draws(s.netlist_.name(), *s.nominal_->circuit);
@@ -152,116 +156,116 @@ Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
     if (!netlist_.varies()) return nominal_;
     const auto own = netlist_.own(values);
     {
-        const std::lock_guard lock(guard_);
+        const std::lock_guard lock(mutex_);
         if (const auto at = designs_.find(own); at != designs_.end()) return at->second;
     }
     const auto netlist = netlist_.at(values);
     const auto made = netlist ? CircuitDesign::of(*netlist) : Result<DesignPointer>(netlist.error());
-    const std::lock_guard lock(guard_);
-    if (designs_.size() >= designs_kept) designs_.clear();
+    const std::lock_guard lock(mutex_);
+    if (designs_.size() >= max_cached_designs) designs_.clear();
     designs_.emplace(own, made);
     return made;
 }
 
-std::optional<circuit::Draw> ChipSweep::draw(std::int64_t unit, const CircuitDesign& design) const {
+std::optional<circuit::Draw> ChipSweep::draw(std::int64_t item, const CircuitDesign& design) const {
     if (auto own = circuit::own_draw(*design.circuit)) return own;
-    return plan_.draw(unit);
+    return plan_.draw(item);
 }
 
-/// What a unit may cost: what the file says, else many times what the nominal chip takes under the nominal force.
+/// Iteration limit of an item: from the file, otherwise a multiple of what the nominal chip takes with the nominal force.
 long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
-    if (most_ > 0) return most_;
-    const std::lock_guard lock(nominal_guard_);
-    if (most_by_nominal_) return *most_by_nominal_;
+    if (iteration_limit_ > 0) return iteration_limit_;
+    const std::lock_guard lock(nominal_mutex_);
+    if (nominal_iteration_limit_) return *nominal_iteration_limit_;
     const auto& force = *force_.nominal();
     circuit::BatchOptions options;
     options.stop = stop;
-    const auto answer =
+    const auto response =
         circuit::run_chip_alone({0, nominal_, circuit::own_draw(*nominal_->circuit), force.samples, force.clock.T()}, options);
-    if (answer.error && answer.error->code == Code::interrupted) return 0;
-    most_by_nominal_ = answer.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(answer.work.iterations));
-    return *most_by_nominal_;
+    if (response.error && response.error->code == Code::interrupted) return 0;
+    nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(response.work.iterations));
+    return *nominal_iteration_limit_;
 }
 
-UnitOutcome ChipSweep::lost(std::int64_t unit, const Error& error) const {
+UnitOutcome ChipSweep::failed_outcome(std::int64_t item, const Error& error) const {
     UnitOutcome out;
-    out.unit = unit, out.end = UnitEnd::lost, out.why = error.text();
+    out.unit = item, out.end = UnitEnd::lost, out.why = error.text();
     out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
     out.spikes.resize(trains_.size());
     out.traces.assign(traces_.size(), std::vector<float>(trace_times_.size(), std::numeric_limits<float>::quiet_NaN()));
     return out;
 }
 
-UnitOutcome ChipSweep::outcome(std::int64_t unit, const AtWork& at, ChipAnswer&& answer) const {
-    auto out = answer.error ? lost(unit, *answer.error) : UnitOutcome{};
-    out.unit = unit, out.alone = answer.alone;
-    out.steps = answer.work.steps, out.iterations = answer.work.iterations;
-    if (answer.error) return out;
-    if (answer.capped) out.end = UnitEnd::capped, out.why = fmt::format("stopped after {} iterations", answer.work.iterations);
-    UnitAnswer of_unit;
-    of_unit.spikes = answer.spikes, of_unit.iterations = static_cast<double>(answer.work.iterations);
-    const double T = at.force->clock.T(), seconds = answer.spent.seconds;
-    of_unit.power = answer.spent.supplies / seconds, of_unit.sensor_power = answer.spent.sensor / seconds;
-    for (const auto& o : answer.outside) {
-        of_unit.outside_of.push_back(static_cast<double>(o.samples) * T);
-        of_unit.outside = std::max(of_unit.outside, of_unit.outside_of.back());
+UnitOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipAnswer&& response) const {
+    auto out = response.error ? failed_outcome(item, *response.error) : UnitOutcome{};
+    out.unit = item, out.alone = response.alone;
+    out.steps = response.work.steps, out.iterations = response.work.iterations;
+    if (response.error) return out;
+    if (response.capped) out.end = UnitEnd::capped, out.why = fmt::format("stopped after {} iterations", response.work.iterations);
+    UnitAnswer measured;
+    measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.work.iterations);
+    const double T = at.force->clock.T(), seconds = response.spent.seconds;
+    measured.power = response.spent.supplies / seconds, measured.sensor_power = response.spent.sensor / seconds;
+    for (const auto& o : response.outside) {
+        measured.outside_of.push_back(static_cast<double>(o.samples) * T);
+        measured.outside = std::max(measured.outside, measured.outside_of.back());
     }
-    of_unit.outside_of.resize(nominal_->kept.size());
-    out.measures = answer.capped ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
-                                 : measured_->values(*at.force, of_unit);
-    if (!trains_.empty()) out.spikes.push_back(std::move(answer.spikes));
-    out.traces = std::move(answer.shown);
+    measured.outside_of.resize(nominal_->kept.size());
+    out.measures = response.capped ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
+                                   : afferent_measures_->values(*at.force, measured);
+    if (!trains_.empty()) out.spikes.push_back(std::move(response.spikes));
+    out.traces = std::move(response.shown);
     out.traces.resize(traces_.size());
     for (auto& t : out.traces) t.resize(trace_times_.size(), std::numeric_limits<float>::quiet_NaN());
     return out;
 }
 
-Result<void> ChipSweep::work(const Next& next, const Told& told, const std::function<bool()>& stop) const {
+Result<void> ChipSweep::work(const Next& next, const Told& on_outcome, const std::function<bool()>& stop) const {
     circuit::BatchOptions options;
     options.stop = stop, options.show_every = every_, options.lanes = lanes_;
     options.most_iterations = most_iterations(stop);
-    std::map<std::int64_t, AtWork> at_work;
-    std::optional<Error> fault;
-    const auto chip_of = [&](std::int64_t unit, AtWork& at) {
-        return Chip{unit, at.design, draw(unit, *at.design), at.force->samples, at.force->clock.T()};
+    std::map<std::int64_t, ActiveChip> active;
+    std::optional<Error> sweep_error;
+    const auto chip_of = [&](std::int64_t item, ActiveChip& at) {
+        return Chip{item, at.design, draw(item, *at.design), at.force->samples, at.force->clock.T()};
     };
     const auto next_chip = [&]() -> std::optional<Chip> {
-        while (!stop() && !fault) {
-            const auto unit = next();
-            if (!unit) return {};
-            const auto values = plan_.values(*unit);
+        while (!stop() && !sweep_error) {
+            const auto item = next();
+            if (!item) return {};
+            const auto values = plan_.values(*item);
             const auto force = force_.at(values);
-            if (!force) return fault = force.error(), std::nullopt;
+            if (!force) return sweep_error = force.error(), std::nullopt;
             const auto made = design(values);
             if (!made) {
-                told(lost(*unit, made.error()));
+                on_outcome(failed_outcome(*item, made.error()));
                 continue;
             }
-            AtWork at{*force, *made};
+            ActiveChip at{*force, *made};
             if (at.design == nominal_ || same_devices(*at.design->circuit, *nominal_->circuit)) {
-                auto& kept = at_work[*unit] = std::move(at);
-                return chip_of(*unit, kept);
+                auto& active_chip = active[*item] = std::move(at);
+                return chip_of(*item, active_chip);
             }
-            auto answer = circuit::run_chip_alone(chip_of(*unit, at), options);  // another circuit: it shares no lanes
-            if (answer.error && answer.error->code == Code::interrupted) return {};
-            answer.alone = true;
-            told(outcome(*unit, at, std::move(answer)));
+            auto response = circuit::run_chip_alone(chip_of(*item, at), options);  // a different circuit cannot share lanes
+            if (response.error && response.error->code == Code::interrupted) return {};
+            response.alone = true;
+            on_outcome(outcome(*item, at, std::move(response)));
         }
         return {};
     };
-    const auto ended = [&](const Chip& chip, ChipAnswer&& answer) {
-        const auto at = at_work.find(chip.number);
-        if (!answer.error || answer.error->code != Code::interrupted) told(outcome(chip.number, at->second, std::move(answer)));
-        at_work.erase(at);
+    const auto ended = [&](const Chip& chip, ChipAnswer&& response) {
+        const auto at = active.find(chip.number);
+        if (!response.error || response.error->code != Code::interrupted) on_outcome(outcome(chip.number, at->second, std::move(response)));
+        active.erase(at);
     };
     const auto done = circuit::run_chips(nominal_, next_chip, ended, options);
-    if (fault) return *fault;
+    if (sweep_error) return *sweep_error;
     if (!done && done.error().code == Code::interrupted) return {};
     return done;
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Sweep>> chips_sweep(const SweepText& said, const std::string& folder) { return ChipSweep::make(said, folder); }
+Result<std::unique_ptr<Sweep>> chips_sweep(const SweepText& spec, const std::string& folder) { return ChipSweep::make(spec, folder); }
 
 }  // namespace corpuscle::sweeps

@@ -14,10 +14,11 @@ std::size_t bytes_of(const UnitOutcome& o) {
     return sum;
 }
 
-/// A library may throw; a thread that lets it through ends the program.
-Result<void> worked(const Sweep& sweep, const Sweep::Next& next, const Sweep::Told& told, const std::function<bool()>& stop) {
+/// Turns exceptions of libraries into errors; an exception that leaves a thread ends the program.
+Result<void> run_items_safely(const Sweep& sweep, const Sweep::Next& next, const Sweep::Told& on_outcome,
+                              const std::function<bool()>& stop) {
     try {
-        return sweep.work(next, told, stop);
+        return sweep.work(next, on_outcome, stop);
     } catch (const std::exception& e) {
         return bad_input(e.what());
     }
@@ -82,8 +83,8 @@ Result<void> Crew::fault() const {
     return fault_;
 }
 
-// A call of Sweep::work may have other units half done when it asks for the next, so next() never waits: without units the call comes
-// to its end, and the thread waits here.
+// A call of Sweep::work may have other items in progress when it asks for the next one, so next() does not wait. Without items the call
+// returns, and the thread waits here.
 void Crew::work() {
     std::unique_lock lock(guard_);
     for (;;) {
@@ -91,8 +92,8 @@ void Crew::work() {
         if (closing_) return;
         ++working_;
         lock.unlock();
-        auto ok =
-            worked(sweep_, [this] { return next(); }, [this](UnitOutcome&& o) { tell(std::move(o)); }, [this] { return stopping_.load(); });
+        auto ok = run_items_safely(
+            sweep_, [this] { return next(); }, [this](UnitOutcome&& o) { tell(std::move(o)); }, [this] { return stopping_.load(); });
         lock.lock();
         --working_;
         if (!ok && fault_ && !stopping_) fault_ = std::move(ok);
@@ -104,9 +105,9 @@ void Crew::work() {
 std::optional<std::int64_t> Crew::next() {
     const std::lock_guard lock(guard_);
     if (units_.empty()) return {};
-    const auto unit = units_.front();
+    const auto item = units_.front();
     units_.pop_front();
-    return unit;
+    return item;
 }
 
 void Crew::tell(UnitOutcome&& outcome) {

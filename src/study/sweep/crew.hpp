@@ -1,5 +1,5 @@
 #pragma once
-// Threads that work on the units they are given, and hand in what came out.
+// Threads that compute work items and return the outcomes.
 
 #include <atomic>
 #include <condition_variable>
@@ -11,26 +11,26 @@
 
 namespace corpuscle {
 
-/// One thread gives units and collects outcomes; `threads` others are each in a call of Sweep::work, as long as there are units.
+/// One thread adds items and collects outcomes. `threads` worker threads each run Sweep::work while there are items.
 class Crew {
 public:
     Crew(const Sweep&, unsigned threads);
-    ~Crew();  ///< leaves what is not done
+    ~Crew();  ///< discards unfinished items
     Crew(const Crew&) = delete;
     Crew& operator=(const Crew&) = delete;
 
     void give(const std::vector<std::int64_t>& units);
-    /// What is not begun is taken away; what is begun is left where the sweep can be stopped.
+    /// Removes items that have not started. Items in progress end as soon as the sweep can be stopped.
     void stop();
 
-    /// What has come out since, after this time at the most (s), at once if that is much or nobody is at work.
+    /// Outcomes since the last call. Waits up to this time (s), but returns at once if there are many or if no thread is working.
     std::vector<UnitOutcome> collect(double seconds);
-    std::size_t waiting() const;  ///< units that nobody has begun
-    bool is_done() const;         ///< nothing given is left, nobody is at work, and all is collected
-    /// What was wrong with the sweep itself, if anything was.
+    std::size_t waiting() const;  ///< items that have not started
+    bool is_done() const;         ///< all items are finished and collected
+    /// The error in the sweep itself, if there was one.
     Result<void> fault() const;
 
-    /// Bytes of outcomes at which the threads wait until they are collected.
+    /// Threads wait if the uncollected outcomes exceed this size, bytes.
     static constexpr std::size_t most_held = std::size_t{32} << 20, much = most_held / 4;
 
 private:
@@ -43,7 +43,7 @@ private:
     std::condition_variable given_, told_, room_;
     std::deque<std::int64_t> units_;
     std::vector<UnitOutcome> outcomes_;
-    std::size_t held_ = 0;  // bytes in outcomes_
+    std::size_t held_ = 0;  // size of outcomes_, bytes
     unsigned working_ = 0;
     std::atomic<bool> stopping_ = false;
     bool closing_ = false;

@@ -1,5 +1,6 @@
 #pragma once
-// What a sweep draws for its chips, told so that whoever has the results can draw it again: nothing of it needs to be stored a unit.
+// The mismatch samples of a sweep's chips, described so that they can be recomputed from the results file. They are not stored for each
+// chip.
 
 #include <cstdint>
 #include <string>
@@ -13,41 +14,41 @@ namespace circuit {
 struct Circuit;
 }
 
-/// A transistor that draws its own threshold and current.
+/// A transistor with its own threshold and current mismatch.
 struct DrawnDevice {
-    std::string name;          ///< with its path, small letters
-    std::uint32_t number = 0;  ///< among those of its netlist that draw
+    std::string name;          ///< with its path, in lower case
+    std::uint32_t number = 0;  ///< index among the transistors with mismatch in its netlist
     bool pmos = false;
-    double W = 0, L = 0, m = 1, stack = 1;  ///< of a unit, m; how many side by side and in series
-    double sigma_VT = 0, sigma_IS = 0;      ///< deviations: V; of the logarithm of I_SQ
+    double W = 0, L = 0, m = 1, stack = 1;  ///< of one element, m; number of elements in parallel and in series
+    double sigma_VT = 0, sigma_IS = 0;      ///< standard deviations: of V_T in V, and of the logarithm of I_SQ
 
     double area() const { return W * L * m * stack; }
 };
 
-/// The transistors that differ from chip to chip (what all of a chip share, the process, has axes of its own). Device `number` of chip c:
-/// normals(seed, number, ..., c), as mismatch() in circuit/device/uicm_card.hpp has them.
+/// The transistors that differ from chip to chip. (Process parameters, which all transistors of a chip share, are axes.) The deviates of
+/// device `number` on chip c are normals(seed, number, ..., c), see mismatch() in circuit/device/uicm_card.hpp.
 struct Drawn {
     std::uint64_t seed = 0;
-    std::int64_t chips = 0;  ///< unit u is chip u % chips; 0: chip u
+    std::int64_t chips = 0;  ///< item u is chip u % chips; 0: chip u
     struct Subject {
-        std::string name;  ///< its measures are called NAME.MEASURE, unless it is the only one
+        std::string name;  ///< its measures are called NAME.MEASURE, unless it is the only subject
         std::vector<DrawnDevice> devices;
     };
     std::vector<Subject> subjects;
 
-    std::uint64_t chip(std::int64_t unit) const { return static_cast<std::uint64_t>(chips > 0 ? unit % chips : unit); }
+    std::uint64_t chip(std::int64_t item) const { return static_cast<std::uint64_t>(chips > 0 ? item % chips : item); }
 };
 
-/// The transistors of a netlist in the order in which they draw.
+/// The transistors of a netlist in the order in which they are sampled.
 std::vector<DrawnDevice> drawn_devices(const circuit::Circuit&);
 
-/// The fact of a sweep under which its draws stand.
+/// Name of the sweep's metadata entry with the samples.
 inline constexpr const char* drawn_fact = "drawn";
-/// As one fact of a sweep's, and back.
+/// Converts to and from the text of this metadata entry.
 std::string text_of(const Drawn&);
 Result<Drawn> drawn_of(const std::string& text);
 
-/// Standard normal deviates, one for each chip: of a device's threshold and current.
+/// Standard normal deviates of a device's threshold and current, one for each chip.
 struct DeviceDeviates {
     std::vector<double> V_T, I_S;
 };

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-/// A text as a field: in quotes where it has to be.
+/// A text as a CSV field, quoted if necessary.
 std::string field(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == text.npos) return text;
     std::string out = "\"";
@@ -24,9 +24,9 @@ std::string number(double x, const SweepColumn& column) {
     return std::isnan(x) ? "" : fmt::format("{}", x);
 }
 
-/// Blobs of one table, read in step with the units.
+/// The blobs of one table, read in the order of the items.
 template <class T>
-class InStep {
+class BlobReader {
     sql::Statement rows_;
     bool has_ = false;
 
@@ -45,12 +45,12 @@ public:
         return advance();
     }
 
-    Result<void> put(std::int64_t unit, std::size_t columns, std::string& text) {
-        while (has_ && rows_.integer(0) < unit)
+    Result<void> put(std::int64_t item, std::size_t columns, std::string& text) {
+        while (has_ && rows_.integer(0) < item)
             if (auto ok = advance(); !ok) return ok;
         for (std::size_t k = 0; k < columns; ++k) {
             text += ",";
-            if (!has_ || rows_.integer(0) != unit || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
+            if (!has_ || rows_.integer(0) != item || rows_.integer(1) != static_cast<std::int64_t>(k)) continue;
             const auto bytes = rows_.bytes(2);
             for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
                 T x;
@@ -74,14 +74,14 @@ std::string names(const SweepResults& results) {
 }  // namespace
 
 Result<void> dump_results(const SweepResults& results, const std::function<bool(const std::string&)>& put) {
-    InStep<double> spikes;
-    InStep<float> traces;
-    if (auto ok = sql::run(results.handle(), results.path(), "BEGIN"); !ok) return ok;  // one state of it, also while somebody writes
+    BlobReader<double> spikes;
+    BlobReader<float> traces;
+    if (auto ok = sql::run(results.handle(), results.path(), "BEGIN"); !ok) return ok;  // one consistent state, also during a run
     auto ok = spikes.begin(results, "SELECT unit, train, times FROM spikes ORDER BY unit, train");
     if (ok) ok = traces.begin(results, "SELECT unit, trace, samples FROM traces ORDER BY unit, trace");
-    bool goes_on = ok && put(names(results));
+    bool should_continue = ok && put(names(results));
     Result<void> each;
-    if (goes_on)
+    if (should_continue)
         each = results.each([&](const SweepResults::Row& row) {
             auto text =
                 fmt::format("{},{},{},{},{},{}", row.unit, word_of(row.end), row.steps, row.iterations, row.alone ? 1 : 0, field(row.why));
@@ -89,8 +89,8 @@ Result<void> dump_results(const SweepResults& results, const std::function<bool(
             for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + number(row.measures[k], results.measures()[k]);
             ok = spikes.put(row.unit, results.trains().size(), text);
             if (ok) ok = traces.put(row.unit, results.traces().size(), text);
-            goes_on = ok && put(text + "\n");
-            return goes_on;
+            should_continue = ok && put(text + "\n");
+            return should_continue;
         });
     spikes = {}, traces = {};
     const auto ended = sql::run(results.handle(), results.path(), "END");

@@ -1,12 +1,12 @@
 #pragma once
-// All rows of a file of results as text, in order of unit: the same bytes whoever made them, in however many shards.
+// All rows of a results file as text, in order of items. The same sweep gives the same bytes, independent of shards.
 
 #include "study/sweep/results.hpp"
 
 namespace corpuscle {
 
-/// CSV: a line of names, then a line a unit; of a train its times, of a trace its samples, with blanks between; numbers as short as they
-/// can be and still read back the same; nothing for a number that is none. `put` gets pieces; false stops.
+/// CSV: a line of names, then one line for each item. A train's spike times and a probe's samples are separated by blanks. Numbers are the
+/// shortest that read back the same; NaN is an empty field. `put` receives pieces of text; false stops.
 Result<void> dump_results(const SweepResults&, const std::function<bool(const std::string&)>& put);
 
 }  // namespace corpuscle

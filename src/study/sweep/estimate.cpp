@@ -10,15 +10,15 @@ namespace corpuscle {
 namespace {
 
 constexpr double tail = (1 - confidence) / 2;
-constexpr std::size_t most_plotted = 1000;
+constexpr std::size_t max_plotted = 1000;
 
-/// How far from 1 normality() is at most in 95 of 100 normal samples of n: drawn 8000 times (numpy; of the largest 600 times); Looney and
-/// Gulledge (1985) print 0.918, 0.951, 0.977 and 0.987 for 10, 20, 50 and 100.
-constexpr std::pair<double, double> off_normal[] = {{5, 0.120},       {10, 0.0827},     {20, 0.0491},     {50, 0.0235},
-                                                    {100, 0.0128},    {200, 0.00682},   {500, 0.00299},   {1000, 0.00153},
-                                                    {2000, 0.000817}, {5000, 0.000322}, {20000, 8.07e-5}, {100000, 1.46e-5}};
+/// 1 - normality() is at most this large in 95 of 100 normal samples of n. From 8000 random samples (numpy; 600 for the largest n). Looney
+/// and Gulledge (1985) publish 0.918, 0.951, 0.977 and 0.987 for 10, 20, 50 and 100.
+constexpr std::pair<double, double> normality_deviation[] = {{5, 0.120},       {10, 0.0827},     {20, 0.0491},     {50, 0.0235},
+                                                             {100, 0.0128},    {200, 0.00682},   {500, 0.00299},   {1000, 0.00153},
+                                                             {2000, 0.000817}, {5000, 0.000322}, {20000, 8.07e-5}, {100000, 1.46e-5}};
 
-/// Without the same number of the least and the greatest.
+/// The mean without the same number of the smallest and the largest values.
 double trimmed_mean(const std::vector<double>& sorted, double proportion) {
     const auto cut = std::min(static_cast<std::size_t>(proportion * static_cast<double>(sorted.size())), (sorted.size() - 1) / 2);
     double sum = 0;
@@ -28,10 +28,10 @@ double trimmed_mean(const std::vector<double>& sorted, double proportion) {
 
 }  // namespace
 
-Estimate share_of(std::int64_t some, std::int64_t all) {
-    if (all <= 0) return {};
-    const auto k = static_cast<double>(some), n = static_cast<double>(all);
-    return {k / n, some == 0 ? 0 : beta_quantile(k, n - k + 1, tail), some == all ? 1 : beta_quantile(k + 1, n - k, 1 - tail)};
+Estimate share_of(std::int64_t count, std::int64_t total) {
+    if (total <= 0) return {};
+    const auto k = static_cast<double>(count), n = static_cast<double>(total);
+    return {k / n, count == 0 ? 0 : beta_quantile(k, n - k + 1, tail), count == total ? 1 : beta_quantile(k + 1, n - k, 1 - tail)};
 }
 
 Sorted::Sorted(std::vector<double> values) : values_(std::move(values)) {
@@ -43,16 +43,16 @@ Sorted::Sorted(std::vector<double> values) : values_(std::move(values)) {
 Sorted Sorted::merged(const std::vector<Sorted>& all) {
     Sorted out;
     std::vector<std::ptrdiff_t> ends = {0};
-    for (const auto& one : all) {
-        out.values_.insert(out.values_.end(), one.values_.begin(), one.values_.end());
+    for (const auto& sample : all) {
+        out.values_.insert(out.values_.end(), sample.values_.begin(), sample.values_.end());
         ends.push_back(static_cast<std::ptrdiff_t>(out.values_.size()));
     }
-    std::vector<double> wider(out.values_.size());
-    for (std::size_t width = 1; width < all.size(); width *= 2) {  // neighbours, then neighbours of those
+    std::vector<double> merged(out.values_.size());
+    for (std::size_t width = 1; width < all.size(); width *= 2) {  // merges neighbours, then the results
         const auto at = [&](std::size_t k) { return out.values_.begin() + ends[std::min(k, all.size())]; };
         for (std::size_t k = 0; k < all.size(); k += 2 * width)
-            std::merge(at(k), at(k + width), at(k + width), at(k + 2 * width), wider.begin() + ends[k]);
-        out.values_.swap(wider);
+            std::merge(at(k), at(k + width), at(k + width), at(k + 2 * width), merged.begin() + ends[k]);
+        out.values_.swap(merged);
     }
     out.sum_up();
     return out;
@@ -64,10 +64,10 @@ void Sorted::sum_up() {
     double sum = 0;
     for (const double x : values_) sum += x;
     mean_ = sum / n;
-    const double middle = n > 4 ? trimmed_mean(values_, 0.5 / std::sqrt(n - 4)) : mean_;
+    const double centre = n > 4 ? trimmed_mean(values_, 0.5 / std::sqrt(n - 4)) : mean_;
     for (const double x : values_) {
-        const double off = x - mean_, trimmed = x - middle;
-        squares_ += off * off, fourths_ += trimmed * trimmed * trimmed * trimmed;
+        const double deviation = x - mean_, from_centre = x - centre;
+        squares_ += deviation * deviation, fourths_ += from_centre * from_centre * from_centre * from_centre;
     }
 }
 
@@ -94,23 +94,23 @@ Estimate Sorted::quantile(double q) const {
     const double at = q * (n - 1), below = std::floor(at);
     const auto rank = [&](double k) { return values_[static_cast<std::size_t>(std::clamp(k, 0.0, n - 1))]; };
     Estimate out{rank(below) + (at - below) * (rank(below + 1) - rank(below))};
-    // The truth lies below the smallest k values with probability P(at most k - 1 of n are below it).
+    // The quantile is below the k-th smallest value with probability P(at most k - 1 of n values are below it).
     double low = -1, high = n, step = n;
-    const auto largest = [&](auto&& holds) {  // k of 0 ... n for which it holds; it does for all below
+    const auto largest = [&](auto&& holds) {  // largest k of 0 ... n for which it holds; it holds for all smaller k
         double k = -1;
         for (step = std::exp2(std::ceil(std::log2(n + 1))); step >= 1; step /= 2)
             if (k + step <= n && holds(k + step)) k += step;
         return k;
     };
-    low = largest([&](double k) { return binomial_up_to(k, n, q) <= tail; });  // at most `low` below: the value of rank low
-    high = n - largest([&](double k) { return 1 - binomial_up_to(n - k - 1, n, q) <= tail; });  // at least `high` below
+    low = largest([&](double k) { return binomial_up_to(k, n, q) <= tail; });                   // at most `low` values below the quantile
+    high = n - largest([&](double k) { return 1 - binomial_up_to(n - k - 1, n, q) <= tail; });  // at least `high` values below the quantile
     if (low >= 0 && low < n) out.low = rank(low);
     if (high - 1 >= 0 && high - 1 < n) out.high = rank(high - 1);
     return out;
 }
 
 double Sorted::normality() const {
-    const auto n = count(), plotted = std::min(n, most_plotted);
+    const auto n = count(), plotted = std::min(n, max_plotted);
     if (n < 3 || squares_ == 0) return Estimate::none;
     double sum = 0, squares = 0, products = 0, scores = 0;
     for (std::size_t k = 0; k < plotted; ++k) {
@@ -118,16 +118,16 @@ double Sorted::normality() const {
         const double z = normal_quantile((static_cast<double>(i) + 1 - 0.375) / (static_cast<double>(n) + 0.25)), x = values_[i] - mean_;
         sum += x, squares += x * x, products += x * z, scores += z * z;
     }
-    const double spread = squares - sum * sum / static_cast<double>(plotted);  // the scores' own sum is 0
-    return spread > 0 ? products / std::sqrt(spread * scores) : Estimate::none;
+    const double variance_sum = squares - sum * sum / static_cast<double>(plotted);  // the scores sum to 0
+    return variance_sum > 0 ? products / std::sqrt(variance_sum * scores) : Estimate::none;
 }
 
 double Sorted::normality_floor() const {
     const auto n = static_cast<double>(count());
     if (n < 5) return Estimate::none;
-    const auto* above =
-        std::upper_bound(std::begin(off_normal), std::end(off_normal), n, [](double x, const auto& row) { return x < row.first; });
-    if (above == std::end(off_normal)) return 1 - above[-1].second * above[-1].first / n;
+    const auto* above = std::upper_bound(std::begin(normality_deviation), std::end(normality_deviation), n,
+                                         [](double x, const auto& row) { return x < row.first; });
+    if (above == std::end(normality_deviation)) return 1 - above[-1].second * above[-1].first / n;
     const auto& [n0, r0] = above[-1];
     return 1 - r0 * std::pow(above->second / r0, std::log(n / n0) / std::log(above->first / n0));
 }

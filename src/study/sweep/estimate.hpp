@@ -1,5 +1,5 @@
 #pragma once
-// What a sample says of the distribution it is from, each number with the interval in which the truth lies with 95 % confidence.
+// Estimates of the distribution behind a sample, each with its 95 % confidence interval.
 
 #include <cstdint>
 #include <limits>
@@ -10,20 +10,21 @@ namespace corpuscle {
 
 inline constexpr double confidence = 0.95;
 
-/// A number and its interval; NaN: the sample does not say.
+/// A number and its confidence interval; NaN if the sample is too small.
 struct Estimate {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
     double value = none, low = none, high = none;
 };
 
-/// So many of so many, as a share; the interval of Clopper and Pearson: it never holds the truth less often than it says, also where all or
-/// none have passed (Wilson's is narrower, and does).
-Estimate share_of(std::int64_t some, std::int64_t all);
+/// The proportion some / all with the interval of Clopper and Pearson. Its coverage is never below the confidence level, even if none or
+/// all passed. (Wilson's interval is narrower, but its coverage can be lower.)
+Estimate share_of(std::int64_t count, std::int64_t total);
 
-/// A sample in rising order.
+/// A sample in ascending order.
 class Sorted {
     std::vector<double> values_;
-    double mean_ = Estimate::none, squares_ = 0, fourths_ = 0;  // sums of the distances' powers; fourths about the trimmed mean
+    // sums of powers of the distances from the mean; fourths_: from the trimmed mean
+    double mean_ = Estimate::none, squares_ = 0, fourths_ = 0;
     void sum_up();
 
     Sorted() = default;
@@ -31,23 +32,24 @@ class Sorted {
 public:
     /// NaNs are left out.
     explicit Sorted(std::vector<double> values);
-    /// All of several together.
+    /// All samples together.
     static Sorted merged(const std::vector<Sorted>&);
     std::size_t count() const { return values_.size(); }
     const std::vector<double>& values() const { return values_; }
 
-    /// Student's interval.
+    /// With Student's interval.
     Estimate mean() const;
-    /// Of a sample, n - 1. The interval of Bonett (2006) goes by the sample's own kurtosis: chi-squared's, which is the normal
-    /// distribution's alone, is far too narrow for what has long tails, as a chip's spike count has; and a bootstrap is 1000 times the
-    /// work.
+    /// Standard deviation over n - 1, with the interval of Bonett (2006), which uses the sample's kurtosis. The chi-squared interval
+    /// assumes a normal distribution and is far too narrow for long tails, such as those of a chip's spike count. A bootstrap costs 1000
+    /// times as much.
     Estimate sigma() const;
-    /// Between order statistics, as R's and numpy's by default; its interval is from one order statistic to another, by the binomial
-    /// distribution alone, whatever the sample is from; none where the sample is too small to have one.
+    /// Interpolated between order statistics, as by default in R and numpy. The interval is from one order statistic to another by the
+    /// binomial distribution, valid for any distribution; NaN if the sample is too small.
     Estimate quantile(double q) const;
-    /// Correlation of a normal plot, which is 1 for a normal distribution (Filliben 1975; positions after Blom), of at most 1000 points.
+    /// Correlation of a normal probability plot, 1 for a normal distribution (Filliben 1975; plotting positions after Blom), of at most
+    /// 1000 points.
     double normality() const;
-    /// What it is at least in 95 of 100 normal samples of this size; less is a sign of another distribution.
+    /// 95 of 100 normal samples of this size have at least this correlation; a smaller one is evidence of another distribution.
     double normality_floor() const;
 };
 

@@ -1,4 +1,4 @@
-// How a file of results is made and replaced: as a whole, by renaming, never by writing over what a copy may be reading.
+// Creates and replaces a results file: always as a whole, by renaming, never by overwriting a file that a copy may be reading.
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -26,11 +26,11 @@ std::int64_t size_of(const std::string& path) {
 }
 
 Error not_written(const std::string& path) {
-    return bad_input(fmt::format("cannot be written ({}); what stands in the results is kept", std::strerror(errno)), {path});
+    return bad_input(fmt::format("cannot be written ({}); the existing results are kept", std::strerror(errno)), {path});
 }
 
-/// On disk, whatever becomes of the power. `legacy`: marked as a file without a -wal (bytes 18 and 19 of SQLite's file format).
-Result<void> settle(const std::string& path, bool legacy) {
+/// Writes a file to disk, safe against power loss. `legacy`: marked as a file without a -wal (bytes 18 and 19 of SQLite's file format).
+Result<void> sync_file(const std::string& path, bool legacy) {
     const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
     if (file < 0) return not_written(path);
     constexpr std::array<char, 2> versions = {1, 1};
@@ -40,13 +40,13 @@ Result<void> settle(const std::string& path, bool legacy) {
     return {};
 }
 
-Result<void> put_in_place(const std::string& from, const std::string& to) {
+Result<void> move_into_place(const std::string& from, const std::string& to) {
     if (::rename(from.c_str(), to.c_str()) != 0) return not_written(to);
     return {};
 }
 
-/// An empty file that nobody else made: never one that a link leads to.
-Result<void> make_fresh(const std::string& path) {
+/// Creates an empty file. Never follows a link or reuses an existing file.
+Result<void> create_empty(const std::string& path) {
     ::unlink(path.c_str());
     const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0) return not_written(path);
@@ -54,7 +54,7 @@ Result<void> make_fresh(const std::string& path) {
     return {};
 }
 
-void settle_folder(const std::string& path) {
+void sync_folder(const std::string& path) {
     const auto folder = fs::path(path).parent_path();
     const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file < 0) return;
@@ -62,7 +62,7 @@ void settle_folder(const std::string& path) {
     ::close(file);
 }
 
-/// All pages of the one, those of its -wal among them, in the other at the same numbers.
+/// Copies all pages of one database, including those in its -wal, to the other with the same page numbers.
 Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
     auto* copying = sqlite3_backup_init(to, "main", from, "main");
     if (!copying) return sql::failed(to, path);
@@ -74,40 +74,40 @@ Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
 }  // namespace
 
 Result<void> SweepResults::Held::make() const {
-    // What is left of a file that was removed must not be taken for a part of this one.
+    // Remains of a removed file must not be taken for a part of this one.
     ::unlink(wal().c_str()), ::unlink(shared_memory().c_str());
-    if (auto ok = make_fresh(folded()); !ok) return ok;
+    if (auto ok = create_empty(folded()); !ok) return ok;
     auto made = sql::open(folded(), SQLITE_OPEN_READWRITE);
     if (!made) return made.error();
     if (auto ok = sql::run(made->get(), path, "PRAGMA journal_mode = OFF"); !ok) return ok;
     auto ok = layout.write(made->get(), path);
     made->reset();
-    if (ok) ok = settle(folded(), false);
-    if (ok) ok = put_in_place(folded(), path);
+    if (ok) ok = sync_file(folded(), false);
+    if (ok) ok = move_into_place(folded(), path);
     if (!ok) return ::unlink(folded().c_str()), ok;
-    settle_folder(path);
+    sync_folder(path);
     return {};
 }
 
 void SweepResults::Held::set_next_fold() { next_fold = std::max({long_wal, size_of(path), 2 * size_of(wal())}); }
 
-// The new file has each page where the -wal has it. So whoever finds the new one beside the old -wal (a copy; the next run, if this one
-// is killed between the two steps) reads the same, and whoever finds the old one without it what stood there before.
+// The new file has each page at the -wal's version. A crash between the two steps is safe: the new file with the old -wal has the same
+// content, and the old file without it has the previous checkpoint.
 Result<void> SweepResults::Held::fold(bool last) {
     if (std::error_code none; !fs::exists(wal(), none) && !writing) return {};
     {
-        if (auto fresh = make_fresh(folded()); !fresh) return fresh;
+        if (auto fresh = create_empty(folded()); !fresh) return fresh;
         auto made = sql::open(folded(), SQLITE_OPEN_READWRITE);
         auto ok = made ? sql::run(made->get(), folded(), "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF") : made.error();
         if (ok) ok = copy_pages(file.get(), made->get(), folded());
-        if (ok) made->reset(), ok = settle(folded(), last);
+        if (ok) made->reset(), ok = sync_file(folded(), last);
         if (!ok) return ::unlink(folded().c_str()), ok;
     }
     unit = {}, spikes = {}, trace = {}, writing = false;
     file.reset();
-    if (auto ok = put_in_place(folded(), path); !ok) return ok;
+    if (auto ok = move_into_place(folded(), path); !ok) return ok;
     ::unlink(wal().c_str()), ::unlink(shared_memory().c_str());
-    settle_folder(path);
+    sync_folder(path);
     return open_file(SQLITE_OPEN_READWRITE);
 }
 

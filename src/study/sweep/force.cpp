@@ -12,10 +12,10 @@
 namespace corpuscle::sweeps {
 namespace {
 
-constexpr double most_samples = 5e7;  // of one force: 400 MB
-constexpr std::size_t forces_kept = 8;
+constexpr double max_samples = 5e7;  // of one force: 400 MB
+constexpr std::size_t max_cached_forces = 8;
 
-Result<std::shared_ptr<const FeltForce>> read_whole(Source& source) {
+Result<std::shared_ptr<const FeltForce>> read_force(Source& source) {
     auto force = std::make_shared<FeltForce>();
     force->clock = source.clock(), force->clock.t0 = 0;
     force->phases = source.phases(), force->cycle = source.cycle();
@@ -25,63 +25,63 @@ Result<std::shared_ptr<const FeltForce>> read_whole(Source& source) {
         if (frames.count == 0) break;
         force->samples.insert(force->samples.end(), frames.force[0].begin(),
                               frames.force[0].begin() + static_cast<std::ptrdiff_t>(frames.count));
-        if (static_cast<double>(force->samples.size()) > most_samples)
+        if (static_cast<double>(force->samples.size()) > max_samples)
             return bad_input(
-                fmt::format("{}: a force of more than {:g} samples at {:g} Hz; at most so many: a lower rate (rate = \"10kHz\") "
+                fmt::format("{}: the force has more than {:g} samples at {:g} Hz; use a lower rate (rate = \"10kHz\") "
                             "or a shorter force",
-                            source.name(), most_samples, source.clock().rate()));
+                            source.name(), max_samples, source.clock().rate()));
     }
     if (force->samples.empty()) return bad_input(fmt::format("{}: no samples of force", source.name()));
     return std::shared_ptr<const FeltForce>(std::move(force));
 }
 
-Result<double> number_of(const MaybeSaid& said, std::string_view unit, double otherwise) {
-    if (!said) return otherwise;
-    const auto value = parse_quantity(said->text, unit);
-    return value ? value : Result<double>(said->wrong(value.error().sentence));
+Result<double> number_of(const MaybeSaid& text, std::string_view unit, double fallback) {
+    if (!text) return fallback;
+    const auto value = parse_quantity(text->text, unit);
+    return value ? value : Result<double>(text->wrong(value.error().sentence));
 }
 
 }  // namespace
 
-/// Forces made a while ago: neighbours among units often feel the same.
+/// Recent forces, because neighbouring items often have the same force.
 struct ForceMaker::Kept {
-    std::mutex guard;
+    std::mutex mutex;
     std::map<std::vector<double>, std::shared_ptr<const FeltForce>> forces;
 };
 
-Result<ForceMaker> ForceMaker::of(const SweepText& said, const std::string& folder, std::uint64_t seed) {
+Result<ForceMaker> ForceMaker::of(const SweepText& spec, const std::string& folder, std::uint64_t seed) {
     ForceMaker out;
-    out.text_ = said.force ? said.force->text : "press", out.seed_ = seed, out.kept_ = std::make_shared<Kept>();
-    const auto rate = number_of(said.rate, "Hz", 10e3);
+    out.text_ = spec.force ? spec.force->text : "press", out.seed_ = seed, out.kept_ = std::make_shared<Kept>();
+    const auto rate = number_of(spec.rate, "Hz", 10e3);
     if (!rate) return rate.error();
     out.rate_ = *rate;
     out.recording_ = !is_stimulus(out.text_);
     if (!out.recording_) {
-        for (const auto& [name, value] : {std::pair{"channel", &said.channel}, {"unit", &said.unit}, {"scale", &said.scale}})
-            if (*value) return (*value)->wrong(fmt::format("{} is of a recording, and {} is a stimulus", name, out.text_));
+        for (const auto& [name, value] : {std::pair{"channel", &spec.channel}, {"unit", &spec.unit}, {"scale", &spec.scale}})
+            if (*value) return (*value)->wrong(fmt::format("{} applies to recordings, but {} is a stimulus", name, out.text_));
         return out;
     }
     const auto path = (std::filesystem::path(folder) / out.text_).string();
     std::error_code status;
     if (!std::filesystem::exists(path, status)) {
         auto error = make_stimulus(out.text_, {}, out.rate_, seed).error();
-        return said.force->wrong(fmt::format("{} (and there is no file '{}')", error.sentence, out.text_));
+        return spec.force->wrong(fmt::format("{} (and there is no file '{}')", error.sentence, out.text_));
     }
     RecordingOptions options;
-    if (said.channel) options.channels = {said.channel->text};
-    if (said.rate) options.rate = *rate;
-    if (said.unit) options.unit = said.unit->text;
-    const auto scale = number_of(said.scale, "", 1);
+    if (spec.channel) options.channels = {spec.channel->text};
+    if (spec.rate) options.rate = *rate;
+    if (spec.unit) options.unit = spec.unit->text;
+    const auto scale = number_of(spec.scale, "", 1);
     if (!scale) return scale.error();
-    if (said.scale) options.scale = *scale;
+    if (spec.scale) options.scale = *scale;
     auto source = open_recording(path, options);
     if (!source) return source.error();
     if ((*source)->channels().size() > 1) {
         std::vector<std::string_view> names;
         for (const auto& c : (*source)->channels()) names.push_back(c.name);
-        return said.force->wrong(fmt::format("{} has {} channels; say which: channel = \"{}\"", out.text_, names.size(), names[0]));
+        return spec.force->wrong(fmt::format("{} has {} channels; select one: channel = \"{}\"", out.text_, names.size(), names[0]));
     }
-    auto force = read_whole(**source);
+    auto force = read_force(**source);
     if (!force) return force.error();
     out.nominal_ = std::move(*force);
     return out;
@@ -94,29 +94,29 @@ bool ForceMaker::owns(std::string_view name) const {
     return std::find(all.begin(), all.end(), name.substr(0, dot)) != all.end();
 }
 
-Result<Target> ForceMaker::target(const Said& what) const {
-    const auto dot = what.text.find('.');
-    const Wish wish{what.text.substr(0, dot), what.text.substr(dot + 1), ""};
+Result<Target> ForceMaker::target(const Said& quantity) const {
+    const auto dot = quantity.text.find('.');
+    const Wish wish{quantity.text.substr(0, dot), quantity.text.substr(dot + 1), ""};
     for (const auto& card : stimulus_cards()) {
         if (card.name != wish.of) continue;
         const auto row = row_for(wish, card.rows);
-        if (!row) return what.wrong(row.error().sentence);
-        Target out{{what.text, std::string((*row)->unit), std::string((*row)->sentence)}, (*row)->initial, (*row)->low, (*row)->high};
+        if (!row) return quantity.wrong(row.error().sentence);
+        Target out{{quantity.text, std::string((*row)->unit), std::string((*row)->sentence)}, (*row)->initial, (*row)->low, (*row)->high};
         for (const auto& w : wishes_)
             if (w.of == wish.of && w.parameter == wish.parameter) out.nominal = *parse_quantity(w.value, (*row)->unit);
         out.read = [unit = std::string((*row)->unit)](const Said& s) { return parse_quantity(s.text, unit); };
         return out;
     }
-    return what.wrong(fmt::format("no stimulus '{}' takes part", wish.of));
+    return quantity.wrong(fmt::format("'{}' is not the stimulus of this sweep", wish.of));
 }
 
 Result<void> ForceMaker::set(const SaidSetting& setting) {
     const auto dot = setting.name.find('.');
-    std::vector<Wish> one = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
+    std::vector<Wish> settings = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
     for (const auto& card : stimulus_cards())
-        if (card.name == one[0].of)
-            if (const auto ok = settings_for(card.name, card.rows, one); !ok) return setting.value.wrong(ok.error().sentence);
-    wishes_.push_back(std::move(one[0]));
+        if (card.name == settings[0].of)
+            if (const auto ok = settings_for(card.name, card.rows, settings); !ok) return setting.value.wrong(ok.error().sentence);
+    wishes_.push_back(std::move(settings[0]));
     fixed_ = wishes_.size();
     return {};
 }
@@ -134,7 +134,7 @@ Result<std::shared_ptr<const FeltForce>> ForceMaker::make(std::span<const double
     for (std::size_t k = 0; k < values.size(); ++k) wishes[fixed_ + k].value = fmt::format("{}", values[k]);
     const auto source = make_stimulus(text_, wishes, rate_, seed_);
     if (!source) return source.error();
-    return read_whole(**source);
+    return read_force(**source);
 }
 
 Result<void> ForceMaker::prepare() {
@@ -146,17 +146,17 @@ Result<void> ForceMaker::prepare() {
 
 Result<std::shared_ptr<const FeltForce>> ForceMaker::at(std::span<const double> values) const {
     if (!varies()) return nominal_;
-    std::vector<double> own;
-    for (const auto axis : axes_) own.push_back(values[axis]);
+    std::vector<double> own_values;
+    for (const auto axis : axes_) own_values.push_back(values[axis]);
     {
-        const std::lock_guard lock(kept_->guard);
-        if (const auto at = kept_->forces.find(own); at != kept_->forces.end()) return at->second;
+        const std::lock_guard lock(kept_->mutex);
+        if (const auto at = kept_->forces.find(own_values); at != kept_->forces.end()) return at->second;
     }
-    auto force = make(own);
+    auto force = make(own_values);
     if (!force) return force;
-    const std::lock_guard lock(kept_->guard);
-    if (kept_->forces.size() >= forces_kept) kept_->forces.clear();
-    kept_->forces[own] = *force;
+    const std::lock_guard lock(kept_->mutex);
+    if (kept_->forces.size() >= max_cached_forces) kept_->forces.clear();
+    kept_->forces[own_values] = *force;
     return force;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The force that a sweep's afferents feel: a stimulus, whose parameters may vary from unit to unit, or a channel of a recording.
+// The force on a sweep's afferents: a stimulus, whose parameters may vary between items, or a channel of a recording.
 
 #include <map>
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace corpuscle::sweeps {
 
-/// One force, whole.
+/// One complete force signal.
 struct FeltForce {
     std::vector<double> samples;  ///< N
-    Clock clock;                  ///< the first sample at 0 s
+    Clock clock;                  ///< with the first sample at 0 s
     std::vector<Phase> phases;
     double cycle = 0;  ///< Hz
 
@@ -23,9 +23,9 @@ struct FeltForce {
 
 class ForceMaker {
     std::string text_;
-    std::vector<Wish> wishes_;  // what is set, then what varies, whose text is put in
+    std::vector<Wish> wishes_;  // fixed settings, then varied ones, whose value is filled in
     std::size_t fixed_ = 0;
-    std::vector<std::size_t> axes_;  // of each wish that varies: its place among the values of a unit
+    std::vector<std::size_t> axes_;  // of each varied setting: index of its axis
     double rate_ = 10e3;
     std::uint64_t seed_ = 0;
     std::shared_ptr<const FeltForce> nominal_;
@@ -35,23 +35,23 @@ class ForceMaker {
     Result<std::shared_ptr<const FeltForce>> make(std::span<const double> values) const;
 
 public:
-    /// A recording is looked for beside the sweep file.
+    /// A recording's path is relative to the folder of the sweep file.
     static Result<ForceMaker> of(const SweepText&, const std::string& folder, std::uint64_t seed);
 
     const std::string& name() const { return text_; }
-    /// Whether "press.F_max" is its own.
+    /// True if "press.F_max" is a parameter of this force.
     bool owns(std::string_view name) const;
-    Result<Target> target(const Said& what) const;
+    Result<Target> target(const Said& quantity) const;
     Result<void> set(const SaidSetting&);
     void vary(const std::string& name, std::size_t axis);
     bool varies() const { return !axes_.empty(); }
 
-    /// After all is set: with nothing varied.
+    /// Call after all settings: makes the nominal force.
     Result<void> prepare();
     const std::shared_ptr<const FeltForce>& nominal() const { return nominal_; }
-    /// For the values of a unit; from several threads at once.
+    /// The force for an item's values. Thread-safe.
     Result<std::shared_ptr<const FeltForce>> at(std::span<const double> values) const;
-    /// What a recording held, in a line; "" of a stimulus.
+    /// A description of the recording, in a line; "" for a stimulus.
     std::string recorded() const;
 
 private:

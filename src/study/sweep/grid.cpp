@@ -11,9 +11,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr double nothing_there = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_mean = std::numeric_limits<double>::quiet_NaN();
 
-/// The number of a row's value among those of the axis; their count: it has none.
+/// The index of a row's value among the values of the axis; equal to their number if the row has none.
 std::size_t level_of(const SweepTable& table, std::size_t axis, std::size_t row) {
     const auto& values = table.points[axis];
     const double x = table.axis_values[axis][row];
@@ -21,12 +21,12 @@ std::size_t level_of(const SweepTable& table, std::size_t axis, std::size_t row)
     return at != values.end() && *at == x ? static_cast<std::size_t>(at - values.begin()) : values.size();
 }
 
-/// The sweep file without what the command line added to it ("--seed 3").
-std::string file_text(const std::string& said) {
+/// The sweep file's text without the lines added by the command line ("--seed 3").
+std::string file_text(const std::string& stored) {
     std::string out;
-    for (std::size_t from = 0; from < said.size();) {
-        const auto end = std::min(said.find('\n', from), said.size() - 1) + 1;
-        if (said.compare(from, 2, "--") != 0) out += said.substr(from, end - from);
+    for (std::size_t from = 0; from < stored.size();) {
+        const auto end = std::min(stored.find('\n', from), stored.size() - 1) + 1;
+        if (stored.compare(from, 2, "--") != 0) out += stored.substr(from, end - from);
         from = end;
     }
     return out;
@@ -38,8 +38,8 @@ bool draws_nothing(const SweepResults& results) {
     if (!results.about(drawn_fact).empty() || results.axes().empty()) return false;
     for (const auto& axis : results.axes())
         if (axis.name.starts_with("process.")) return false;
-    const auto said = results.about("sweep file");  // "": a netlist by itself, with .step
-    const auto text = sweeps::read_sweep_text(file_text(said), results.path());
+    const auto stored = results.about("sweep file");  // "": a netlist alone, with .step
+    const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
     if (!text) return false;
     return std::none_of(text->vary.begin(), text->vary.end(), [](const sweeps::SaidAxis& axis) {
         return axis.what.text == "process" || axis.what.text == "mismatch" || sweeps::is_drawn(axis);
@@ -64,9 +64,9 @@ std::vector<AxisEffect> effects_of(const SweepTable& table, const std::vector<do
                 sums[level] += measure[r], ++counts[level];
             }
         for (std::size_t k = 0; k < table.points[a].size(); ++k) {
-            effect.means.push_back(counts[k] > 0 ? sums[k] / counts[k] : nothing_there);
-            const double off = counts[k] > 0 ? effect.means[k] - sum / count : 0;
-            effect.share += counts[k] * off * off / squares;
+            effect.means.push_back(counts[k] > 0 ? sums[k] / counts[k] : no_mean);
+            const double deviation = counts[k] > 0 ? effect.means[k] - sum / count : 0;
+            effect.share += counts[k] * deviation * deviation / squares;
         }
         out.push_back(std::move(effect));
     }
@@ -83,7 +83,7 @@ std::vector<std::vector<double>> means_over(const SweepTable& table, const std::
         if (std::isfinite(measure[r]) && i < rows && j < columns) sums[i][j] += measure[r], ++counts[i][j];
     }
     for (std::size_t i = 0; i < rows; ++i)
-        for (std::size_t j = 0; j < columns; ++j) sums[i][j] = counts[i][j] > 0 ? sums[i][j] / counts[i][j] : nothing_there;
+        for (std::size_t j = 0; j < columns; ++j) sums[i][j] = counts[i][j] > 0 ? sums[i][j] / counts[i][j] : no_mean;
     return sums;
 }
 

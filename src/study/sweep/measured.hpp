@@ -1,5 +1,6 @@
 #pragma once
-// What is measured of an afferent's unit, by name: every measure of spikes over the whole and over each phase, and what a chip costs.
+// The measures of one afferent by name: every spike measure over the complete force and over each phase, and a chip's power and solver
+// work.
 
 #include <span>
 
@@ -7,11 +8,11 @@
 
 namespace corpuscle::sweeps {
 
-/// What is known of a unit that has answered.
+/// The result of one simulated item.
 struct UnitAnswer {
     std::span<const double> spikes;                   ///< s
     double power = 0, sensor_power = 0, outside = 0;  ///< of a circuit: W, W, s
-    std::vector<double> outside_of = {};              ///< of each of its ranges, s
+    std::vector<double> outside_of = {};              ///< for each of its ranges, s
     double iterations = 0;
 };
 
@@ -19,21 +20,21 @@ class AfferentMeasures {
     enum class Of { whole, phase, first, last, power, sensor_power, outside, one_range, iterations };
     struct One {
         Of of;
-        std::size_t number = 0;  ///< of the measure, or of the range
+        std::size_t number = 0;  ///< index of the measure or of the range
         std::string phase = {};
         SweepColumn column;
-        bool usual = false;  ///< told if nobody says what is wanted
+        bool usual = false;  ///< included by default
     };
     std::vector<One> all_, known_;
     std::vector<SweepColumn> columns_;
 
 public:
-    /// All that this force and this afferent have; `ranges` are what a circuit keeps within, none of equations.
+    /// All measures for this force and this afferent. `ranges`: the operating ranges of a circuit; empty for a model.
     AfferentMeasures(const FeltForce& nominal, bool circuit, std::span<const std::string> ranges);
 
-    /// Those that are asked for; nothing asked: each over the whole.
+    /// Selects measures by name. Default: each measure over the complete force.
     Result<void> choose(const std::optional<std::vector<Said>>& names);
-    /// The place among the columns of one, which is taken on if nobody asked for it.
+    /// The index of a measure's column; the column is added if it was not selected.
     Result<std::size_t> column_of(const Said& name);
     std::vector<SweepColumn>& columns() { return columns_; }
     const std::vector<SweepColumn>& columns() const { return columns_; }

@@ -1,4 +1,4 @@
-// Rows of one file of results into another.
+// Merges the rows of one results file into another.
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr int most_named = 3;  // units of which a message says that they differ
+constexpr int max_listed = 3;  // units listed in a message about differences
 
 /// "u.ended, u.steps, ..."
 std::string all_columns(const std::string& table, const ResultsLayout& layout) {
@@ -26,14 +26,14 @@ std::string unit_columns(const ResultsLayout& layout) {
     return out;
 }
 
-/// The rows of the other file's units that this one lacks; of units that the sweep has.
-std::string taking(std::string_view table, const std::string& columns, std::int64_t units) {
+/// Copies the rows that the other file has and this one lacks, for units of this sweep.
+std::string insertion_of(std::string_view table, const std::string& columns, std::int64_t units) {
     return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE unit >= 0 AND unit < {2} ON CONFLICT DO NOTHING;", table,
                        columns, units);
 }
 
-/// Units that both have, and not the same.
-std::string differing(const ResultsLayout& layout) {
+/// Units that both files have with different results.
+std::string select_differing(const ResultsLayout& layout) {
     std::string text = fmt::format("SELECT unit FROM main.units u JOIN source.units s USING(unit) WHERE ({}) IS NOT ({})",
                                    all_columns("u", layout), all_columns("s", layout));
     for (const auto& [table, number, bytes] : {std::tuple{"spikes", "train", "times"}, std::tuple{"traces", "trace", "samples"}})
@@ -45,61 +45,63 @@ std::string differing(const ResultsLayout& layout) {
     return text + " ORDER BY unit";
 }
 
-Result<void> refuse_differing(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
-    auto rows = sql::Statement::make(file, path, differing(layout));
+Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
+    auto rows = sql::Statement::make(file, path, select_differing(layout));
     if (!rows) return rows.error();
-    std::string named;
+    std::string listed;
     for (int k = 0;; ++k) {
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) break;
-        if (k == most_named) {
-            named += " ...";
+        if (k == max_listed) {
+            listed += " ...";
             break;
         }
-        named += fmt::format("{}{}", named.empty() ? "" : ", ", rows->integer(0));
+        listed += fmt::format("{}{}", listed.empty() ? "" : ", ", rows->integer(0));
     }
-    if (named.empty()) return {};
-    return bad_input(fmt::format("of unit {} it has other results than {}: the same sweep, and yet one of the two was changed or made by "
-                                 "another program; nothing of it was taken",
-                                 named, path),
-                     {from});
+    if (listed.empty()) return {};
+    return bad_input(
+        fmt::format("unit {} has other results than in {}, although the sweep is the same: one of the two was changed or made by "
+                    "another program; nothing was merged",
+                    listed, path),
+        {from});
 }
 
 }  // namespace
 
-Result<void> SweepResults::same_sweep(const SweepResults& as) const {
-    const auto difference = held_->layout.differs_from(as.held_->layout);
+Result<void> SweepResults::same_sweep(const SweepResults& other) const {
+    const auto difference = held_->layout.differs_from(other.held_->layout);
     if (difference.empty()) return {};
-    return bad_input(fmt::format("is of another sweep than {}: {}", as.path(), difference), {path()});
+    return bad_input(fmt::format("belongs to another sweep than {}: {}", other.path(), difference), {path()});
 }
 
 Result<std::int64_t> SweepResults::take(const SweepResults& from) {
-    auto& held = *held_;
+    auto& impl = *held_;
     if (auto same = from.same_sweep(*this); !same) return same.error();
     std::error_code none;
-    if (std::filesystem::equivalent(path(), from.path(), none)) return bad_input("is the file that is merged into", {from.path()});
-    if (auto ok = held.begin_writing(); !ok) return ok.error();
-    auto* file = held.file.get();
+    if (std::filesystem::equivalent(path(), from.path(), none)) return bad_input("is also the file to merge into", {from.path()});
+    if (auto ok = impl.begin_writing(); !ok) return ok.error();
+    auto* file = impl.file.get();
     auto attach = sql::Statement::make(file, path(), "ATTACH ? AS source");
     if (!attach) return attach.error();
     if (auto ok = attach->set(1, std::string_view(from.path())).finish(); !ok)
         return Error{ok.error().code, ok.error().sentence, {from.path()}};
-    const auto before = held.finished;
-    auto ok = refuse_differing(file, held.layout, path(), from.path());
+    const auto before = impl.finished;
+    auto ok = check_differences(file, impl.layout, path(), from.path());
     if (ok) {
         ok = sql::run(file, path(),
-                      "BEGIN IMMEDIATE;" + taking("units", unit_columns(held.layout), units()) +
-                          taking("spikes", "unit, train, times", units()) + taking("traces", "unit, trace, samples", units()) + "COMMIT");
+                      "BEGIN IMMEDIATE;" + insertion_of("units", unit_columns(impl.layout), units()) +
+                          insertion_of("spikes", "unit, train, times", units()) + insertion_of("traces", "unit, trace, samples", units()) +
+                          "COMMIT");
         if (!ok && !sqlite3_get_autocommit(file)) (void)sql::run(file, path(), "ROLLBACK");
     }
     if (ok) {
         const auto rows = sql::integer(file, path(), "SELECT count(*) FROM main.units");
-        rows ? void(held.finished = *rows) : void(ok = rows.error());
+        rows ? void(impl.finished = *rows) : void(ok = rows.error());
     }
     if (auto detached = sql::run(file, path(), "DETACH source"); ok) ok = detached;
     if (!ok) return ok.error();
-    return held.finished - before;
+    return impl.finished - before;
 }
 
 }  // namespace corpuscle

@@ -17,26 +17,27 @@ namespace fs = std::filesystem;
 using circuit::Knob;
 using circuit::Netlist;
 
-constexpr std::size_t most_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_bytes = std::size_t{64} << 20;
 
-bool is_carried(std::string_view path) {
+bool is_embedded(std::string_view path) {
     const auto all = carried_files();
     return std::find(all.begin(), all.end(), path) != all.end();
 }
 
-/// A file that can be read again: once for each process corner.
+/// Reads a file that can be read again for each process corner.
 Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
     std::error_code status;
-    if (fs::exists(path, status) && !fs::is_regular_file(path, status)) return bad_input("this is no plain file; save it to one", {name});
-    auto text = read_whole_input(path.string(), most_bytes, "netlist");
+    if (fs::exists(path, status) && !fs::is_regular_file(path, status))
+        return bad_input("this is not a regular file; save it to one", {name});
+    auto text = read_whole_input(path.string(), max_bytes, "netlist");
     return text ? std::move(text) : Error{text.error().code, text.error().sentence, {name}};
 }
 
-Knob knob_of(const std::string& name, std::string value) { return {name, std::move(value), name, same_letters(name, "supply")}; }
+Knob override_of(const std::string& name, std::string value) { return {name, std::move(value), name, same_letters(name, "supply")}; }
 
-/// "85", "85C"
-Result<double> temperature_of(const Said& said) {
-    auto text = trimmed(said.text);
+/// Accepts "85" and "85C".
+Result<double> temperature_of(const Said& given) {
+    auto text = trimmed(given.text);
     for (const std::string_view unit : {"degC", "\u00b0C", "C"})
         if (text.ends_with(unit)) {
             text.remove_suffix(unit.size());
@@ -44,31 +45,31 @@ Result<double> temperature_of(const Said& said) {
         }
     const auto value = circuit::number_with_unit(text);
     if (!value || !value->unit.empty())
-        return bad_input(fmt::format("'{}' is no temperature; write degrees Celsius, such as 85", said.text));
+        return bad_input(fmt::format("'{}' is not a temperature; write degrees Celsius, such as 85", given.text));
     return value->value;
 }
 
-Result<double> any_number(const Said& said) {
-    const auto value = circuit::number_with_unit(said.text);
+Result<double> any_number(const Said& given) {
+    const auto value = circuit::number_with_unit(given.text);
     return value ? Result<double>(value->value) : value.error();
 }
 
 }  // namespace
 
-/// What was read stays as it was: a file that changes while the sweep is at work changes nothing.
+/// Texts are kept as first read, so that changes of a file during the sweep have no effect.
 struct NetlistMaker::Files {
-    std::mutex guard;
+    std::mutex mutex;
     std::vector<std::pair<std::string, std::string>> texts;
     std::map<std::string, Netlist> by_corner;
 };
 
-Result<NetlistMaker> NetlistMaker::of(const Said& said, const std::string& folder, const std::string& orders) {
+Result<NetlistMaker> NetlistMaker::of(const Said& given, const std::string& folder, const std::string& directives) {
     NetlistMaker out;
-    out.name_ = out.file_ = said.text, out.folder_ = folder, out.orders_ = orders, out.files_ = std::make_shared<Files>();
+    out.name_ = out.file_ = given.text, out.folder_ = folder, out.orders_ = directives, out.files_ = std::make_shared<Files>();
     std::error_code status;
-    if (const auto* carried = circuit::carried_netlist(said.text)) {
-        out.file_ = carried->file, out.name_ = carried->name, out.carried_ = true;
-    } else if (const fs::path path = said.text; path.is_absolute()) {  // where it lies on this machine is nobody's business
+    if (const auto* embedded = circuit::carried_netlist(given.text)) {
+        out.file_ = embedded->file, out.name_ = embedded->name, out.carried_ = true;
+    } else if (const fs::path path = given.text; path.is_absolute()) {  // paths of this machine stay out of the results
         out.folder_ = path.parent_path().string(), out.name_ = out.file_ = path.filename().string();
     }
     if (!out.carried_ && !fs::exists(fs::path(out.folder_) / out.file_, status)) {
@@ -76,9 +77,9 @@ Result<NetlistMaker> NetlistMaker::of(const Said& said, const std::string& folde
         for (const auto file : carried_files())
             if (file.ends_with(".cir")) known.push_back(file);
         for (const auto& c : circuit::carried_netlists) known.push_back(c.name);
-        if (!is_carried(out.file_))
-            return said.wrong(fmt::format("there is no netlist '{}' beside the sweep file, nor does the program carry one of this name{}",
-                                          said.text, did_you_mean(said.text, known)));
+        if (!is_embedded(out.file_))
+            return given.wrong(fmt::format("there is no netlist '{}' beside the sweep file and no embedded one of this name{}", given.text,
+                                           did_you_mean(given.text, known)));
         out.carried_ = true;
     }
     auto opened = out.open("");
@@ -88,34 +89,35 @@ Result<NetlistMaker> NetlistMaker::of(const Said& said, const std::string& folde
 
 Result<std::string> NetlistMaker::text_of(const std::string& path) const {
     {
-        const std::lock_guard lock(files_->guard);
+        const std::lock_guard lock(files_->mutex);
         for (const auto& [name, text] : files_->texts)
             if (name == path) return text;
     }
     auto text = carried_ ? carried_text(path) : bytes_of(fs::path(folder_) / path, path);
     if (!text) return text;
-    const std::lock_guard lock(files_->guard);
+    const std::lock_guard lock(files_->mutex);
     files_->texts.emplace_back(path, *text);
     return text;
 }
 
 Result<Netlist> NetlistMaker::open(const std::string& corner) const {
     {
-        const std::lock_guard lock(files_->guard);
+        const std::lock_guard lock(files_->mutex);
         if (const auto at = files_->by_corner.find(corner); at != files_->by_corner.end()) return at->second;
     }
     auto text = text_of(file_);
     if (!text) return text.error();
     if (!orders_.empty()) text = with_orders(*text, orders_);
-    auto netlist = Netlist::parse(std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
+    auto netlist = Netlist::parse(
+        std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
     if (!netlist) return netlist;
-    const std::lock_guard lock(files_->guard);
+    const std::lock_guard lock(files_->mutex);
     files_->by_corner.emplace(corner, *netlist);
     return netlist;
 }
 
-Result<Netlist> NetlistMaker::tuned(std::span<const Knob> knobs) const {
-    auto netlist = circuit::tuned([this](const std::string& corner) { return open(corner); }, file_, knobs);
+Result<Netlist> NetlistMaker::tuned(std::span<const Knob> overrides) const {
+    auto netlist = circuit::tuned([this](const std::string& corner) { return open(corner); }, file_, overrides);
     if (!netlist || saved_.empty()) return netlist;
     auto changes = netlist->changes();
     changes.saved_alone = true, changes.saved = saved_;
@@ -123,56 +125,56 @@ Result<Netlist> NetlistMaker::tuned(std::span<const Knob> knobs) const {
 }
 
 Result<void> NetlistMaker::set(const SaidSetting& setting) {
-    auto more = set_;
-    more.push_back(knob_of(setting.name, setting.value.text));
-    if (const auto ok = tuned(more); !ok) return ok.error().place.line > 0 ? ok.error() : setting.value.wrong(ok.error().sentence);
-    set_ = std::move(more);
+    auto extended = set_;
+    extended.push_back(override_of(setting.name, setting.value.text));
+    if (const auto ok = tuned(extended); !ok) return ok.error().place.line > 0 ? ok.error() : setting.value.wrong(ok.error().sentence);
+    set_ = std::move(extended);
     return {};
 }
 
-Result<Target> NetlistMaker::target(const Said& what) const {
-    const auto check = [this, name = what.text](const std::string& value) -> Result<void> {
-        auto more = set_;
-        more.push_back(knob_of(name, value));
-        const auto ok = tuned(more);
+Result<Target> NetlistMaker::target(const Said& quantity) const {
+    const auto check = [this, name = quantity.text](const std::string& value) -> Result<void> {
+        auto extended = set_;
+        extended.push_back(override_of(name, value));
+        const auto ok = tuned(extended);
         return ok ? Result<void>() : ok.error();
     };
-    Target out{{what.text, "", ""}};
+    Target out{{quantity.text, "", ""}};
     out.read = any_number, out.check = check, out.words_too = true;
-    const auto small = lower(what.text);
-    if (small == "corner") {
-        out.words_alone = true, out.column.sentence = "corner of the process";
+    const auto lowercase = lower(quantity.text);
+    if (lowercase == "corner") {
+        out.words_alone = true, out.column.sentence = "process corner";
         return out;
     }
     const auto netlist = nominal();
     if (!netlist) return netlist.error();
     const auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
-    if (small == "temp") {
+    if (lowercase == "temp") {
         out.read = temperature_of, out.nominal = circuit->temperature, out.words_too = false;
         out.column.unit = "degC", out.column.sentence = "temperature";
-    } else if (const auto at = circuit->parameters.find(small); at != circuit->parameters.end()) {
+    } else if (const auto at = circuit->parameters.find(lowercase); at != circuit->parameters.end()) {
         out.nominal = at->second, out.words_too = false;
-        out.column.sentence = fmt::format(".param {} of {}", small, file_);
+        out.column.sentence = fmt::format(".param {} of {}", lowercase, file_);
     } else {
-        out.column.sentence = fmt::format("of a device of {}", file_);
+        out.column.sentence = fmt::format("device parameter in {}", file_);
         if (const auto ok = check("1");
             !ok && (ok.error().sentence.find(" has no ") != std::string::npos || ok.error().sentence.find("may be") != std::string::npos))
-            return what.wrong(ok.error().sentence);
+            return quantity.wrong(ok.error().sentence);
     }
     return out;
 }
 
-void NetlistMaker::vary(const std::string& what, std::size_t axis, std::vector<std::string> words) {
-    varied_.push_back({what, axis, std::move(words)});
+void NetlistMaker::vary(const std::string& quantity, std::size_t axis, std::vector<std::string> labels) {
+    varied_.push_back({quantity, axis, std::move(labels)});
 }
 
 Result<Netlist> NetlistMaker::at(std::span<const double> values) const {
-    auto knobs = set_;
+    auto overrides = set_;
     for (const auto& v : varied_)
-        knobs.push_back(
-            knob_of(v.knob, v.words.empty() ? fmt::format("{}", values[v.axis]) : v.words[static_cast<std::size_t>(values[v.axis])]));
-    return tuned(knobs);
+        overrides.push_back(
+            override_of(v.knob, v.words.empty() ? fmt::format("{}", values[v.axis]) : v.words[static_cast<std::size_t>(values[v.axis])]));
+    return tuned(overrides);
 }
 
 std::vector<double> NetlistMaker::own(std::span<const double> values) const {
@@ -182,7 +184,7 @@ std::vector<double> NetlistMaker::own(std::span<const double> values) const {
 }
 
 std::vector<Sweep::Fact> NetlistMaker::facts() const {
-    const std::lock_guard lock(files_->guard);
+    const std::lock_guard lock(files_->mutex);
     std::vector<Sweep::Fact> out;
     for (const auto& [name, text] : files_->texts) {
         const fs::path path = name;

@@ -1,5 +1,5 @@
 #pragma once
-// The netlist of a sweep in all its variety: what is set of it, what varies, and the files that it is read from, once.
+// Makes the netlist variants of a sweep: fixed settings, varied parameters, and the source files, each read once.
 
 #include <map>
 #include <memory>
@@ -30,29 +30,29 @@ class NetlistMaker {
     Result<circuit::Netlist> tuned(std::span<const circuit::Knob>) const;
 
 public:
-    /// "sa1-circuit", a path as seen from the folder, or that of a netlist that the program carries; `orders` go in place of its own.
-    static Result<NetlistMaker> of(const Said& name, const std::string& folder, const std::string& orders = "");
+    /// "sa1-circuit", a path relative to the folder, or the path of an embedded netlist. `orders` replace its own directives.
+    static Result<NetlistMaker> of(const Said& name, const std::string& folder, const std::string& directives = "");
 
     const std::string& name() const { return name_; }
     Result<void> set(const SaidSetting&);
-    Result<Target> target(const Said& what) const;
-    void vary(const std::string& what, std::size_t axis, std::vector<std::string> words);
+    Result<Target> target(const Said& quantity) const;
+    void vary(const std::string& quantity, std::size_t axis, std::vector<std::string> labels);
     bool varies() const { return !varied_.empty(); }
-    /// Saved in place of every .save.
+    /// Replaces every .save.
     void save(std::vector<std::string> curves) { saved_ = std::move(curves); }
 
-    /// With nothing varied.
+    /// Without varied values.
     Result<circuit::Netlist> nominal() const { return tuned(set_); }
-    /// For the values of a unit; from several threads at once.
+    /// The netlist for an item's values. Thread-safe.
     Result<circuit::Netlist> at(std::span<const double> values) const;
-    /// Those of the values that it depends on.
+    /// The values on which this netlist depends.
     std::vector<double> own(std::span<const double> values) const;
 
-    /// Every file that was read.
+    /// One entry for every file that was read.
     std::vector<Sweep::Fact> facts() const;
 };
 
-/// Two circuits with the same devices at the same nodes: what differs is numbers.
+/// True if two circuits have the same devices at the same nodes and differ only in numbers.
 bool same_devices(const circuit::Circuit&, const circuit::Circuit&);
 
 }  // namespace corpuscle::sweeps

@@ -18,21 +18,21 @@ double count_in(std::span<const double> spikes, const Stretch& phase) {
 double spread_count(std::span<const double> spikes, const Stretch& phase) {
     double out = 0;
     for (std::size_t k = 0; k + 1 < spikes.size(); ++k) {
-        const double shared = std::min(spikes[k + 1], phase.to) - std::max(spikes[k], phase.from);
-        if (shared > 0) out += shared / (spikes[k + 1] - spikes[k]);
+        const double overlap = std::min(spikes[k + 1], phase.to) - std::max(spikes[k], phase.from);
+        if (overlap > 0) out += overlap / (spikes[k + 1] - spikes[k]);
     }
     return out + (spikes.empty() ? 0 : count_in(spikes.last(1), phase));
 }
 
-FiringLimits FiringLimits::about(std::span<const double> meant, std::span<const Stretch> phases, double first_off) {
+FiringLimits FiringLimits::about(std::span<const double> designed, std::span<const Stretch> phases, double first_off) {
     FiringLimits out;
     bool fired = false;
     for (const auto& phase : phases) {
-        const double count = count_in(meant, phase), off = std::max(1.0, std::floor(count / 4));
+        const double count = count_in(designed, phase), tolerance = std::max(1.0, std::floor(count / 4));
         fired |= count > 0;
-        out.phases.push_back({phase, std::max(0.0, count - off), fired ? count + off : 0, spread_count(meant, phase)});
+        out.phases.push_back({phase, std::max(0.0, count - tolerance), fired ? count + tolerance : 0, spread_count(designed, phase)});
     }
-    out.first = meant.empty() ? 0 : meant[0], out.first_off = first_off;
+    out.first = designed.empty() ? 0 : designed[0], out.first_off = first_off;
     return out;
 }
 
@@ -45,12 +45,12 @@ bool FiringLimits::kept(std::span<const double> spikes) const {
 double FiringLimits::distance(std::span<const double> spikes) const {
     double out = 0;
     for (const auto& p : phases) {
-        const double off = (spread_count(spikes, p.phase) - p.share) / std::max(0.5, (p.most - p.least) / 2);
-        out += off * off;
+        const double tolerance = (spread_count(spikes, p.phase) - p.share) / std::max(0.5, (p.most - p.least) / 2);
+        out += tolerance * tolerance;
     }
     if (first_off <= 0) return out;
-    const double late = spikes.empty() ? phases.back().phase.to - first : spikes[0] - first;
-    return out + late * late / (first_off * first_off);
+    const double delay = spikes.empty() ? phases.back().phase.to - first : spikes[0] - first;
+    return out + delay * delay / (first_off * first_off);
 }
 
 std::string FiringLimits::text() const {

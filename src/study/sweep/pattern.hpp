@@ -1,5 +1,5 @@
 #pragma once
-// How a chip fired under a touch beside how it was meant to: spikes of each phase, and the first of all.
+// Limits on a chip's response to a stimulus, relative to the designed response: spikes in each phase, and the time of the first spike.
 
 #include <span>
 #include <string>
@@ -9,28 +9,28 @@
 
 namespace corpuscle {
 
-/// What a chip's spikes must keep to.
+/// Limits on a chip's spikes.
 struct FiringLimits {
     struct OfPhase {
         Stretch phase;       ///< s
         double least, most;  ///< spikes
-        double share;        ///< spikes as they are meant, each spread over the interval that follows it
+        double share;        ///< designed spike count, each spike spread over the interval after it
     };
     std::vector<OfPhase> phases;
-    double first = 0, first_off = 0;  ///< s: the first spike's time as it is meant, and how far off it may be
+    double first = 0, first_off = 0;  ///< s: designed time of the first spike, and the allowed deviation
 
-    /// About the spikes of another (a model): in each phase a quarter more or less and at least one, but none where it has none before the
-    /// first of its phases that has some; the first spike within `first_off`.
+    /// Limits around the spikes of a reference (a model). Each phase allows a quarter more or less, at least one spike. Phases before the
+    /// reference's first spike allow none. The first spike must be within `first_off`.
     static FiringLimits about(std::span<const double> meant, std::span<const Stretch> phases, double first_off);
 
     bool kept(std::span<const double> spikes) const;
-    /// How far off, as one number: squares of deviations, each in what is allowed of it. Without steps where a spike crosses a phase's
-    /// edge, so that a search finds its way; kept() decides.
+    /// The distance from the designed response: sum of squared deviations, each relative to its allowed range. It has no steps where a
+    /// spike crosses a phase's edge, so that a search can use it. kept() decides.
     double distance(std::span<const double> spikes) const;
     std::string text() const;  ///< "0, 4 to 6, 7 to 11 ... spikes, the first at 309 ms +- 10 ms"
 };
 
-/// Spikes of a phase, each spread evenly over the interval that follows it; the last one is whole where it is.
+/// Spikes of a phase, each spread evenly over the interval after it; the last one is not spread.
 double spread_count(std::span<const double> spikes, const Stretch& phase);
 
 }  // namespace corpuscle

@@ -19,17 +19,17 @@ SweepPlan::SweepPlan(std::vector<SweepAxis> axes, const circuit::Chips& chips, s
         if (!a.values.empty()) points_ *= static_cast<std::int64_t>(a.values.size());
     }
     if (!chips.process) return;
-    for (const auto& [name, sentence] : {std::pair{"process.V_T0_n", "threshold of N devices, of all of a chip"},
-                                         {"process.V_T0_p", "threshold of P devices, of all of a chip"},
-                                         {"process.I_SQ_n", "specific current of N devices, of all of a chip"},
-                                         {"process.I_SQ_p", "specific current of P devices, of all of a chip"}})
-        columns_.push_back({name, "", std::string(sentence) + ", in deviations"});
+    for (const auto& [name, description] : {std::pair{"process.V_T0_n", "threshold of a chip's N devices"},
+                                            {"process.V_T0_p", "threshold of a chip's P devices"},
+                                            {"process.I_SQ_n", "specific current of a chip's N devices"},
+                                            {"process.I_SQ_p", "specific current of a chip's P devices"}})
+        columns_.push_back({name, "", std::string(description) + ", in standard deviations"});
 }
 
-std::vector<double> SweepPlan::values(std::int64_t unit) const {
+std::vector<double> SweepPlan::values(std::int64_t item) const {
     std::vector<double> out(axes_.size());
-    auto point = unit / draws_;
-    const auto draw = static_cast<std::uint64_t>(unit % draws_);
+    auto point = item / draws_;
+    const auto draw = static_cast<std::uint64_t>(item % draws_);
     for (std::size_t k = axes_.size(); k-- > 0;) {
         const auto& a = axes_[k];
         if (a.values.empty()) {
@@ -47,9 +47,9 @@ std::vector<double> SweepPlan::values(std::int64_t unit) const {
     return out;
 }
 
-std::optional<circuit::Draw> SweepPlan::draw(std::int64_t unit) const {
+std::optional<circuit::Draw> SweepPlan::draw(std::int64_t item) const {
     if (!draws_chips()) return {};
-    return chips_.draw(static_cast<std::uint64_t>(unit % draws_));
+    return chips_.draw(static_cast<std::uint64_t>(item % draws_));
 }
 
 }  // namespace corpuscle::sweeps

@@ -1,6 +1,6 @@
 #pragma once
-// What each unit of a sweep is given. The points are all combinations of what is listed, the first axis slowest; at each point as many
-// units as there are draws: unit = point * draws + draw. The same draw is the same chip at every point.
+// The values of each item of a sweep. Points are all combinations of the listed values, the first axis slowest. Each point has the same
+// number of samples: item = point * samples + sample. The same sample is the same chip at every point.
 
 #include <optional>
 
@@ -10,14 +10,14 @@
 
 namespace corpuscle::sweeps {
 
-/// One thing that varies and has a value.
+/// One quantity that varies and has a value.
 struct SweepAxis {
     SweepColumn column;
-    std::vector<double> values = {};          ///< one after another; of words their numbers; empty: it is drawn
-    std::optional<UnitNumbers> numbers = {};  ///< of one that is drawn
+    std::vector<double> values = {};          ///< listed values; labels as their indexes; empty: sampled
+    std::optional<UnitNumbers> numbers = {};  ///< for a sampled axis
     bool normal = false, by_powers = false;
-    double first = 0, second = 0;            ///< normal: mean and deviation; else from and to
-    double least_share = 0, most_share = 1;  ///< of a normal one: what is left of it
+    double first = 0, second = 0;            ///< normal: mean and standard deviation; otherwise from and to
+    double least_share = 0, most_share = 1;  ///< for a truncated normal distribution: range of its cumulative probability
 
     double drawn(std::uint64_t draw) const;
 };
@@ -32,11 +32,11 @@ public:
     static constexpr double most_units = 1e12;
 
     SweepPlan() = default;
-    /// `chips`: whether process and mismatch are drawn, and their seed.
+    /// `chips`: the seed, and whether process and mismatch are sampled.
     SweepPlan(std::vector<SweepAxis> axes, const circuit::Chips& chips, std::int64_t draws);
 
     const std::vector<SweepAxis>& axes() const { return axes_; }
-    /// Of each axis; then, if the process is drawn, its four deviates.
+    /// One for each axis; then, if the process is sampled, its four deviates.
     const std::vector<SweepColumn>& columns() const { return columns_; }
     const circuit::Chips& chips() const { return chips_; }
     std::int64_t draws() const { return draws_; }
@@ -44,8 +44,8 @@ public:
     bool draws_chips() const { return chips_.process || chips_.mismatch; }
 
     /// In the order of the columns.
-    std::vector<double> values(std::int64_t unit) const;
-    std::optional<circuit::Draw> draw(std::int64_t unit) const;
+    std::vector<double> values(std::int64_t item) const;
+    std::optional<circuit::Draw> draw(std::int64_t item) const;
 };
 
 }  // namespace corpuscle::sweeps

@@ -9,15 +9,15 @@ namespace {
 
 constexpr double beta_accuracy = 1e-15;
 
-/// The continued fraction of I_x(a, b), by Lentz's method (DLMF 8.17.22); quick for x < (a + 1) / (a + b + 2).
+/// The continued fraction of I_x(a, b), by Lentz's method (DLMF 8.17.22); converges fast for x < (a + 1) / (a + b + 2).
 double beta_fraction(double a, double b, double x) {
-    constexpr double least = 1e-300;
-    const auto kept = [](double v) { return std::abs(v) < least ? least : v; };
-    double c = 1, d = 1 / kept(1 - (a + b) * x / (a + 1)), h = d;
+    constexpr double tiny = 1e-300;
+    const auto nonzero = [](double v) { return std::abs(v) < tiny ? tiny : v; };
+    double c = 1, d = 1 / nonzero(1 - (a + b) * x / (a + 1)), h = d;
     for (int m = 1; m < 100000; ++m) {
         for (const double e :
              {m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)), -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))}) {
-            d = 1 / kept(1 + e * d), c = kept(1 + e / c);
+            d = 1 / nonzero(1 + e * d), c = nonzero(1 + e / c);
             h *= c * d;
         }
         if (std::abs(c * d - 1) < beta_accuracy) break;
@@ -31,7 +31,7 @@ double log_beta(double a, double b) { return std::lgamma(a) + std::lgamma(b) - s
 
 double normal_quantile(double p) {
     if (!(p > 0 && p < 1)) return p == 0 || p == 1 ? (p - 0.5) * std::numeric_limits<double>::infinity() : std::nan("");
-    // A first guess after Abramowitz and Stegun 26.2.23, then Halley's steps on erfc.
+    // An initial value after Abramowitz and Stegun 26.2.23, then Halley steps on erfc.
     const double tail = std::min(p, 1 - p), t = std::sqrt(-2 * std::log(tail));
     double x = -(t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308))));
     for (int k = 0; k < 3; ++k) {
@@ -49,7 +49,7 @@ double incomplete_beta(double a, double b, double x) {
 
 double beta_quantile(double a, double b, double p) {
     double low = 0, high = 1;
-    while (high - low > 2e-16 * high) {  // halving: some 60 steps, more only for what lies next to 0
+    while (high - low > 2e-16 * high) {  // bisection: about 60 steps, more only for values close to 0
         const double middle = 0.5 * (low + high);
         if (middle <= low || middle >= high || high < 1e-290) break;
         (incomplete_beta(a, b, middle) < p ? low : high) = middle;

@@ -1,4 +1,4 @@
-// The ranks that are not rank 0: ask for units, hand in outcomes.
+// Worker ranks (all except rank 0): request items and deliver outcomes.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,86 +13,89 @@
 namespace corpuscle {
 namespace {
 
-class Following {
+class RankWorker {
     static constexpr double between_outcomes = 0.1;  // s
-    static constexpr std::size_t most_unsent = 8;    // messages, before the crew has to wait
+    static constexpr std::size_t max_unsent = 8;     // messages; the worker threads wait if there are more
 
     Ranks& ranks_;
     const SweepRun& run_;
     const unsigned threads_;
-    std::optional<Crew> crew_;
-    RankHello leader_;
-    RankTime now_, heard_ = rank_time(), beaten_ = heard_, handed_ = heard_;
+    std::optional<Crew> pool_;
+    RankHello coordinator_;
+    RankTime now_, last_received_ = rank_time(), last_sent_ = last_received_, last_delivered_ = last_received_;
     RankPace pace_;
-    bool asked_ = false, told_fault_ = false, over_ = false, together_ = true, stopped_ = false, knows_leader_ = false;
+    bool has_request_ = false, error_reported_ = false, is_over_ = false, leave_together_ = true, is_stopped_ = false,
+         sees_coordinator_ = false;
 
-    void say(const Message& m) {
+    void send(const Message& m) {
         ranks_.send(0, m.bytes());
-        beaten_ = now_;
+        last_sent_ = now_;
     }
 
-    void hear(Message m) {
-        heard_ = now_;
+    void handle(Message m) {
+        last_received_ = now_;
         const auto word = word_of(m);
         std::uint64_t together = 0;
         std::vector<std::int64_t> units;
-        if (word == RankWord::hello && get(m, leader_)) knows_leader_ = leader_.can_be_seen();
-        if (word == RankWord::over && m.get(together)) over_ = true, together_ = together != 0;
-        if (word == RankWord::units && get(m, units) && crew_) crew_->give(units), asked_ = false;
+        if (word == RankWord::hello && get(m, coordinator_)) sees_coordinator_ = coordinator_.can_be_seen();
+        if (word == RankWord::over && m.get(together)) is_over_ = true, leave_together_ = together != 0;
+        if (word == RankWord::units && get(m, units) && pool_) pool_->give(units), has_request_ = false;
     }
 
-    void hand_in() {
-        if (seconds_between(handed_, now_) < between_outcomes || ranks_.unsent() >= most_unsent) return;
-        const auto outcomes = crew_->collect(0);
+    void deliver_outcomes() {
+        if (seconds_between(last_delivered_, now_) < between_outcomes || ranks_.unsent() >= max_unsent) return;
+        const auto outcomes = pool_->collect(0);
         pace_.ended(outcomes.size(), now_);
-        handed_ = now_;
-        if (!outcomes.empty()) say(message(outcomes));
+        last_delivered_ = now_;
+        if (!outcomes.empty()) send(message(outcomes));
     }
 
-    void ask() {
+    void request_items() {
         const auto wanted = pace_.ahead(threads_);
-        const auto waiting = static_cast<std::int64_t>(crew_->waiting());
-        if (asked_ || stopped_ || 2 * waiting > wanted) return;
-        asked_ = true;
-        say(message(RankWord::ask, static_cast<std::uint64_t>(wanted - waiting)));
+        const auto waiting = static_cast<std::int64_t>(pool_->waiting());
+        if (has_request_ || is_stopped_ || 2 * waiting > wanted) return;
+        has_request_ = true;
+        send(message(RankWord::ask, static_cast<std::uint64_t>(wanted - waiting)));
     }
 
     void work() {
-        hand_in();
-        if (const auto ok = crew_->fault(); !ok && !told_fault_) say(message(ok.error())), told_fault_ = true;
-        ask();
-        if (!stopped_ && run_.stop()) stopped_ = true, crew_->stop();
+        deliver_outcomes();
+        if (const auto ok = pool_->fault(); !ok && !error_reported_) send(message(ok.error())), error_reported_ = true;
+        request_items();
+        if (!is_stopped_ && run_.stop()) is_stopped_ = true, pool_->stop();
     }
 
-    bool leader_is_gone() const { return (knows_leader_ && leader_.is_dead()) || seconds_between(heard_, now_) > longest_silence; }
+    bool coordinator_is_gone() const {
+        return (sees_coordinator_ && coordinator_.is_dead()) || seconds_between(last_received_, now_) > longest_silence;
+    }
 
 public:
-    Following(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRun& run)
+    RankWorker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRun& run)
         : ranks_(ranks), run_(run), threads_(std::max(1U, run.threads)) {
         now_ = rank_time();
-        say(message(RankHello::mine(sweep ? sweep->get() : nullptr)));
+        send(message(RankHello::mine(sweep ? sweep->get() : nullptr)));
         if (sweep)
-            crew_.emplace(**sweep, threads_);
+            pool_.emplace(**sweep, threads_);
         else
-            say(message(sweep.error()));
+            send(message(sweep.error()));
     }
 
     Result<void> follow() {
-        for (; !over_; std::this_thread::sleep_for(rank_tick)) {
+        for (; !is_over_; std::this_thread::sleep_for(rank_tick)) {
             now_ = rank_time();
-            while (auto received = ranks_.receive()) hear(Message(std::move(received->message)));
-            if (crew_) work();
-            if (seconds_between(beaten_, now_) > between_beats) say(message(RankWord::beat));
-            if (leader_is_gone()) {
+            while (auto received = ranks_.receive()) handle(Message(std::move(received->message)));
+            if (pool_) work();
+            if (seconds_between(last_sent_, now_) > between_beats) send(message(RankWord::beat));
+            if (coordinator_is_gone()) {
                 ranks_.leave(false);
                 return bad_input(
-                    fmt::format("rank {}: rank 0, which writes the results, is gone; what it wrote is kept: the same command "
-                                "goes on",
+                    fmt::format("rank {}: rank 0, which writes the results, has died; results so far are kept, and the same "
+                                "command resumes",
                                 ranks_.rank()));
             }
         }
-        crew_.reset();
-        ranks_.leave(together_);
+        pool_.reset();
+        ranks_.leave(leave_together_);
         return {};
     }
 };
@@ -100,7 +103,7 @@ public:
 }  // namespace
 
 Result<void> follow(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRun& run) {
-    return Following(ranks, sweep, run).follow();
+    return RankWorker(ranks, sweep, run).follow();
 }
 
 }  // namespace corpuscle

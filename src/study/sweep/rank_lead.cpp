@@ -1,4 +1,4 @@
-// Rank 0: owns the file, hands out blocks, takes them back from the dead.
+// Rank 0: owns the file, distributes blocks of items, and takes back the items of dead ranks.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,168 +13,169 @@
 namespace corpuscle {
 namespace {
 
-struct Follower {
+struct WorkerState {
     RankHello hello;
-    bool is_seen = false, lives = true, is_counted = false;  // the last: among those that were lost
-    std::unordered_set<std::int64_t> has;                    // units
-    std::int64_t wants = 0;
-    RankTime heard, told;
+    bool is_seen = false, lives = true, is_counted = false;  // is_counted: among the dead ranks
+    std::unordered_set<std::int64_t> has;                    // items
+    std::int64_t requested = 0;
+    RankTime last_received, last_sent;
 
     bool is_gone() const { return is_seen && hello.is_dead(); }
 };
 
-class Leading {
-    static constexpr double last_words = 0.5;  // s, for what others have ready when all is stopped
-    static constexpr std::size_t much = 4096;  // outcomes
+class Coordinator {
+    static constexpr double drain_time = 0.5;             // s; after a stop, time for outcomes that workers have ready
+    static constexpr std::size_t write_threshold = 4096;  // outcomes
 
     Ranks& ranks_;
     const Sweep& sweep_;
     SweepResults& results_;
     const SweepRun& run_;
     SweepCount& count_;
-    RanksLost& lost_;
+    RanksLost& dead_ranks_;
     UnitQueue queue_;
-    std::vector<Follower> others_;  // by rank; 0 is not used
-    std::vector<UnitOutcome> unwritten_;
-    const std::uint64_t facts_;
+    std::vector<WorkerState> workers_;  // by rank; 0 is not used
+    std::vector<UnitOutcome> pending_;
+    const std::uint64_t metadata_hash_;
     const unsigned threads_;
     RankPace pace_;
     RankTime now_ = rank_time(), written_ = now_, stopped_at_ = now_;
     bool stopped_ = false;
     Result<void> fault_;
-    Crew crew_;
+    Crew pool_;
 
-    void say(std::size_t rank, const Message& m) {
+    void send(std::size_t rank, const Message& m) {
         ranks_.send(static_cast<int>(rank), m.bytes());
-        others_[rank].told = now_;
+        workers_[rank].last_sent = now_;
     }
 
-    void take(UnitOutcome&& o) {
+    void accept(UnitOutcome&& o) {
         count_.count(o);
-        unwritten_.push_back(std::move(o));
+        pending_.push_back(std::move(o));
     }
 
-    void hear_hello(std::size_t rank, Message& m) {
-        auto& other = others_[rank];
-        if (!get(m, other.hello)) return;
-        other.is_seen = other.hello.can_be_seen();
-        if (other.hello.facts != 0 && other.hello.facts != facts_ && fault_)
+    void handle_handshake(std::size_t rank, Message& m) {
+        auto& worker = workers_[rank];
+        if (!get(m, worker.hello)) return;
+        worker.is_seen = worker.hello.can_be_seen();
+        if (worker.hello.facts != 0 && worker.hello.facts != metadata_hash_ && fault_)
             fault_ = bad_input(
-                fmt::format("rank {} on {} reads another sweep than rank 0: give all of them the same files", rank, other.hello.host));
+                fmt::format("rank {} on {} reads another sweep than rank 0: give all of them the same files", rank, worker.hello.host));
     }
 
-    void hear(std::size_t rank, Message m) {
-        auto& other = others_[rank];
-        other.heard = now_;
-        if (!other.lives) other.lives = !other.is_gone();  // its message may have been under way when it died
+    void handle(std::size_t rank, Message m) {
+        auto& worker = workers_[rank];
+        worker.last_received = now_;
+        if (!worker.lives) worker.lives = !worker.is_gone();  // the message may have been sent before it died
         const auto word = word_of(m);
         std::uint64_t number = 0;
         std::vector<UnitOutcome> outcomes;
         Error error;
-        if (word == RankWord::hello) hear_hello(rank, m);
-        if (word == RankWord::ask && m.get(number)) other.wants = static_cast<std::int64_t>(number);
-        // What it no longer has was given to others when it was taken for dead.
+        if (word == RankWord::hello) handle_handshake(rank, m);
+        if (word == RankWord::ask && m.get(number)) worker.requested = static_cast<std::int64_t>(number);
+        // Items that it no longer has were given to other ranks when it was counted as dead.
         if (word == RankWord::outcomes && get(m, outcomes))
             for (auto& o : outcomes)
-                if (other.has.erase(o.unit) > 0) take(std::move(o));
+                if (worker.has.erase(o.unit) > 0) accept(std::move(o));
         if (word == RankWord::fault && get(m, error) && fault_)
-            fault_ = Error{error.code, fmt::format("rank {} on {}: {}", rank, other.hello.host, error.sentence)};
+            fault_ = Error{error.code, fmt::format("rank {} on {}: {}", rank, worker.hello.host, error.sentence)};
     }
 
-    void bury(std::size_t rank) {
-        auto& other = others_[rank];
-        queue_.put_back({other.has.begin(), other.has.end()});
-        if (!std::exchange(other.is_counted, true)) ++lost_.dead;
-        lost_.units += static_cast<std::int64_t>(other.has.size());
-        other.lives = false, other.wants = 0;
-        other.has.clear();
+    void mark_dead(std::size_t rank) {
+        auto& worker = workers_[rank];
+        queue_.put_back({worker.has.begin(), worker.has.end()});
+        if (!std::exchange(worker.is_counted, true)) ++dead_ranks_.dead;
+        dead_ranks_.units += static_cast<std::int64_t>(worker.has.size());
+        worker.lives = false, worker.requested = 0;
+        worker.has.clear();
         ranks_.forget(static_cast<int>(rank));
     }
 
-    void look_after(std::size_t rank) {
-        auto& other = others_[rank];
-        if (!other.lives) return;
-        if (other.is_gone() || seconds_between(other.heard, now_) > longest_silence) return bury(rank);
-        if (seconds_between(other.told, now_) > between_beats) say(rank, message(RankWord::beat));
+    void check_worker(std::size_t rank) {
+        auto& worker = workers_[rank];
+        if (!worker.lives) return;
+        if (worker.is_gone() || seconds_between(worker.last_received, now_) > longest_silence) return mark_dead(rank);
+        if (seconds_between(worker.last_sent, now_) > between_beats) send(rank, message(RankWord::beat));
     }
 
-    void hand_out() {
+    void distribute() {
         if (stopped_ || queue_.left() == 0) return;
-        const auto alive = 1 + std::count_if(others_.begin() + 1, others_.end(), [](const Follower& f) { return f.lives; });
-        // So that the last blocks are small and all end together.
-        const auto share = [&] { return std::max<std::int64_t>(1, queue_.left() / (2 * alive)); };
-        for (std::size_t rank = 1; rank < others_.size() && queue_.left() > 0; ++rank) {
-            auto& other = others_[rank];
-            if (!other.lives || other.wants == 0) continue;
-            const auto units = queue_.take(std::min(other.wants, share()));
-            other.has.insert(units.begin(), units.end());
-            other.wants = 0;
-            say(rank, message(units));
+        const auto alive = 1 + std::count_if(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.lives; });
+        // Shrinking blocks make all ranks finish at about the same time.
+        const auto block_size = [&] { return std::max<std::int64_t>(1, queue_.left() / (2 * alive)); };
+        for (std::size_t rank = 1; rank < workers_.size() && queue_.left() > 0; ++rank) {
+            auto& worker = workers_[rank];
+            if (!worker.lives || worker.requested == 0) continue;
+            const auto units = queue_.take(std::min(worker.requested, block_size()));
+            worker.has.insert(units.begin(), units.end());
+            worker.requested = 0;
+            send(rank, message(units));
         }
-        const auto wanted = pace_.ahead(threads_), waiting = static_cast<std::int64_t>(crew_.waiting());
-        if (2 * waiting <= wanted && queue_.left() > 0) crew_.give(queue_.take(std::min(wanted - waiting, share())));
+        const auto wanted = pace_.ahead(threads_), waiting = static_cast<std::int64_t>(pool_.waiting());
+        if (2 * waiting <= wanted && queue_.left() > 0) pool_.give(queue_.take(std::min(wanted - waiting, block_size())));
     }
 
     Result<void> write() {
-        if (unwritten_.size() < much && seconds_between(written_, now_) < run_.between_writes) return {};
-        auto ok = results_.add(sweep_, std::exchange(unwritten_, {}));
+        if (pending_.size() < write_threshold && seconds_between(written_, now_) < run_.between_writes) return {};
+        auto ok = results_.add(sweep_, std::exchange(pending_, {}));
         written_ = now_ = rank_time();
         run_.seen(count_);
         return ok;
     }
 
     bool is_over() const {
-        if (stopped_) return crew_.is_done() && seconds_between(stopped_at_, now_) > last_words;
-        return queue_.left() == 0 && crew_.is_done() && unwritten_.empty() &&
-               std::all_of(others_.begin() + 1, others_.end(), [](const Follower& f) { return f.has.empty(); });
+        if (stopped_) return pool_.is_done() && seconds_between(stopped_at_, now_) > drain_time;
+        return queue_.left() == 0 && pool_.is_done() && pending_.empty() &&
+               std::all_of(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.has.empty(); });
     }
 
-    Result<void> lead_on() {
+    Result<void> run_loop() {
         for (; !is_over(); std::this_thread::sleep_for(rank_tick)) {
             now_ = rank_time();
-            while (auto received = ranks_.receive()) hear(static_cast<std::size_t>(received->from), Message(std::move(received->message)));
-            for (std::size_t rank = 1; rank < others_.size(); ++rank) look_after(rank);
-            hand_out();
-            auto own = crew_.collect(0);
+            while (auto received = ranks_.receive())
+                handle(static_cast<std::size_t>(received->from), Message(std::move(received->message)));
+            for (std::size_t rank = 1; rank < workers_.size(); ++rank) check_worker(rank);
+            distribute();
+            auto own = pool_.collect(0);
             pace_.ended(own.size(), now_);
-            for (auto& o : own) take(std::move(o));
+            for (auto& o : own) accept(std::move(o));
             if (auto ok = write(); !ok) return ok;
-            if (auto ok = crew_.fault(); !ok && fault_) fault_ = ok;
+            if (auto ok = pool_.fault(); !ok && fault_) fault_ = ok;
             if (!fault_) break;
-            if (!stopped_ && run_.stop()) stopped_ = true, stopped_at_ = now_, crew_.stop();
+            if (!stopped_ && run_.stop()) stopped_ = true, stopped_at_ = now_, pool_.stop();
         }
-        if (auto ok = results_.add(sweep_, std::exchange(unwritten_, {})); !ok) return ok;
+        if (auto ok = results_.add(sweep_, std::exchange(pending_, {})); !ok) return ok;
         if (!fault_) return fault_;
         if (stopped_) return Error{Code::interrupted, "interrupted"};
         return {};
     }
 
 public:
-    Leading(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRun& run, SweepCount& count, RanksLost& lost,
-            std::vector<UnitQueue::Range> missing)
-        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), lost_(lost), queue_(std::move(missing), run.shard),
-          others_(static_cast<std::size_t>(ranks.size())), facts_(RankHello::mine(&sweep).facts), threads_(std::max(1U, run.threads)),
-          crew_(sweep, threads_) {
+    Coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRun& run, SweepCount& count, RanksLost& lost,
+                std::vector<UnitQueue::Range> missing)
+        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), dead_ranks_(lost),
+          queue_(std::move(missing), run.shard), workers_(static_cast<std::size_t>(ranks.size())),
+          metadata_hash_(RankHello::mine(&sweep).facts), threads_(std::max(1U, run.threads)), pool_(sweep, threads_) {
         count_ = {.to_do = queue_.left()};
         results_.note(count_.to_do);
-        for (std::size_t rank = 1; rank < others_.size(); ++rank) {
-            others_[rank].heard = now_;
-            say(rank, message(RankHello::mine(&sweep)));
+        for (std::size_t rank = 1; rank < workers_.size(); ++rank) {
+            workers_[rank].last_received = now_;
+            send(rank, message(RankHello::mine(&sweep)));
         }
     }
 
     Result<void> lead() {
-        auto ok = lead_on();
-        crew_.stop();
+        auto ok = run_loop();
+        pool_.stop();
         return ok;
     }
 
-    bool all_live() const {
-        return std::all_of(others_.begin() + 1, others_.end(), [](const Follower& f) { return f.lives; });
+    bool all_alive() const {
+        return std::all_of(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.lives; });
     }
 };
 
-/// All are told; of those that are dead nobody waits for an answer.
+/// Sends the end to all ranks. Does not wait for dead ranks.
 void end_all(Ranks& ranks, bool together) {
     for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, message(RankWord::over, together).bytes());
     const auto begun = rank_time();
@@ -190,9 +191,9 @@ Result<void> lead(Ranks& ranks, const Sweep& sweep, SweepResults& results, const
         dismiss(ranks);
         return missing.error();
     }
-    Leading leading(ranks, sweep, results, run, count, lost, std::move(*missing));
+    Coordinator leading(ranks, sweep, results, run, count, lost, std::move(*missing));
     auto ok = leading.lead();
-    end_all(ranks, leading.all_live());
+    end_all(ranks, leading.all_alive());
     return ok;
 }
 

@@ -1,24 +1,24 @@
 #pragma once
-// A sweep on ranks: rank 0 owns the file, hands out blocks of units and writes what comes back; it works, too.
+// A sweep on MPI ranks. Rank 0 owns the file, distributes blocks of items and writes the outcomes; it computes items as well.
 
 #include "study/sweep/ranks.hpp"
 #include "study/sweep/run_sweep.hpp"
 
 namespace corpuscle {
 
-/// Who became silent, or died, is taken for dead: its block goes to others. One that only slept comes back; what it did is not counted
-/// twice.
+/// Ranks that died or stopped responding are counted as dead and their blocks are distributed again. A rank that only paused can return;
+/// its duplicate outcomes are not counted twice.
 struct RanksLost {
     int dead = 0;            ///< ranks
-    std::int64_t units = 0;  ///< that were handed out again
+    std::int64_t units = 0;  ///< distributed again
 };
 
-/// Rank 0: as run_sweep. All other ranks end with it.
+/// Rank 0: like run_sweep. All other ranks end with it.
 Result<void> lead(Ranks&, const Sweep&, SweepResults&, const SweepRun&, SweepCount&, RanksLost&);
-/// Rank 0 cannot begin: the others end.
+/// Rank 0 cannot start: makes the other ranks end.
 void dismiss(Ranks&);
 
-/// Another rank: works until rank 0 says that it is over, or is gone. An error here, of a sweep that cannot be read, is told to rank 0.
+/// Any other rank: works until rank 0 ends the run or disappears. An error in reading the sweep is reported to rank 0.
 Result<void> follow(Ranks&, const Result<std::unique_ptr<Sweep>>&, const SweepRun&);
 
 }  // namespace corpuscle

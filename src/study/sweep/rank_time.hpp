@@ -1,5 +1,5 @@
 #pragma once
-// When ranks look, speak, and take one another for dead.
+// Time constants of the ranks: polling, heartbeats and timeouts.
 
 #include <algorithm>
 #include <chrono>
@@ -13,9 +13,9 @@ inline double seconds_between(RankTime from, RankTime to) { return std::chrono::
 
 inline constexpr std::chrono::milliseconds rank_tick{1};
 inline constexpr double between_beats = 1;     // s
-inline constexpr double longest_silence = 20;  // s; of one on the same machine death is seen at once
+inline constexpr double longest_silence = 20;  // s; death of a rank on the same machine is noticed at once
 
-/// How many units should wait at a rank: half a second's work, so that asking takes no time from it, and as many as fill its lanes.
+/// Number of items to keep queued at a rank: half a second's work, so that requests cost no time, and enough to fill its lanes.
 class RankPace {
     RankTime since_ = rank_time();
     std::size_t ended_ = 0;
@@ -23,18 +23,18 @@ class RankPace {
 
 public:
     void ended(std::size_t units, RankTime now) {
-        constexpr double long_enough = 0.1, new_share = 0.3;
+        constexpr double min_seconds = 0.1, weight = 0.3;
         ended_ += units;
         const double seconds = seconds_between(since_, now);
-        if (seconds < long_enough) return;
+        if (seconds < min_seconds) return;
         const double rate = static_cast<double>(ended_) / seconds;
-        rate_ = rate_ == 0 ? rate : rate_ + new_share * (rate - rate_);
+        rate_ = rate_ == 0 ? rate : rate_ + weight * (rate - rate_);
         since_ = now, ended_ = 0;
     }
     std::int64_t ahead(unsigned threads) const {
         constexpr double seconds = 0.5;
-        constexpr std::int64_t lanes = 8, most = 1 << 14;
-        return std::clamp<std::int64_t>(static_cast<std::int64_t>(rate_ * seconds), lanes * threads, most);
+        constexpr std::int64_t lanes = 8, max = 1 << 14;
+        return std::clamp<std::int64_t>(static_cast<std::int64_t>(rate_ * seconds), lanes * threads, max);
     }
 };
 

@@ -18,7 +18,7 @@ std::string host_name() {
     return host.data();
 }
 
-/// FNV-1a, of all that two equal sweeps have in common.
+/// FNV-1a hash of everything that two equal sweeps have in common.
 std::uint64_t hash_of(const Sweep& sweep) {
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto add = [&](const std::string& text) {
@@ -75,7 +75,7 @@ bool get(Message& m, UnitOutcome& o) {
 
 RankHello RankHello::mine(const Sweep* sweep) { return {host_name(), static_cast<std::uint64_t>(::getpid()), sweep ? hash_of(*sweep) : 0}; }
 bool RankHello::is_dead() const {
-    const bool is_id = process > 0 && process <= std::numeric_limits<pid_t>::max();  // of one process, not of a group
+    const bool is_id = process > 0 && process <= std::numeric_limits<pid_t>::max();  // of one process, not of a process group
     return is_id && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
 }
 bool RankHello::can_be_seen() const { return host == host_name() && !is_dead(); }

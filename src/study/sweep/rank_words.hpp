@@ -1,5 +1,5 @@
 #pragma once
-// What ranks say to one another: rank 0, which owns the file, and the others.
+// Messages between rank 0, which owns the file, and the other ranks.
 
 #include "io/message.hpp"
 #include "study/sweep/sweep.hpp"
@@ -7,24 +7,24 @@
 namespace corpuscle {
 
 enum class RankWord : std::uint64_t {
-    hello,     ///< who I am; both ways
-    beat,      ///< I live; both ways
-    ask,       ///< a number: so many units more, please
-    units,     ///< here they are
-    outcomes,  ///< of units
-    fault,     ///< a code and a sentence: the sweep itself is wrong
-    over,      ///< 1: we all leave together; 0: each by itself
+    hello,     ///< handshake, in both directions
+    beat,      ///< heartbeat, in both directions
+    ask,       ///< requests a number of further items
+    units,     ///< the requested items
+    outcomes,  ///< of items
+    fault,     ///< an error code and a message: the sweep itself is wrong
+    over,      ///< 1: all ranks leave together; 0: each rank leaves alone
 };
 
-/// Where a rank runs, so that one on the same machine can see whether it lives; and what its sweep is made of.
+/// The machine and process of a rank, and a hash of its sweep's metadata. Ranks on the same machine can check if the process is alive.
 struct RankHello {
     std::string host;
     std::uint64_t process = 0, facts = 0;
 
     static RankHello mine(const Sweep*);
-    /// It is certain that it is dead: this can be seen on the same machine alone.
+    /// True if the process is certainly dead; can be seen only on the same machine.
     bool is_dead() const;
-    /// Whether is_dead() can ever say so.
+    /// True if is_dead() can detect its death.
     bool can_be_seen() const;
 };
 
@@ -35,7 +35,7 @@ Message message(const std::vector<std::int64_t>& units);
 Message message(const std::vector<UnitOutcome>&);
 Message message(const Error&);
 
-/// These read what follows the word; false or nothing: it is not whole.
+/// Decode what follows the message type; false or empty if the message is incomplete.
 std::optional<RankWord> word_of(Message&);
 bool get(Message&, RankHello&);
 bool get(Message&, std::vector<std::int64_t>&);

@@ -1,4 +1,4 @@
-// The one file that knows MPI.
+// The only file that uses MPI.
 
 #include "study/sweep/ranks.hpp"
 
@@ -17,8 +17,8 @@
 namespace corpuscle {
 namespace {
 
-/// Of an environment variable that a launcher sets; none: -1.
-int launched(const char* name) {
+/// An integer environment variable set by a launcher; -1 if it is not set.
+int launcher_variable(const char* name) {
     const char* text = std::getenv(name);
     return text ? std::atoi(text) : -1;
 }
@@ -26,17 +26,17 @@ int launched(const char* name) {
 }  // namespace
 
 bool Ranks::are_started() {
-    const int size = launched("OMPI_COMM_WORLD_SIZE");
-    return size > 1 || (size < 0 && launched("PMIX_RANK") >= 0);
+    const int size = launcher_variable("OMPI_COMM_WORLD_SIZE");
+    return size > 1 || (size < 0 && launcher_variable("PMIX_RANK") >= 0);
 }
 
-bool Ranks::speaks() { return launched("OMPI_COMM_WORLD_RANK") <= 0 && launched("PMIX_RANK") <= 0; }
+bool Ranks::speaks() { return launcher_variable("OMPI_COMM_WORLD_RANK") <= 0 && launcher_variable("PMIX_RANK") <= 0; }
 
 #ifdef CORPUSCLE_MPI
 
 namespace {
 
-/// MPI's functions, found in its library by name. Of the header only types and numbers are used.
+/// MPI's functions, loaded from its library by name. Only types and constants come from the header.
 struct Mpi {
     decltype(&MPI_Init) init = nullptr;
     decltype(&MPI_Comm_rank) rank = nullptr;
@@ -51,7 +51,7 @@ struct Mpi {
     MPI_Comm world = {};
     MPI_Errhandler errors_return = {};
     MPI_Datatype byte = {};
-    std::string missing;  ///< what is not there
+    std::string missing;  ///< the missing library or function
 
     Mpi() {
         void* library = nullptr;
@@ -69,7 +69,7 @@ struct Mpi {
         find(init, "MPI_Init"), find(rank, "MPI_Comm_rank"), find(size, "MPI_Comm_size"), find(set_errhandler, "MPI_Comm_set_errhandler");
         find(isend, "MPI_Isend"), find(improbe, "MPI_Improbe"), find(imrecv, "MPI_Imrecv"), find(test, "MPI_Test");
         find(count, "MPI_Get_count"), find(finalize, "MPI_Finalize");
-#ifdef OPEN_MPI  // where its constants are objects of the library
+#ifdef OPEN_MPI  // Open MPI's constants are objects of the library
         find(world, "ompi_mpi_comm_world"), find(errors_return, "ompi_mpi_errors_return"), find(byte, "ompi_mpi_byte");
 #else
         world = MPI_COMM_WORLD, errors_return = MPI_ERRORS_RETURN, byte = MPI_BYTE;
@@ -77,8 +77,8 @@ struct Mpi {
     }
 };
 
-/// A message on its way; its bytes stay where they are.
-struct UnderWay {
+/// A message in transmission; its bytes must not move.
+struct PendingMessage {
     int other;
     std::string bytes;
     MPI_Request request;
@@ -89,10 +89,10 @@ struct UnderWay {
 struct Ranks::Held {
     Mpi mpi;
     int rank = 0, size = 1;
-    std::list<UnderWay> sent, coming;
+    std::list<PendingMessage> sent, coming;
 
     enum class State { under_way, arrived, failed };
-    State state(UnderWay& m) {
+    State state(PendingMessage& m) {
         int done = 0;
         if (mpi.test(&m.request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS) return State::failed;
         return done ? State::arrived : State::under_way;
@@ -101,20 +101,20 @@ struct Ranks::Held {
 };
 
 Result<std::unique_ptr<Ranks>> Ranks::join() {
-    auto held = std::make_unique<Held>();
-    auto& mpi = held->mpi;
+    auto impl = std::make_unique<Held>();
+    auto& mpi = impl->mpi;
     if (!mpi.missing.empty())
         return bad_input(
-            fmt::format("mpirun has started this, but MPI's library is not to be had here ({}); install OpenMPI, or start it "
+            fmt::format("started by mpirun, but the MPI library cannot be loaded here ({}); install OpenMPI, or start it "
                         "without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several",
                         mpi.missing));
-    // A large message must not be read out of the memory of a process that may be dead.
+    // With single copy, a large message would be read from the memory of a process that may be dead.
     ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-    if (mpi.init(nullptr, nullptr) != MPI_SUCCESS) return bad_input("MPI does not begin: see what it says above");
+    if (mpi.init(nullptr, nullptr) != MPI_SUCCESS) return bad_input("MPI_Init failed; see its message above");
     mpi.set_errhandler(mpi.world, mpi.errors_return);
-    mpi.rank(mpi.world, &held->rank);
-    mpi.size(mpi.world, &held->size);
-    return std::unique_ptr<Ranks>(new Ranks(std::move(held)));
+    mpi.rank(mpi.world, &impl->rank);
+    mpi.size(mpi.world, &impl->size);
+    return std::unique_ptr<Ranks>(new Ranks(std::move(impl)));
 }
 
 void Ranks::Held::begin_receiving() {
@@ -125,7 +125,7 @@ void Ranks::Held::begin_receiving() {
         if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &there, &found, &status) != MPI_SUCCESS || !there) return;
         int bytes = 0;
         mpi.count(&status, mpi.byte, &bytes);
-        auto& m = coming.emplace_back(UnderWay{status.MPI_SOURCE, std::string(static_cast<std::size_t>(bytes), '\0'), {}});
+        auto& m = coming.emplace_back(PendingMessage{status.MPI_SOURCE, std::string(static_cast<std::size_t>(bytes), '\0'), {}});
         if (mpi.imrecv(m.bytes.data(), bytes, mpi.byte, &found, &m.request) != MPI_SUCCESS) coming.pop_back();
     }
 }
@@ -133,29 +133,31 @@ void Ranks::Held::begin_receiving() {
 int Ranks::rank() const { return held_->rank; }
 int Ranks::size() const { return held_->size; }
 
-bool Ranks::outlive_one() const { return launched("OMPI_COMM_WORLD_SIZE") < 0 || launched("OMPI_MCA_orte_enable_recovery") == 1; }
+bool Ranks::outlive_one() const {
+    return launcher_variable("OMPI_COMM_WORLD_SIZE") < 0 || launcher_variable("OMPI_MCA_orte_enable_recovery") == 1;
+}
 
 void Ranks::send(int to, std::string message) {
-    auto& m = held_->sent.emplace_back(UnderWay{to, std::move(message), {}});
+    auto& m = held_->sent.emplace_back(PendingMessage{to, std::move(message), {}});
     const auto& mpi = held_->mpi;
     if (mpi.isend(m.bytes.data(), static_cast<int>(m.bytes.size()), mpi.byte, to, 0, mpi.world, &m.request) != MPI_SUCCESS)
         held_->sent.pop_back();
 }
 
 std::size_t Ranks::unsent() const {
-    held_->sent.remove_if([&](UnderWay& m) { return held_->state(m) != Held::State::under_way; });
+    held_->sent.remove_if([&](PendingMessage& m) { return held_->state(m) != Held::State::under_way; });
     return held_->sent.size();
 }
 
 std::optional<Ranks::Received> Ranks::receive() {
     held_->begin_receiving();
-    std::vector<int> behind;  // those of whom an earlier message is not yet there
+    std::vector<int> incomplete;  // senders with an earlier message that is incomplete
     for (auto m = held_->coming.begin(); m != held_->coming.end();) {
         const auto here = m++;
-        if (std::find(behind.begin(), behind.end(), here->other) != behind.end()) continue;
+        if (std::find(incomplete.begin(), incomplete.end(), here->other) != incomplete.end()) continue;
         const auto state = held_->state(*here);
         if (state == Held::State::under_way) {
-            behind.push_back(here->other);
+            incomplete.push_back(here->other);
             continue;
         }
         Received out{here->other, std::move(here->bytes)};
@@ -165,9 +167,9 @@ std::optional<Ranks::Received> Ranks::receive() {
     return {};
 }
 
-// MPI may still write into what it has been given: it is never given back.
+// MPI may still write into these buffers, so they are never freed.
 void Ranks::forget(int rank) {
-    static std::list<UnderWay> forgotten;
+    static std::list<PendingMessage> forgotten;
     for (auto* all : {&held_->sent, &held_->coming})
         for (auto m = all->begin(); m != all->end();) {
             const auto here = m++;
@@ -186,7 +188,7 @@ struct Ranks::Held {};
 
 Result<std::unique_ptr<Ranks>> Ranks::join() {
     return bad_input(
-        "mpirun has started this, but this corpuscle was built without MPI; build it where OpenMPI is installed (libopenmpi-dev), or start "
+        "started by mpirun, but this corpuscle was built without MPI; build it where OpenMPI is installed (libopenmpi-dev), or start "
         "it without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several");
 }
 int Ranks::rank() const { return 0; }
@@ -200,7 +202,7 @@ void Ranks::leave(bool) {}
 
 #endif
 
-Ranks::Ranks(std::unique_ptr<Held> held) : held_(std::move(held)) {}
+Ranks::Ranks(std::unique_ptr<Held> impl) : held_(std::move(impl)) {}
 Ranks::~Ranks() = default;
 
 }  // namespace corpuscle

@@ -1,6 +1,6 @@
 #pragma once
-// Processes of one sweep, started together by mpirun, that send one another messages. What knows MPI is ranks.cpp alone; MPI's library is
-// loaded when join() is called, so that a start without mpirun does not pay for it.
+// Processes of one sweep, started together by mpirun, that exchange messages. Only ranks.cpp uses MPI. The MPI library is loaded by join(),
+// so that a start without mpirun does not pay for it.
 
 #include <memory>
 #include <optional>
@@ -12,31 +12,31 @@ namespace corpuscle {
 
 class Ranks {
 public:
-    /// Whether mpirun, or another such launcher, has started more than one of us.
+    /// True if mpirun, or another launcher, started more than one process.
     static bool are_started();
-    /// Whether this one is the first of those, or the only one: it is enough if one says what is wrong with all.
+    /// True for the first process or the only one. It alone prints errors that all processes have.
     static bool speaks();
-    /// Waits for all the others.
+    /// Waits for all other processes.
     static Result<std::unique_ptr<Ranks>> join();
     ~Ranks();
 
     int rank() const;
     int size() const;
-    /// Whether the launcher lets the others live when one dies; of one that cannot be asked: true.
+    /// True if the launcher keeps the other processes alive when one dies, or if this is unknown.
     bool outlive_one() const;
 
-    /// Never waits: the message is kept until it has gone.
+    /// Does not block; the message is kept until it has been sent.
     void send(int to, std::string message);
-    std::size_t unsent() const;  ///< messages that are kept
+    std::size_t unsent() const;  ///< number of kept messages
     struct Received {
         int from;
         std::string message;
     };
-    /// A message that is there in whole, if there is one.
+    /// A completely received message, if there is one.
     std::optional<Received> receive();
-    /// What is still kept for this one is forgotten: it is dead.
+    /// Drops the messages that are kept for this rank, because it is dead.
     void forget(int rank);
-    /// Ends this rank's part. `together`: all are there, and leave too; else the process must end without further ado.
+    /// Ends this rank's part. `together`: all ranks are alive and leave as well; otherwise the process must exit at once.
     void leave(bool together);
     bool left_together() const { return together_; }
 

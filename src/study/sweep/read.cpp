@@ -1,4 +1,4 @@
-// A file to a sweep: which subject it is of; and errors as the user knows the files.
+// Reads a sweep file, selects the kind of sweep, and reports errors with paths as the user knows them.
 
 #include <fmt/format.h>
 #include <filesystem>
@@ -14,14 +14,14 @@ namespace {
 namespace fs = std::filesystem;
 using sweeps::SweepText;
 
-constexpr std::size_t most_of_a_sweep = std::size_t{1} << 20;  // bytes
+constexpr std::size_t max_file_size = std::size_t{1} << 20;  // bytes
 
 Result<SweepText> text_at(const fs::path& path) {
-    const auto text = read_whole_input(path.string(), most_of_a_sweep, "sweep file");
+    const auto text = read_whole_input(path.string(), max_file_size, "sweep file");
     return text ? sweeps::read_sweep_text(*text, path.string()) : Result<SweepText>(text.error());
 }
 
-/// A netlist alone: its own .step and .mc say what varies.
+/// A netlist alone: its own .step and .mc define what varies.
 SweepText of_netlist(const fs::path& path) {
     SweepText out;
     out.file = path.string();
@@ -30,21 +30,20 @@ SweepText of_netlist(const fs::path& path) {
     return out;
 }
 
-Result<std::unique_ptr<Sweep>> of_subject(const SweepText& said, const std::string& folder) {
-    if (said.afferent && said.netlist)
-        return said.netlist->wrong(
-            "a sweep is of one thing: either afferent = ..., which feels a force, or netlist = ..., with its own analyses");
-    if (said.netlist) return sweeps::analyses_sweep(said, folder);
-    if (!said.afferent)
-        return bad_input("nothing says what the sweep is of: afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {said.file});
-    return names_netlist(said.afferent->text) ? sweeps::chips_sweep(said, folder) : sweeps::equations_sweep(said, folder);
+Result<std::unique_ptr<Sweep>> of_subject(const SweepText& spec, const std::string& folder) {
+    if (spec.afferent && spec.netlist)
+        return spec.netlist->wrong("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
+    if (spec.netlist) return sweeps::analyses_sweep(spec, folder);
+    if (!spec.afferent)
+        return bad_input("the sweep has no subject; give afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {spec.file});
+    return names_netlist(spec.afferent->text) ? sweeps::chips_sweep(spec, folder) : sweeps::equations_sweep(spec, folder);
 }
 
-/// What is asked for on the command line, in the place of what the file says.
-void put(MaybeSaid& into, std::string_view key, const std::optional<std::string>& asked, SweepText& said) {
-    if (!asked || (into && into->text == *asked)) return;
-    into = Said{*asked, {}};
-    said.canonical += fmt::format("--{} {}\n", key, *asked);
+/// Replaces a setting of the file by one of the command line.
+void put(MaybeSaid& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
+    if (!requested || (into && into->text == *requested)) return;
+    into = Said{*requested, {}};
+    spec.canonical += fmt::format("--{} {}\n", key, *requested);
 }
 
 template <class N>
@@ -54,21 +53,21 @@ std::optional<std::string> text_of(const std::optional<N>& number) {
 
 }  // namespace
 
-Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepAsked& asked) {
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepAsked& requested) {
     const fs::path file = path;
     const auto folder = file.parent_path().string();
     const bool is_netlist = file.extension() != ".toml";
-    auto said = is_netlist ? Result<SweepText>(of_netlist(file)) : text_at(file);
-    if (!said) return said.error();
-    put(said->seed, "seed", text_of(asked.seed), *said);
-    put(said->units, "units", text_of(asked.units), *said);
-    auto sweep = of_subject(*said, folder);
+    auto spec = is_netlist ? Result<SweepText>(of_netlist(file)) : text_at(file);
+    if (!spec) return spec.error();
+    put(spec->seed, "seed", text_of(requested.seed), *spec);
+    put(spec->units, "units", text_of(requested.units), *spec);
+    auto sweep = of_subject(*spec, folder);
     if (sweep) return sweep;
-    auto error = sweep.error();  // netlists and what they include are called as seen from the folder
+    auto error = sweep.error();  // netlists and the files they include have paths relative to the folder
     std::error_code status;
-    if (const auto there = file.parent_path() / error.place.file;
-        !error.place.file.empty() && error.place.file != said->file && fs::exists(there, status))
-        error.place.file = there.string();
+    if (const auto full_path = file.parent_path() / error.place.file;
+        !error.place.file.empty() && error.place.file != spec->file && fs::exists(full_path, status))
+        error.place.file = full_path.string();
     if (error.place.file.empty()) error.place.file = path;
     return error;
 }

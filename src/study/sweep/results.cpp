@@ -15,7 +15,7 @@ namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
-static_assert(std::endian::native == std::endian::little, "spikes and traces stand in the file as they do in memory");
+static_assert(std::endian::native == std::endian::little, "spikes and traces have the same byte order in the file and in memory");
 
 constexpr std::array<std::string_view, 3> unit_ends = {"done", "capped", "lost"};
 
@@ -30,7 +30,7 @@ std::string insertion(const std::vector<std::string>& columns) {
     return fmt::format("INSERT INTO units({}) VALUES({}) ON CONFLICT(unit) DO NOTHING", names, values);
 }
 
-/// Numbers of a blob; of a damaged one those that are whole.
+/// The numbers of a blob; an incomplete last number is ignored.
 template <class T>
 std::vector<T> numbers(std::span<const std::byte> bytes) {
     std::vector<T> out(bytes.size() / sizeof(T));
@@ -39,10 +39,10 @@ std::vector<T> numbers(std::span<const std::byte> bytes) {
 }
 
 template <class T>
-Result<std::vector<T>> blob(sqlite3* file, const std::string& path, const char* query, std::int64_t unit, std::size_t which) {
+Result<std::vector<T>> blob(sqlite3* file, const std::string& path, const char* query, std::int64_t item, std::size_t which) {
     auto row = sql::Statement::make(file, path, query);
     if (!row) return row.error();
-    const auto found = row->set(1, unit).set(2, static_cast<std::int64_t>(which)).step();
+    const auto found = row->set(1, item).set(2, static_cast<std::int64_t>(which)).step();
     if (!found) return found.error();
     return *found ? numbers<T>(row->bytes(0)) : std::vector<T>{};
 }
@@ -51,14 +51,14 @@ Result<void> make_folder(const std::string& path) {
     const auto folder = fs::path(path).parent_path();
     std::error_code failed;
     if (!folder.empty()) fs::create_directories(folder, failed);
-    if (failed) return bad_input(fmt::format("its folder cannot be made ({}); give another place with --out", failed.message()), {path});
+    if (failed) return bad_input(fmt::format("its folder cannot be created ({}); give another path with --out", failed.message()), {path});
     return {};
 }
 
-Error not_alone(const std::string& path) {
+Error needs_writable_folder(const std::string& path) {
     return bad_input(
-        "was left by a run that was killed, and can be read only where a file can be made beside it: copy it, together with "
-        "its -wal file, to such a place",
+        "was left by a run that was killed, and can be read only in a writable folder: copy it, together with "
+        "its -wal file, to such a folder",
         {path});
 }
 
@@ -75,7 +75,7 @@ Result<void> SweepResults::Held::open_file(int flags) {
 
 Result<void> SweepResults::Held::begin_writing() {
     if (writing) return {};
-    if (!lock) return bad_input("was opened to be looked at, not to be written", {path});
+    if (!lock) return bad_input("was opened for reading only", {path});
     if (auto ok =
             sql::run(file.get(), path,
                      "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL; PRAGMA cache_size = -32768");
@@ -99,17 +99,17 @@ Result<void> SweepResults::Held::put(const Sweep& sweep, const UnitOutcome& o) {
     const auto values = sweep.values(o.unit);
     if (o.unit < 0 || o.unit >= layout.units || (!o.measures.empty() && o.measures.size() != layout.measures.size()) ||
         values.size() != layout.axes.size())
-        return bad_input(fmt::format("unit {} with {} axes and {} measures is none of {} units with {} and {}", o.unit, values.size(),
+        return bad_input(fmt::format("unit {} with {} axes and {} measures does not fit {} units with {} and {}", o.unit, values.size(),
                                      o.measures.size(), layout.units, layout.axes.size(), layout.measures.size()),
                          {path});
     unit.set(1, o.unit).set(2, word_of(o.end)).set(3, o.steps).set(4, o.iterations).set(5, std::int64_t{o.alone});
     unit.set(6, std::string_view(o.why));
-    int place = 7;
-    for (const double x : values) unit.set(place++, x);
-    for (std::size_t k = 0; k < layout.measures.size(); ++k, ++place)
-        k < o.measures.size() ? unit.set(place, o.measures[k]) : unit.set_nothing(place);
+    int position = 7;
+    for (const double x : values) unit.set(position++, x);
+    for (std::size_t k = 0; k < layout.measures.size(); ++k, ++position)
+        k < o.measures.size() ? unit.set(position, o.measures[k]) : unit.set_nothing(position);
     if (auto ok = unit.finish(); !ok) return ok;
-    if (sqlite3_changes(file.get()) == 0) return {};  // it has a row already
+    if (sqlite3_changes(file.get()) == 0) return {};  // the item has a row already
     ++finished;
     for (std::size_t k = 0; k < o.spikes.size(); ++k)
         if (!o.spikes[k].empty())
@@ -124,61 +124,61 @@ Result<void> SweepResults::Held::put(const Sweep& sweep, const UnitOutcome& o) {
 
 Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sweep) { return open_as(path, ResultsLayout::of(sweep)); }
 
-Result<SweepResults> SweepResults::open(const std::string& path, const SweepResults& like) { return open_as(path, like.held_->layout); }
+Result<SweepResults> SweepResults::open(const std::string& path, const SweepResults& other) { return open_as(path, other.held_->layout); }
 
-Result<SweepResults> SweepResults::open_as(const std::string& path, const ResultsLayout& wanted) {
-    auto held = std::make_unique<Held>();
-    held->path = path;
+Result<SweepResults> SweepResults::open_as(const std::string& path, const ResultsLayout& expected) {
+    auto impl = std::make_unique<Held>();
+    impl->path = path;
     if (auto ok = make_folder(path); !ok) return ok.error();
     auto lock = WriterLock::take(path);
     if (!lock) return lock.error();
-    held->lock = std::move(*lock);
-    ::unlink(held->folded().c_str());  // of one that was killed
+    impl->lock = std::move(*lock);
+    ::unlink(impl->folded().c_str());  // left by a killed run
     if (std::error_code none; !fs::exists(path, none)) {
-        held->layout = wanted;
-        if (auto ok = held->make(); !ok) return ok.error();
+        impl->layout = expected;
+        if (auto ok = impl->make(); !ok) return ok.error();
     }
-    if (auto ok = held->open_file(SQLITE_OPEN_READWRITE); !ok) return ok.error();
-    auto there = ResultsLayout::read(held->file.get(), path);
-    if (!there) return there.error();
-    held->layout = std::move(*there);
-    if (const auto difference = wanted.differs_from(held->layout); !difference.empty())
-        return bad_input(fmt::format("holds results of another sweep: {}. Give another file with --out, or put back what has changed, or "
-                                     "remove this one",
+    if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE); !ok) return ok.error();
+    auto stored = ResultsLayout::read(impl->file.get(), path);
+    if (!stored) return stored.error();
+    impl->layout = std::move(*stored);
+    if (const auto difference = expected.differs_from(impl->layout); !difference.empty())
+        return bad_input(fmt::format("holds results of another sweep: {}. Give another file with --out, undo the change, or "
+                                     "remove this file",
                                      difference),
                          {path});
-    const auto rows = sql::integer(held->file.get(), path, "SELECT count(*) FROM units");
+    const auto rows = sql::integer(impl->file.get(), path, "SELECT count(*) FROM units");
     if (!rows) return rows.error();
-    held->finished = *rows;
-    return SweepResults(std::move(held));
+    impl->finished = *rows;
+    return SweepResults(std::move(impl));
 }
 
 Result<SweepResults> SweepResults::look(const std::string& path) {
     std::error_code none;
-    if (!fs::exists(path, none)) return bad_input("is not there; 'corpuscle sweep FILE --out RESULTS' makes such a file", {path});
-    auto held = std::make_unique<Held>();
-    held->path = path;
-    if (auto ok = held->open_file(SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX); !ok) return ok.error();
-    auto there = ResultsLayout::read(held->file.get(), path);
-    if (!there && (sqlite3_errcode(held->file.get()) & 0xff) == SQLITE_CANTOPEN) {
-        // It wants a file beside it, which there is no making here: needless, if nobody has left rows there.
-        if (fs::exists(held->wal(), none) && fs::file_size(held->wal(), none) > 0) return not_alone(path);
+    if (!fs::exists(path, none)) return bad_input("does not exist; 'corpuscle sweep FILE --out RESULTS' creates it", {path});
+    auto impl = std::make_unique<Held>();
+    impl->path = path;
+    if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX); !ok) return ok.error();
+    auto stored = ResultsLayout::read(impl->file.get(), path);
+    if (!stored && (sqlite3_errcode(impl->file.get()) & 0xff) == SQLITE_CANTOPEN) {
+        // SQLite needs a file beside it, which cannot be created here. It is not needed if the -wal has no rows.
+        if (fs::exists(impl->wal(), none) && fs::file_size(impl->wal(), none) > 0) return needs_writable_folder(path);
         auto opened =
             sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX);
         if (!opened) return opened.error();
-        held->file = std::move(*opened);
-        there = ResultsLayout::read(held->file.get(), path);
+        impl->file = std::move(*opened);
+        stored = ResultsLayout::read(impl->file.get(), path);
     }
-    if (!there) return there.error();
-    held->layout = std::move(*there);
-    if (auto ok = sql::run(held->file.get(), path, "PRAGMA query_only = 1"); !ok) return ok.error();
-    const auto rows = sql::integer(held->file.get(), path, "SELECT count(*) FROM units");
+    if (!stored) return stored.error();
+    impl->layout = std::move(*stored);
+    if (auto ok = sql::run(impl->file.get(), path, "PRAGMA query_only = 1"); !ok) return ok.error();
+    const auto rows = sql::integer(impl->file.get(), path, "SELECT count(*) FROM units");
     if (!rows) return rows.error();
-    held->finished = *rows;
-    return SweepResults(std::move(held));
+    impl->finished = *rows;
+    return SweepResults(std::move(impl));
 }
 
-SweepResults::SweepResults(std::unique_ptr<Held> held) : held_(std::move(held)) {}
+SweepResults::SweepResults(std::unique_ptr<Held> impl) : held_(std::move(impl)) {}
 SweepResults::SweepResults(SweepResults&&) noexcept = default;
 SweepResults& SweepResults::operator=(SweepResults&&) noexcept = default;
 SweepResults::~SweepResults() = default;
@@ -186,20 +186,20 @@ SweepResults::~SweepResults() = default;
 Result<void> SweepResults::add(const Sweep& sweep, std::vector<UnitOutcome>&& outcomes) {
     if (outcomes.empty()) return {};
     std::sort(outcomes.begin(), outcomes.end(), [](const UnitOutcome& a, const UnitOutcome& b) { return a.unit < b.unit; });
-    auto& held = *held_;
-    const auto before = held.finished;
-    auto ok = held.begin_writing();
-    if (ok) ok = sql::run(held.file.get(), held.path, "BEGIN IMMEDIATE");
-    for (std::size_t k = 0; ok && k < outcomes.size(); ++k) ok = held.put(sweep, outcomes[k]);
-    if (ok) ok = sql::run(held.file.get(), held.path, "COMMIT");
+    auto& impl = *held_;
+    const auto before = impl.finished;
+    auto ok = impl.begin_writing();
+    if (ok) ok = sql::run(impl.file.get(), impl.path, "BEGIN IMMEDIATE");
+    for (std::size_t k = 0; ok && k < outcomes.size(); ++k) ok = impl.put(sweep, outcomes[k]);
+    if (ok) ok = sql::run(impl.file.get(), impl.path, "COMMIT");
     if (!ok) {
-        held.finished = before;
-        if (held.file && !sqlite3_get_autocommit(held.file.get())) (void)sql::run(held.file.get(), held.path, "ROLLBACK");
+        impl.finished = before;
+        if (impl.file && !sqlite3_get_autocommit(impl.file.get())) (void)sql::run(impl.file.get(), impl.path, "ROLLBACK");
         return ok;
     }
     std::error_code none;
-    const auto size = fs::file_size(held.wal(), none);
-    if (!none && static_cast<std::int64_t>(size) > held.next_fold && !held.fold(false)) held.set_next_fold();  // tried again later
+    const auto size = fs::file_size(impl.wal(), none);
+    if (!none && static_cast<std::int64_t>(size) > impl.next_fold && !impl.fold(false)) impl.set_next_fold();  // tried again later
     return {};
 }
 
@@ -242,7 +242,7 @@ Result<std::int64_t> SweepResults::ended(UnitEnd end) const {
     return sql::integer(handle(), path(), fmt::format("SELECT count(*) FROM units WHERE ended = '{}'", word_of(end)));
 }
 
-Result<void> SweepResults::each(const std::function<bool(const Row&)>& see) const {
+Result<void> SweepResults::each(const std::function<bool(const Row&)>& on_row) const {
     std::string text = "SELECT unit, ended, steps, iterations, alone, why";
     for (const auto& column : stored()) text += ", " + sql::name(column);
     auto rows = sql::Statement::make(handle(), path(), text + " FROM units ORDER BY unit");
@@ -258,16 +258,16 @@ Result<void> SweepResults::each(const std::function<bool(const Row&)>& see) cons
         int column = 6;
         for (auto* into : {&row.axes, &row.measures})
             for (double& x : *into) x = rows->number(column++);
-        if (!see(row)) return {};
+        if (!on_row(row)) return {};
     }
 }
 
-Result<std::vector<double>> SweepResults::spikes(std::int64_t unit, std::size_t train) const {
-    return blob<double>(handle(), path(), "SELECT times FROM spikes WHERE unit = ? AND train = ?", unit, train);
+Result<std::vector<double>> SweepResults::spikes(std::int64_t item, std::size_t train) const {
+    return blob<double>(handle(), path(), "SELECT times FROM spikes WHERE unit = ? AND train = ?", item, train);
 }
 
-Result<std::vector<float>> SweepResults::trace(std::int64_t unit, std::size_t trace) const {
-    return blob<float>(handle(), path(), "SELECT samples FROM traces WHERE unit = ? AND trace = ?", unit, trace);
+Result<std::vector<float>> SweepResults::trace(std::int64_t item, std::size_t trace) const {
+    return blob<float>(handle(), path(), "SELECT samples FROM traces WHERE unit = ? AND trace = ?", item, trace);
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The results of a sweep: one SQLite file, a row a unit.
+// The results of a sweep: one SQLite file with a row for each item.
 
 #include "study/sweep/sweep.hpp"
 
@@ -9,58 +9,64 @@ namespace corpuscle {
 
 struct ResultsLayout;
 
-/// As it stands in the file: "done", "capped", "lost".
+/// The spelling in the file: "done", "capped", "lost".
 std::string_view word_of(UnitEnd);
 
-/// Tables: about(key, value): what results depend on, nothing of who ran it or when: the facts by their names, and units, facts (their
-/// names in order), trains, traces, trace_times, the last four as JSON; columns(position, kind 'axis' or 'measure', name, unit, sentence,
-/// words as JSON, at_least, at_most, stored: its name in units); units(unit, ended, steps, iterations, alone, why, a column for each axis
-/// and measure), ended 'done', 'capped' or 'lost', NaN nothing; spikes(unit, train, times) and traces(unit, trace, samples) of
-/// little-endian doubles and floats, train and trace counted from 0; a train without spikes has no row.
+/// The file has these tables. The results depend on everything in `about`; it contains neither user nor date.
 ///
-/// While somebody writes, what is new stands in path-wal, which only grows; the file itself is replaced as a whole, by fold(). So a copy of
-/// it, with or without its -wal, taken at any moment, holds all that some of its transactions, from the first on, have put there.
+/// - about(key, value): the metadata entries by their names; and units, facts (names of the entries in order), trains, traces, trace_times,
+///   the last four as JSON.
+/// - columns(position, kind, name, unit, sentence, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON, stored is
+///   the column's name in the table units.
+/// - units(unit, ended, steps, iterations, alone, why, ...): a row for each item, with a column for each axis and measure. ended is 'done',
+///   'capped' or 'lost'. NaN is stored as NULL.
+/// - spikes(unit, train, times): little-endian doubles. train is counted from 0; a train without spikes has no row.
+/// - traces(unit, trace, samples): little-endian floats. trace is counted from 0.
+///
+/// During a run new rows are in path-wal, which only grows; checkpoint() replaces the file itself atomically. So a copy of the file, with
+/// or without its -wal, taken at any time, contains the first n transactions for some n.
 class SweepResults {
 public:
-    /// The file of this sweep, made if it is not there; refuses the file of another (the first fact that differs is named) and one that
-    /// another process writes.
+    /// Opens this sweep's file, creating it if necessary. Rejects the file of another sweep, naming the first difference, and a file that
+    /// another process is writing.
     static Result<SweepResults> open(const std::string& path, const Sweep&);
-    /// The file of the sweep that another file is of.
-    static Result<SweepResults> open(const std::string& path, const SweepResults& like);
-    /// To be looked at: also while somebody writes.
+    /// Opens or creates a file of the same sweep as another file.
+    static Result<SweepResults> open(const std::string& path, const SweepResults& other);
+    /// Opens for reading, also during a run.
     static Result<SweepResults> look(const std::string& path);
     SweepResults(SweepResults&&) noexcept;
     SweepResults& operator=(SweepResults&&) noexcept;
     ~SweepResults();
 
-    /// All of these or, if the program or the disk fails, none; what is there already is left as it is.
+    /// Adds all of these rows, or none if the program or the disk fails; existing rows are not changed.
     Result<void> add(const Sweep&, std::vector<UnitOutcome>&&);
-    /// Makes one file of it, without a -wal beside it. At the end of a run; add() does so, too, when the -wal has become long. If the disk
-    /// has no room for that, nothing is lost.
+    /// Merges the -wal into one file. Call at the end of a run; add() also does it when the -wal has become long. If the disk is full,
+    /// nothing is lost.
     Result<void> fold();
-    /// Refuses the file of another sweep than that one's.
-    Result<void> same_sweep(const SweepResults& as) const;
-    /// All rows of another file of the same sweep; how many were new. Refuses those of a file in which a unit has other results than here.
+    /// Returns an error if the other file is of another sweep.
+    Result<void> same_sweep(const SweepResults& other) const;
+    /// Copies all rows of another file of the same sweep; returns the number of new rows. Rejects a file in which an item has different
+    /// results.
     Result<std::int64_t> take(const SweepResults& from);
-    /// Says to those who look how much this run is to do.
+    /// Tells readers of the file how many items this run has.
     void note(std::int64_t to_do) const;
 
     const std::string& path() const;
-    std::int64_t units() const;     ///< of the whole sweep
+    std::int64_t units() const;     ///< of the complete sweep
     std::int64_t finished() const;  ///< rows
     const std::vector<SweepColumn>& axes() const;
     const std::vector<SweepColumn>& measures() const;
     const std::vector<std::string>& trains() const;
     const std::vector<std::string>& traces() const;
     const std::vector<double>& trace_times() const;
-    /// What is said of the sweep under this key; "" if nothing is.
+    /// The value of a key in the table about; "" if there is none.
     std::string about(const std::string& key) const;
-    /// Those that have no row yet: as ranges [from, to).
+    /// Items without a row, as ranges [from, to).
     Result<std::vector<std::pair<std::int64_t, std::int64_t>>> missing() const;
-    /// The names that axes, then measures, have as columns of the table units.
+    /// Column names of axes, then measures, in the table units.
     const std::vector<std::string>& stored() const;
 
-    /// Every row, in order of unit: `see` gets the unit, its end, axes and measures as in the columns; false stops.
+    /// Calls `on_row` for every row in order of items, with axes and measures as in the columns; false stops.
     struct Row {
         std::int64_t unit;
         UnitEnd end;
@@ -69,12 +75,12 @@ public:
         std::string why;
         std::vector<double> axes, measures;
     };
-    Result<void> each(const std::function<bool(const Row&)>& see) const;
-    /// Rows that ended in this way.
+    Result<void> each(const std::function<bool(const Row&)>& on_row) const;
+    /// Number of rows with this end.
     Result<std::int64_t> ended(UnitEnd) const;
-    Result<std::vector<double>> spikes(std::int64_t unit, std::size_t train) const;
-    Result<std::vector<float>> trace(std::int64_t unit, std::size_t trace) const;
-    sqlite3* handle() const;  ///< for questions of one's own
+    Result<std::vector<double>> spikes(std::int64_t item, std::size_t train) const;
+    Result<std::vector<float>> trace(std::int64_t item, std::size_t trace) const;
+    sqlite3* handle() const;  ///< for custom queries
 
 private:
     struct Held;

@@ -1,5 +1,5 @@
 #pragma once
-// What an open file of results holds; for results.cpp and fold.cpp.
+// Implementation of an open results file, for sweep_results.cpp and results_checkpoint.cpp.
 
 #include "study/sweep/results.hpp"
 #include "study/sweep/results_layout.hpp"
@@ -10,19 +10,19 @@ namespace corpuscle {
 struct SweepResults::Held {
     std::string path;
     ResultsLayout layout;
-    std::optional<WriterLock> lock;  ///< of one that writes
+    std::optional<WriterLock> lock;  ///< of a writer
     sql::Handle file;
-    bool writing = false;  ///< rows go into a -wal
+    bool writing = false;  ///< rows are written to a -wal
     sql::Statement unit, spikes, trace;
     std::int64_t finished = 0;
-    std::int64_t next_fold = 0;  ///< bytes of the -wal
+    std::int64_t next_fold = 0;  ///< size of the -wal for the next checkpoint, bytes
 
     Result<void> open_file(int flags);
     Result<void> begin_writing();
     Result<void> put(const Sweep&, const UnitOutcome&);
-    /// A file with empty tables, in its place at once.
+    /// Creates a file with empty tables atomically.
     Result<void> make() const;
-    /// The last: as a file that needs nothing beside it and no place that can be written to.
+    /// `last`: writes a file without a -wal, which can be read in a read-only folder.
     Result<void> fold(bool last);
     void set_next_fold();
 

@@ -10,11 +10,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_columns = 1900;                 // of a table of SQLite's: 2000
-constexpr std::size_t most_words = std::size_t{4} << 20;   // bytes: names of all values of all axes that vary by word
-constexpr std::size_t most_times = std::size_t{32} << 20;  // bytes: times of a trace's samples
-constexpr std::int64_t most_units = 1'000'000'000'000;     // as a plan may have
-constexpr std::size_t most_about = std::size_t{96} << 20;  // bytes of all facts
+constexpr std::size_t max_columns = 1900;                       // SQLite's limit for a table is 2000
+constexpr std::size_t max_label_bytes = std::size_t{4} << 20;   // bytes: all labels of all axes
+constexpr std::size_t max_time_bytes = std::size_t{32} << 20;   // bytes: sample times of the probes
+constexpr std::int64_t max_items = 1'000'000'000'000;           // as SweepPlan allows
+constexpr std::size_t max_about_bytes = std::size_t{96} << 20;  // bytes of all metadata
 
 constexpr const char* tables = R"(
 CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -31,7 +31,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-std::vector<std::string> names_apart(const std::vector<SweepColumn>& axes, const std::vector<SweepColumn>& measures) {
+std::vector<std::string> unique_names(const std::vector<SweepColumn>& axes, const std::vector<SweepColumn>& measures) {
     std::set<std::string> taken = {"unit", "ended", "steps", "iterations", "alone", "why"};
     std::vector<std::string> out;
     for (const auto* columns : {&axes, &measures})
@@ -43,8 +43,8 @@ std::vector<std::string> names_apart(const std::vector<SweepColumn>& axes, const
     return out;
 }
 
-/// The rest of the sentence that begins with a name: at which line two texts part.
-std::string parting(const std::string& here, const std::string& there) {
+/// The rest of a sentence that begins with a name: the line in which two texts differ.
+std::string describe_difference(const std::string& here, const std::string& there) {
     std::size_t line = 1;
     const auto end = std::min(here.size(), there.size());
     for (std::size_t k = 0; k < end && here[k] == there[k]; ++k) line += here[k] == '\n';
@@ -52,30 +52,32 @@ std::string parting(const std::string& here, const std::string& there) {
     return several ? fmt::format(" has changed since, in line {}", line) : fmt::format(" was '{}' and is '{}' now", there, here);
 }
 
-Error changed(const std::string& path, std::string_view how) {
+Error changed_by_other_program(const std::string& path, std::string_view how) {
     return bad_input(
         fmt::format("{}: it was changed by another program; take a copy from before, or sweep again into another file with --out", how),
         {path});
 }
 
-/// Refuses a table that lacks one of these columns.
+/// Returns an error if a table lacks one of these columns.
 Result<void> check_table(sqlite3* file, const std::string& path, const std::string& table, const std::vector<std::string>& wanted) {
     auto rows = sql::Statement::make(file, path, "SELECT name, type, pk FROM pragma_table_info(?)");
     if (!rows) return rows.error();
     rows->set(1, std::string_view(table));
     std::set<std::string> there;
-    bool keyed = false;
+    bool has_integer_key = false;
     for (;;) {
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) break;
         there.insert(lower(rows->text(0)));
-        keyed = keyed || (rows->text(0) == "unit" && lower(rows->text(1)) == "integer" && rows->integer(2) == 1);
+        has_integer_key = has_integer_key || (rows->text(0) == "unit" && lower(rows->text(1)) == "integer" && rows->integer(2) == 1);
     }
-    if (there.empty()) return changed(path, fmt::format("it has no table '{}'", table));
+    if (there.empty()) return changed_by_other_program(path, fmt::format("it has no table '{}'", table));
     for (const auto& name : wanted)
-        if (!there.contains(lower(name))) return changed(path, fmt::format("its table '{}' has no column '{}'", table, name));
-    if (table == "units" && !keyed) return changed(path, "the column 'unit' of its table 'units' is no integer key");
+        if (!there.contains(lower(name)))
+            return changed_by_other_program(path, fmt::format("its table '{}' has no column '{}'", table, name));
+    if (table == "units" && !has_integer_key)
+        return changed_by_other_program(path, "the column 'unit' of its table 'units' is not an integer key");
     return {};
 }
 
@@ -87,14 +89,15 @@ Result<void> check_tables(sqlite3* file, const std::string& path, const std::vec
     return check_table(file, path, "traces", {"unit", "trace", "samples"});
 }
 
-/// Refuses rows of units that the sweep does not have.
+/// Returns an error if there are rows of units outside the sweep.
 Result<void> check_units(sqlite3* file, const std::string& path, std::int64_t units) {
     auto rows = sql::Statement::make(file, path, "SELECT unit FROM units WHERE unit < 0 OR unit >= ? LIMIT 1");
     if (!rows) return rows.error();
     const auto found = rows->set(1, units).step();
     if (!found) return found.error();
     if (!*found) return {};
-    return changed(path, fmt::format("it holds unit {}, of a sweep of {} units (0 to {})", rows->integer(0), units, units - 1));
+    return changed_by_other_program(path,
+                                    fmt::format("it holds unit {}, of a sweep of {} units (0 to {})", rows->integer(0), units, units - 1));
 }
 
 Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& path, const char* kind, std::vector<std::string>& stored) {
@@ -108,9 +111,10 @@ Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& 
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) return out;
-        if (out.size() == most_columns) return changed(path, fmt::format("there are more than {} columns", most_columns));
+        if (out.size() == max_columns) return changed_by_other_program(path, fmt::format("there are more than {} columns", max_columns));
         for (const int text : {0, 1, 2, 3, 6}) words += rows->bytes(text).size();
-        if (words > most_words) return changed(path, fmt::format("its table columns holds more than {} MB of words", most_words >> 20));
+        if (words > max_label_bytes)
+            return changed_by_other_program(path, fmt::format("its table columns holds more than {} MB of labels", max_label_bytes >> 20));
         SweepColumn c{rows->text(0), rows->text(1), rows->text(2)};
         c.words = Json::parse(rows->text(3)).get<std::vector<std::string>>();
         if (!rows->is_nothing(4)) c.at_least = rows->number(4);
@@ -147,12 +151,13 @@ Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::
         if (!more) return more.error();
         if (!*more) return out;
         bytes += rows->bytes(0).size() + rows->bytes(1).size();
-        if (bytes > most_about) return changed(path, fmt::format("its table about holds more than {} MB", most_about >> 20));
+        if (bytes > max_about_bytes)
+            return changed_by_other_program(path, fmt::format("its table about holds more than {} MB", max_about_bytes >> 20));
         out[rows->text(0)] = rows->text(1);
     }
 }
 
-/// By whom and for what the file was made; an SQLite file may be anything.
+/// Checks that the file is a results file of a known format; an SQLite file can contain anything.
 Result<void> check_kind(sqlite3* file, const std::string& path) {
     const auto application = sql::integer(file, path, "PRAGMA application_id");
     if (!application) return application.error();
@@ -160,12 +165,13 @@ Result<void> check_kind(sqlite3* file, const std::string& path) {
     if (!written) return written.error();
     if (*application != ResultsLayout::application)
         return bad_input("is an SQLite file, but holds no results of a sweep; name another file", {path});
-    if (*written < 1) return changed(path, "it does not say of which format it is");
+    if (*written < 1) return changed_by_other_program(path, "its format version is missing");
     if (*written > ResultsLayout::format)
-        return bad_input(fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use that one, or name "
-                                     "another file",
-                                     *written, ResultsLayout::format),
-                         {path});
+        return bad_input(
+            fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use the later version, or name "
+                        "another file",
+                        *written, ResultsLayout::format),
+            {path});
     return {};
 }
 
@@ -182,7 +188,7 @@ ResultsLayout ResultsLayout::of(const Sweep& sweep) {
     out.units = sweep.units();
     out.axes = sweep.axes(), out.measures = sweep.measures();
     out.trains = sweep.trains(), out.traces = sweep.traces(), out.trace_times = sweep.trace_times();
-    out.stored = names_apart(out.axes, out.measures);
+    out.stored = unique_names(out.axes, out.measures);
     for (const auto& fact : sweep.facts()) {
         out.facts.push_back(fact.name);
         out.about[fact.name] = fact.text;
@@ -202,10 +208,12 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
         auto about = read_about(file, path);
         if (!about) return about.error();
         out.about = std::move(*about);
-        for (const auto& [key, most] :
-             {std::pair{"facts", most_words}, {"trains", most_words}, {"traces", most_words}, {"trace_times", most_times}})
-            if (out.about.at(key).size() > most)
-                return changed(path, fmt::format("'{}' of its table about is larger than {} MB", key, most >> 20));
+        for (const auto& [key, limit] : {std::pair{"facts", max_label_bytes},
+                                         {"trains", max_label_bytes},
+                                         {"traces", max_label_bytes},
+                                         {"trace_times", max_time_bytes}})
+            if (out.about.at(key).size() > limit)
+                return changed_by_other_program(path, fmt::format("'{}' of its table about is larger than {} MB", key, limit >> 20));
         out.units = std::stoll(out.about.at("units"));
         out.facts = Json::parse(out.about.at("facts")).get<std::vector<std::string>>();
         out.trains = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();
@@ -216,23 +224,23 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
             if (!columns) return columns.error();
             *into = std::move(*columns);
         }
-    } catch (const std::exception&) {  // a table that somebody changed by hand
-        return bad_input("says nothing readable of its sweep: its tables about and columns were changed; name another file", {path});
+    } catch (const std::exception&) {  // a table that was edited by hand
+        return bad_input("is damaged: its tables about and columns cannot be read; name another file", {path});
     }
-    if (out.units < 1 || out.units > most_units) return changed(path, fmt::format("it is of {} units", out.units));
+    if (out.units < 1 || out.units > max_items) return changed_by_other_program(path, fmt::format("its number of units is {}", out.units));
     if (auto ok = check_tables(file, path, out.stored); !ok) return ok.error();
     if (auto ok = check_units(file, path, out.units); !ok) return ok.error();
     return out;
 }
 
 Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const {
-    if (stored.size() > most_columns)
+    if (stored.size() > max_columns)
         return bad_input(
-            fmt::format("{} axes and measures are more than a table can have ({}); vary or measure fewer", stored.size(), most_columns),
+            fmt::format("{} axes and measures are more than a table can have ({}); vary or measure fewer", stored.size(), max_columns),
             {path});
-    std::string made = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; BEGIN;{}", application, format, tables);
-    for (const auto& column : stored) made += fmt::format(", {} REAL", sql::name(column));
-    if (auto ok = sql::run(file, path, made + ");"); !ok) return ok;
+    std::string statements = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; BEGIN;{}", application, format, tables);
+    for (const auto& column : stored) statements += fmt::format(", {} REAL", sql::name(column));
+    if (auto ok = sql::run(file, path, statements + ");"); !ok) return ok;
     auto row = sql::Statement::make(file, path, "INSERT INTO about VALUES(?, ?)");
     if (!row) return row.error();
     auto all = about;
@@ -252,16 +260,16 @@ std::string ResultsLayout::differs_from(const ResultsLayout& there) const {
     for (const auto& name : facts) {
         const auto found = there.about.find(name);
         if (found == there.about.end() || std::find(there.facts.begin(), there.facts.end(), name) == there.facts.end())
-            return fmt::format("of '{}' it knows nothing", name);
-        if (found->second != about.at(name)) return name + parting(about.at(name), found->second);
+            return fmt::format("it has no entry '{}'", name);
+        if (found->second != about.at(name)) return name + describe_difference(about.at(name), found->second);
     }
     for (const auto& name : there.facts)
-        if (!about.contains(name)) return fmt::format("'{}' is no part of the sweep now", name);
+        if (!about.contains(name)) return fmt::format("'{}' is not part of the sweep now", name);
     if (units != there.units) return fmt::format("the number of units was {} and is {} now", there.units, units);
-    if (!same_columns(axes, there.axes)) return "what varies has changed since";
-    if (!same_columns(measures, there.measures)) return "what is measured has changed since";
+    if (!same_columns(axes, there.axes)) return "the axes have changed since";
+    if (!same_columns(measures, there.measures)) return "the measures have changed since";
     if (trains != there.trains || traces != there.traces || trace_times != there.trace_times)
-        return "what trains and traces are kept has changed since";
+        return "the kept trains and traces have changed since";
     return "";
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a file of results says of its sweep: facts, columns, names of trains and traces. Written once, when the file is made.
+// The layout of a results file: metadata, columns, names of trains and probes. Written once, when the file is created.
 
 #include <map>
 
@@ -9,24 +9,23 @@
 namespace corpuscle {
 
 struct ResultsLayout {
-    static constexpr std::int64_t format = 1;                ///< of the file; a later one is refused
-    static constexpr std::int64_t application = 0x53776570;  ///< "Swep", by which the file is known
+    static constexpr std::int64_t format = 1;                ///< of the file; later formats are rejected
+    static constexpr std::int64_t application = 0x53776570;  ///< "Swep", identifies the file
 
     std::int64_t units = 0;
     std::vector<SweepColumn> axes, measures;
     std::vector<std::string> trains, traces;
     std::vector<double> trace_times;
     std::vector<std::string> facts;            ///< names, in order
-    std::map<std::string, std::string> about;  ///< facts and all else, by key
-    /// Names of axes, then measures, as columns of the table: one that another has already, or that differs from another's by capitals
-    /// alone, gets a number.
+    std::map<std::string, std::string> about;  ///< metadata and everything else, by key
+    /// Column names of axes, then measures, in the table. A name that exists already, or that differs only in case, gets a number.
     std::vector<std::string> stored;
 
     static ResultsLayout of(const Sweep&);
     static Result<ResultsLayout> read(sqlite3*, const std::string& path);
-    /// Makes the tables, empty.
+    /// Creates the empty tables.
     Result<void> write(sqlite3*, const std::string& path) const;
-    /// The first in which the other differs, as a sentence; "" if in none.
+    /// The first difference, as a sentence; "" if there is none.
     std::string differs_from(const ResultsLayout& there) const;
 };
 

@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t ahead = 1 << 14;  // units given to the crew before they are needed
+constexpr std::size_t queue_length = 1 << 14;  // items queued for the worker pool in advance
 
 }  // namespace
 
@@ -24,18 +24,18 @@ Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun
     count = {.to_do = queue.left()};
     if (count.to_do == 0) return {};
     results.note(count.to_do);
-    Crew crew(sweep, run.threads);
+    Crew pool(sweep, run.threads);
     bool stopped = false;
     for (;;) {
-        if (!stopped && crew.waiting() < ahead / 2) crew.give(queue.take(ahead));
-        auto outcomes = crew.collect(run.between_writes);
+        if (!stopped && pool.waiting() < queue_length / 2) pool.give(queue.take(queue_length));
+        auto outcomes = pool.collect(run.between_writes);
         for (const auto& o : outcomes) count.count(o);
         if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
         run.seen(count);
-        if (!stopped && run.stop()) stopped = true, crew.stop();
-        if (crew.is_done() && (stopped || queue.left() == 0 || !crew.fault())) break;
+        if (!stopped && run.stop()) stopped = true, pool.stop();
+        if (pool.is_done() && (stopped || queue.left() == 0 || !pool.fault())) break;
     }
-    if (auto ok = crew.fault(); !ok) return ok;
+    if (auto ok = pool.fault(); !ok) return ok;
     if (stopped) return Error{Code::interrupted, "interrupted"};
     return {};
 }

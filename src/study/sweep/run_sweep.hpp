@@ -1,15 +1,15 @@
 #pragma once
-// A sweep's units on threads, and what they gave in its file.
+// Runs a sweep's items on threads and writes the outcomes to its file.
 
 #include "study/sweep/results.hpp"
 #include "study/sweep/unit_queue.hpp"
 
 namespace corpuscle {
 
-/// How far a run has come.
+/// Progress of a run.
 struct SweepCount {
-    std::int64_t to_do = 0;                       ///< units of this run: those of its shard that had no row
-    std::int64_t done = 0, capped = 0, lost = 0;  ///< of them
+    std::int64_t to_do = 0;                       ///< items of this run: those of its shard without a row
+    std::int64_t done = 0, capped = 0, lost = 0;  ///< items by their end
     std::int64_t steps = 0, iterations = 0, spikes = 0, alone = 0;
 
     std::int64_t ended() const { return done + capped + lost; }
@@ -17,15 +17,15 @@ struct SweepCount {
 };
 
 struct SweepRun {
-    unsigned threads = 0;  ///< 0: as many as there are cores
+    unsigned threads = 0;  ///< 0: one for each core
     Shard shard = {};
-    double between_writes = 0.2;  ///< s: of what had ended, a program that is killed has lost what ended since
+    double between_writes = 0.2;  ///< s; a program that is killed loses the outcomes since the last write
     std::function<bool()> stop = [] { return false; };
-    std::function<void(const SweepCount&)> seen = [](const SweepCount&) {};  ///< several times a second
+    std::function<void(const SweepCount&)> seen = [](const SweepCount&) {};  ///< called several times a second
 };
 
-/// Does what is missing. It has ended when all is done, when it was told to stop, or when something was wrong; what had ended is in the
-/// file then, but for what a disk would not take. `count` says how far it came.
+/// Runs the missing items. Returns when all are done, when stopped, or on an error in the sweep. Finished items are then in the file,
+/// unless the disk is full. `count` receives the progress.
 Result<void> run_sweep(const Sweep&, SweepResults&, const SweepRun&, SweepCount& count);
 
 }  // namespace corpuscle

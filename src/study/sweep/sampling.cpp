@@ -10,7 +10,7 @@
 namespace corpuscle::sweeps {
 namespace {
 
-constexpr std::uint64_t of_sweeps = 0x7377656570;  // a key of their own: chips draw by the seed itself
+constexpr std::uint64_t sweep_key = 0x7377656570;  // a separate key, because chip samples use the seed itself
 constexpr unsigned rounds = 8;
 
 std::uint64_t stream_named(std::string_view name) {  // FNV-1a
@@ -19,7 +19,7 @@ std::uint64_t stream_named(std::string_view name) {  // FNV-1a
     return hash;
 }
 
-Words words_of(std::uint64_t key, std::uint64_t stream, std::uint64_t index) {
+Words random_words(std::uint64_t key, std::uint64_t stream, std::uint64_t index) {
     return philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(stream),
                    static_cast<std::uint32_t>(stream >> 32)},
                   key);
@@ -37,22 +37,22 @@ double polynomial(const double (&c)[8], double x) {
 
 }  // namespace
 
-UnitNumbers::UnitNumbers(Sampling how, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t of)
-    : how_(how), key_(seed ^ of_sweeps), stream_(stream_named(axis)), of_(std::max<std::uint64_t>(of, 1)) {
+UnitNumbers::UnitNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count)
+    : how_(method), key_(seed ^ sweep_key), stream_(stream_named(axis)), of_(std::max<std::uint64_t>(count, 1)) {
     half_bits_ = static_cast<unsigned>(std::max(1, (static_cast<int>(std::bit_width(of_ - 1)) + 1) / 2));
-    if (how != Sampling::sobol) return;
+    if (method != Sampling::sobol) return;
     directions_ = sobol_directions(dimension);
-    shift_ = words_of(~key_, stream_, 0)[0];
+    shift_ = random_words(~key_, stream_, 0)[0];
 }
 
-/// A permutation of the draws: Feistel's network over the next power of 4, walked until it is back among them.
+/// A permutation of the sample indexes: a Feistel network over the next power of 4, repeated until the result is in range.
 std::uint64_t UnitNumbers::shuffled(std::uint64_t draw) const {
     const std::uint64_t mask = (std::uint64_t{1} << half_bits_) - 1;
     do {
         std::uint64_t left = draw >> half_bits_, right = draw & mask;
         for (unsigned round = 0; round < rounds; ++round) {
-            const auto turned = words_of(~key_ + round, stream_, right)[0] & mask;
-            const auto next = left ^ turned;
+            const auto mixed = random_words(~key_ + round, stream_, right)[0] & mask;
+            const auto next = left ^ mixed;
             left = right, right = next;
         }
         draw = left << half_bits_ | right;
@@ -63,7 +63,7 @@ std::uint64_t UnitNumbers::shuffled(std::uint64_t draw) const {
 double UnitNumbers::at(std::uint64_t draw) const {
     if (how_ == Sampling::sobol)
         return (static_cast<double>(sobol_point(directions_, static_cast<std::uint32_t>(draw)) ^ shift_) + 0.5) * 0x1p-32;
-    const auto w = words_of(key_, stream_, draw);
+    const auto w = random_words(key_, stream_, draw);
     const double u = fraction(w[0], w[1]);
     if (how_ == Sampling::random) return u;
     return std::clamp((static_cast<double>(shuffled(draw)) + u) / static_cast<double>(of_), 0x1p-60, 1 - 0x1p-53);
@@ -102,22 +102,22 @@ double normal_quantile(double u) {
                                     1.84631831751005468180e-5,
                                     1.42151175831644588870e-7,
                                     2.04426310338993978564e-15};
-    const double off = u - 0.5;
-    if (std::abs(off) <= 0.425) {
-        const double r = 0.180625 - off * off;
-        return off * polynomial(a, r) / polynomial(b, r);
+    const double centred = u - 0.5;
+    if (std::abs(centred) <= 0.425) {
+        const double r = 0.180625 - centred * centred;
+        return centred * polynomial(a, r) / polynomial(b, r);
     }
-    const double r = num::sqrt(-num::log(off < 0 ? u : 1 - u));
+    const double r = num::sqrt(-num::log(centred < 0 ? u : 1 - u));
     const double x = r <= 5 ? polynomial(c, r - 1.6) / polynomial(d, r - 1.6) : polynomial(e, r - 5) / polynomial(f, r - 5);
-    return off < 0 ? -x : x;
+    return centred < 0 ? -x : x;
 }
 
 double normal_share(double deviate) {
     double low = 0, high = 1;
     for (int k = 0; k < 1100; ++k) {
-        const double middle = low + (high - low) / 2;
-        if (!(middle > low && middle < high) || middle < 0x1p-1000) break;
-        (normal_quantile(middle) < deviate ? low : high) = middle;
+        const double midpoint = low + (high - low) / 2;
+        if (!(midpoint > low && midpoint < high) || midpoint < 0x1p-1000) break;
+        (normal_quantile(midpoint) < deviate ? low : high) = midpoint;
     }
     return low;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What an axis draws: numbers between 0 and 1 for one draw after another, each known by itself, and what a distribution makes of them.
+// Sampling of an axis: a number between 0 and 1 for each sample, each computed independently, and the distributions made from them.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace corpuscle::sweeps {
 
 enum class Sampling { random, latin, sobol };
 
-/// The numbers of one axis: they depend on seed, name and draw; of a Latin hypercube also on how many draws there are, of Sobol's points on
+/// The numbers of one axis. They depend on seed, name and sample; for a Latin hypercube also on the number of samples, for Sobol points on
 /// the dimension.
 class UnitNumbers {
     Sampling how_;
@@ -21,14 +21,14 @@ class UnitNumbers {
     std::uint64_t shuffled(std::uint64_t draw) const;
 
 public:
-    UnitNumbers(Sampling how, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t of);
+    UnitNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count);
     /// In (0, 1).
     double at(std::uint64_t draw) const;
 };
 
-/// The standard normal deviate that a share u of all lies below, 0 < u < 1: Wichura, algorithm AS 241, Appl. Stat. 37 (1988), to 1e-16.
+/// Quantile of the standard normal distribution, 0 < u < 1: Wichura, algorithm AS 241, Appl. Stat. 37 (1988), to 1e-16.
 double normal_quantile(double u);
-/// The other way round: by halving, to the last digits of u.
+/// The inverse: cumulative probability of a standard normal deviate, by bisection to full precision.
 double normal_share(double deviate);
 
 }  // namespace corpuscle::sweeps

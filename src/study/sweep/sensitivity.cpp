@@ -9,10 +9,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr int most_rounds = 6;
-constexpr std::size_t most_influences = 60;
+constexpr int max_rounds = 6;
+constexpr std::size_t max_influences = 60;
 
-/// Numbers of the units that have the measure, with mean 0 and squares that sum to 1; or nothing, if they are all the same.
+/// Values of the items that have the measure, scaled to mean 0 and sum of squares 1; empty if they are all equal.
 std::vector<double> standardised(std::span<const double> all, const std::vector<std::size_t>& units) {
     std::vector<double> out(units.size());
     double sum = 0, squares = 0;
@@ -28,7 +28,8 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// A x = b and the inverse's diagonal, A symmetric and positive; false if it is not.
+/// Solves A x = b for a symmetric positive definite A and computes the diagonal of its inverse; returns false if A is not positive
+/// definite.
 bool solve(std::vector<std::vector<double>> A, std::vector<double>& b, std::vector<double>& diagonal) {
     const std::size_t n = b.size();
     for (std::size_t j = 0; j < n; ++j)  // Cholesky: A = L L^T
@@ -38,13 +39,13 @@ bool solve(std::vector<std::vector<double>> A, std::vector<double>& b, std::vect
             if (i == j && !(sum > 1e-12)) return false;
             A[i][j] = i == j ? std::sqrt(sum) : sum / A[j][j];
         }
-    const auto forth = [&](std::vector<double>& v) {
+    const auto forward_substitute = [&](std::vector<double>& v) {
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t k = 0; k < i; ++k) v[i] -= A[i][k] * v[k];
             v[i] /= A[i][i];
         }
     };
-    forth(b);
+    forward_substitute(b);
     for (std::size_t i = n; i-- > 0;) {
         for (std::size_t k = i + 1; k < n; ++k) b[i] -= A[k][i] * b[k];
         b[i] /= A[i][i];
@@ -53,19 +54,19 @@ bool solve(std::vector<std::vector<double>> A, std::vector<double>& b, std::vect
     for (std::size_t j = 0; j < n; ++j) {
         std::vector<double> unit(n);
         unit[j] = 1;
-        forth(unit);
+        forward_substitute(unit);
         diagonal[j] = product(unit, unit);
     }
     return true;
 }
 
-/// The plane through the factors that were taken.
-struct Plane {
-    std::vector<std::size_t> taken;
-    std::vector<std::vector<double>> x;  ///< of each that was taken, standardised
-    std::vector<double> slopes, diagonal, rest;
+/// The regression on the selected factors.
+struct Regression {
+    std::vector<std::size_t> selected;
+    std::vector<std::vector<double>> x;  ///< standardised values of each selected factor
+    std::vector<double> slopes, diagonal, residual;
 
-    bool lay(const std::vector<double>& y) {
+    bool fit(const std::vector<double>& y) {
         std::vector<std::vector<double>> A(x.size(), std::vector<double>(x.size()));
         slopes.resize(x.size());
         for (std::size_t i = 0; i < x.size(); ++i) {
@@ -73,9 +74,9 @@ struct Plane {
             for (std::size_t j = 0; j <= i; ++j) A[i][j] = A[j][i] = product(x[i], x[j]);
         }
         if (!solve(std::move(A), slopes, diagonal)) return false;
-        rest = y;
+        residual = y;
         for (std::size_t i = 0; i < x.size(); ++i)
-            for (std::size_t k = 0; k < y.size(); ++k) rest[k] -= slopes[i] * x[i][k];
+            for (std::size_t k = 0; k < y.size(); ++k) residual[k] -= slopes[i] * x[i][k];
         return true;
     }
 };
@@ -86,29 +87,30 @@ struct Candidate {
     std::vector<double> x = {};
 };
 
-/// Those that Benjamini and Hochberg's procedure takes, the surest first.
+/// Keeps the candidates accepted by the procedure of Benjamini and Hochberg, the most significant first.
 void keep_discoveries(std::vector<Candidate>& all, std::size_t tried) {
     std::sort(all.begin(), all.end(),
               [](const auto& a, const auto& b) { return std::pair(a.chance, a.factor) < std::pair(b.chance, b.factor); });
-    std::size_t kept = 0;
+    std::size_t accepted = 0;
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].chance <= false_discoveries * static_cast<double>(k + 1) / static_cast<double>(tried)) kept = k + 1;
-    all.resize(kept);
+        if (all[k].chance <= false_discoveries * static_cast<double>(k + 1) / static_cast<double>(tried)) accepted = k + 1;
+    all.resize(accepted);
 }
 
-/// All at once; if that cannot be, one after another without those that are made of the ones before them. False: none was taken.
-bool take(Plane& plane, std::vector<Candidate>&& found, std::size_t most, const std::vector<double>& y) {
-    const auto before = plane.taken.size();
-    if (before < most && found.size() > most - before) found.resize(most - before);
-    for (auto& c : found) plane.taken.push_back(c.factor), plane.x.push_back(c.x);
-    if (found.empty() || plane.lay(y)) return !found.empty();
-    plane.taken.resize(before), plane.x.resize(before);
+/// Adds all candidates; if the regression is then singular, adds them one by one and skips those that depend on earlier ones. Returns false
+/// if none was added.
+bool add_factors(Regression& regression, std::vector<Candidate>&& found, std::size_t limit, const std::vector<double>& y) {
+    const auto before = regression.selected.size();
+    if (before < limit && found.size() > limit - before) found.resize(limit - before);
+    for (auto& c : found) regression.selected.push_back(c.factor), regression.x.push_back(c.x);
+    if (found.empty() || regression.fit(y)) return !found.empty();
+    regression.selected.resize(before), regression.x.resize(before);
     for (auto& c : found) {
-        plane.taken.push_back(c.factor), plane.x.push_back(std::move(c.x));
-        if (!plane.lay(y)) plane.taken.pop_back(), plane.x.pop_back();
+        regression.selected.push_back(c.factor), regression.x.push_back(std::move(c.x));
+        if (!regression.fit(y)) regression.selected.pop_back(), regression.x.pop_back();
     }
-    plane.lay(y);
-    return plane.taken.size() > before;
+    regression.fit(y);
+    return regression.selected.size() > before;
 }
 
 }  // namespace
@@ -126,39 +128,40 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
     for (const auto k : units) squares += (measure[k] - mean) * (measure[k] - mean);
     out.variance = squares / (n - 1);
 
-    Plane plane;
-    plane.rest = y;
-    double left = 1;  // of the sum of squares
-    for (int round = 0; round < most_rounds && plane.taken.size() < most_influences; ++round) {
-        const double freedom = n - 2 - static_cast<double>(plane.taken.size());
-        if (freedom < 4 || left < 1e-9) break;
+    Regression regression;
+    regression.residual = y;
+    double unexplained = 1;  // fraction of the sum of squares
+    for (int round = 0; round < max_rounds && regression.selected.size() < max_influences; ++round) {
+        const double degrees_of_freedom = n - 2 - static_cast<double>(regression.selected.size());
+        if (degrees_of_freedom < 4 || unexplained < 1e-9) break;
         std::vector<Candidate> found;
         std::size_t tried = 0;
         for (std::size_t f = 0; f < factors.size(); ++f) {
-            if (std::find(plane.taken.begin(), plane.taken.end(), f) != plane.taken.end()) continue;
+            if (std::find(regression.selected.begin(), regression.selected.end(), f) != regression.selected.end()) continue;
             auto x = standardised(factors[f], units);
             if (x.empty()) continue;
             ++tried;
-            const double r = std::clamp(product(x, plane.rest) / std::sqrt(left), -1.0, 1.0);
-            const double chance = student_two_sided(freedom, r * std::sqrt(freedom / std::max(1 - r * r, 1e-300)));
+            const double r = std::clamp(product(x, regression.residual) / std::sqrt(unexplained), -1.0, 1.0);
+            const double chance = student_two_sided(degrees_of_freedom, r * std::sqrt(degrees_of_freedom / std::max(1 - r * r, 1e-300)));
             if (chance <= false_discoveries) found.push_back({f, chance, std::move(x)});
         }
         keep_discoveries(found, tried);
-        const auto room = static_cast<std::size_t>(n / 4);  // a plane through as many factors as units explains anything
-        if (!take(plane, std::move(found), std::min(room, most_influences), y)) break;
-        left = product(plane.rest, plane.rest);
+        const auto max_factors = static_cast<std::size_t>(n / 4);  // a regression with as many factors as items explains anything
+        if (!add_factors(regression, std::move(found), std::min(max_factors, max_influences), y)) break;
+        unexplained = product(regression.residual, regression.residual);
     }
 
-    const double freedom = n - 1 - static_cast<double>(plane.taken.size()), noise = left / freedom;
-    const double far = student_quantile(freedom, 1 - (1 - confidence) / 2);
-    for (std::size_t i = 0; i < plane.taken.size(); ++i) {
-        const double b = plane.slopes[i], error = std::sqrt(noise * plane.diagonal[i]), low = std::max(std::abs(b) - far * error, 0.0);
-        Influence one{plane.taken[i], b * std::sqrt(out.variance), {std::max(b * b - error * error, 0.0), low * low, 0}};
-        one.share.high = std::min((std::abs(b) + far * error) * (std::abs(b) + far * error), 1.0);
-        one.chance = error > 0 ? student_two_sided(freedom, b / error) : 0;
+    const double degrees_of_freedom = n - 1 - static_cast<double>(regression.selected.size()), noise = unexplained / degrees_of_freedom;
+    const double t_limit = student_quantile(degrees_of_freedom, 1 - (1 - confidence) / 2);
+    for (std::size_t i = 0; i < regression.selected.size(); ++i) {
+        const double b = regression.slopes[i], error = std::sqrt(noise * regression.diagonal[i]),
+                     low = std::max(std::abs(b) - t_limit * error, 0.0);
+        Influence one{regression.selected[i], b * std::sqrt(out.variance), {std::max(b * b - error * error, 0.0), low * low, 0}};
+        one.share.high = std::min((std::abs(b) + t_limit * error) * (std::abs(b) + t_limit * error), 1.0);
+        one.chance = error > 0 ? student_two_sided(degrees_of_freedom, b / error) : 0;
         out.influences.push_back(one);
     }
-    out.explained = plane.taken.empty() ? 0 : std::max(1 - noise * (n - 1), 0.0);
+    out.explained = regression.selected.empty() ? 0 : std::max(1 - noise * (n - 1), 0.0);
     std::sort(out.influences.begin(), out.influences.end(),
               [](const auto& a, const auto& b) { return std::pair(-a.share.value, a.factor) < std::pair(-b.share.value, b.factor); });
     return out;

@@ -5,14 +5,14 @@
 namespace corpuscle::sweeps {
 namespace {
 
-/// A primitive polynomial over GF(2), its bits from the highest power on, and the numbers that its direction numbers begin with: the table
+/// A primitive polynomial over GF(2), with its highest power in the highest bit, and its initial direction numbers. From table
 /// new-joe-kuo-6 of Joe and Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30 (2008),
-/// from its dimension 2 on. Their licence is in NOTICE.
-struct Beginning {
+/// from dimension 2 on. Their licence is in NOTICE.
+struct InitialDirections {
     std::uint32_t polynomial;
     std::uint32_t m[9];
 };
-constexpr Beginning beginnings[] = {
+constexpr InitialDirections initial_directions[] = {
     {3, {1}},
     {7, {1, 3}},
     {11, {1, 3, 1}},
@@ -63,7 +63,7 @@ constexpr Beginning beginnings[] = {
     {425, {1, 1, 3, 1, 11, 31, 97, 225}},
     {451, {1, 1, 1, 3, 23, 43, 57, 177}},
 };
-static_assert(std::size(beginnings) + 1 == sobol_dimensions);
+static_assert(std::size(initial_directions) + 1 == sobol_dimensions);
 
 }  // namespace
 
@@ -73,7 +73,7 @@ std::array<std::uint32_t, 32> sobol_directions(std::size_t dimension) {
         for (std::size_t k = 0; k < 32; ++k) v[k] = std::uint32_t{1} << (31 - k);
         return v;
     }
-    const auto& b = beginnings[dimension - 1];
+    const auto& b = initial_directions[dimension - 1];
     const auto degree = static_cast<std::size_t>(std::bit_width(b.polynomial)) - 1;
     for (std::size_t k = 0; k < degree; ++k) v[k] = b.m[k] << (31 - k);
     for (std::size_t k = degree; k < 32; ++k) {

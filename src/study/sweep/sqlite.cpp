@@ -9,18 +9,18 @@
 namespace corpuscle::sql {
 namespace {
 
-constexpr int wait_ms = 10'000;          // for another program's short hold on the file
-constexpr int longest_value = 64 << 20;  // bytes of one text or blob: a trace of 16 million samples
+constexpr int wait_ms = 10'000;           // for another program's short lock on the file
+constexpr int max_value_size = 64 << 20;  // bytes of one text or blob: a probe of 16 million samples
 
-/// Nothing that stands in a file's schema is run, and a name in quotes is a column or an error, never a text.
-void distrust(sqlite3* file) {
+/// Disables code in a file's schema, and makes a quoted name a column or an error, never a text.
+void disable_schema_code(sqlite3* file) {
     for (const int off : {SQLITE_DBCONFIG_DQS_DML, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
                           SQLITE_DBCONFIG_TRUSTED_SCHEMA})
         sqlite3_db_config(file, off, 0, nullptr);
-    sqlite3_limit(file, SQLITE_LIMIT_LENGTH, longest_value);
+    sqlite3_limit(file, SQLITE_LIMIT_LENGTH, max_value_size);
 }
 
-/// What the system said; of a -wal that cannot be written SQLite does not keep it.
+/// The system's error number. SQLite does not keep it for a -wal that cannot be written.
 int cause_of(sqlite3* file) {
     const int cause = sqlite3_system_errno(file);
     return cause == 0 && sqlite3_extended_errcode(file) == SQLITE_IOERR_WRITE ? errno : cause;
@@ -31,7 +31,7 @@ std::string reason(sqlite3* file) {
     return cause ? std::strerror(cause) : sqlite3_errmsg(file);
 }
 
-/// The file system, or a quota of it.
+/// True if the file system or its quota is full.
 bool is_full(sqlite3* file) {
     const int cause = cause_of(file);
     return sqlite3_errcode(file) == SQLITE_FULL || cause == ENOSPC || cause == EDQUOT;
@@ -40,40 +40,42 @@ bool is_full(sqlite3* file) {
 }  // namespace
 
 Error failed(sqlite3* file, const std::string& path) {
-    const auto say = [&](const std::string& sentence) { return bad_input(sentence, {path}); };
-    if (!file) return say("there is no memory to open it");
+    const auto error = [&](const std::string& sentence) { return bad_input(sentence, {path}); };
+    if (!file) return error("there is not enough memory to open it");
     if (cause_of(file) == EFBIG)
-        return say(
-            "is as large as a file may become here ('ulimit -f'); all that was written before is kept: raise that limit and give the "
-            "same command again");
-    if (is_full(file)) return say("the disk is full; all that was written before is kept: make room there and give the same command again");
+        return error(
+            "has reached the limit on file sizes ('ulimit -f'); everything written before is kept: raise that limit and repeat the "
+            "command");
+    if (is_full(file)) return error("the disk is full; everything written before is kept: free some space and repeat the command");
     switch (sqlite3_errcode(file) & 0xff) {
         case SQLITE_NOTADB:
-            return say("is no SQLite file, so no results of a sweep; name another file");
+            return error("is not an SQLite file, and so not a results file of a sweep; name another file");
         case SQLITE_CORRUPT:
-            return say(fmt::format("is damaged ({}); if it is a copy, copy it together with its -wal file; else give another with --out",
-                                   sqlite3_errmsg(file)));
+            return error(
+                fmt::format("is damaged ({}); if it is a copy, copy it together with its -wal file; otherwise give another with --out",
+                            sqlite3_errmsg(file)));
         case SQLITE_READONLY:
         case SQLITE_PERM:
         case SQLITE_CANTOPEN:
-            return say(fmt::format("cannot be opened for writing ({}); give a place that can be written to with --out", reason(file)));
+            return error(fmt::format("cannot be opened for writing ({}); give a writable path with --out", reason(file)));
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
-            return say("another program holds this file and does not let go; close it, and give the same command again");
+            return error("another program has locked this file; close it, and repeat the command");
         case SQLITE_IOERR:
-            return say(
-                fmt::format("cannot be read or written ({}); what was written before is kept: see to the disk and give the same "
-                            "command again",
+            return error(
+                fmt::format("cannot be read or written ({}); what was written before is kept: check the disk and repeat the "
+                            "command",
                             reason(file)));
         case SQLITE_TOOBIG:
-            return say(fmt::format("a text or a blob is larger than {} MB; keep fewer traces, or a longer 'every'", longest_value >> 20));
+            return error(
+                fmt::format("a text or a blob is larger than {} MB; keep fewer traces, or a longer 'every'", max_value_size >> 20));
         case SQLITE_ERROR:
-            return say(
-                fmt::format("is not as a sweep writes it ({}): it was changed by another program; take a copy from before, or give "
-                            "another file with --out",
-                            sqlite3_errmsg(file)));
+            return error(fmt::format(
+                "is not a results file as a sweep writes it ({}): it was changed by another program; take a copy from before, or give "
+                "another file with --out",
+                sqlite3_errmsg(file)));
         default:
-            return say(fmt::format("SQLite: {}", sqlite3_errmsg(file)));
+            return error(fmt::format("SQLite: {}", sqlite3_errmsg(file)));
     }
 }
 
@@ -92,26 +94,26 @@ Result<void> run(sqlite3* file, const std::string& path, const std::string& stat
 }
 
 Result<Handle> open(const std::string& path, int flags) {
-    sqlite3* raw = nullptr;
-    const int code = sqlite3_open_v2(path.c_str(), &raw, flags | SQLITE_OPEN_EXRESCODE, nullptr);
-    Handle file(raw);
-    if (code != SQLITE_OK) return failed(raw, path);
-    sqlite3_busy_timeout(raw, wait_ms);
-    sqlite3_db_config(raw, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
-    distrust(raw);
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_EXRESCODE, nullptr);
+    Handle file(opened);
+    if (code != SQLITE_OK) return failed(opened, path);
+    sqlite3_busy_timeout(opened, wait_ms);
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    disable_schema_code(opened);
     return file;
 }
 
 Result<Statement> Statement::make(sqlite3* file, const std::string& path, const std::string& text) {
     Statement out;
-    sqlite3_stmt* raw = nullptr;
-    if (sqlite3_prepare_v3(file, text.c_str(), static_cast<int>(text.size()), SQLITE_PREPARE_PERSISTENT, &raw, nullptr) != SQLITE_OK)
+    sqlite3_stmt* opened = nullptr;
+    if (sqlite3_prepare_v3(file, text.c_str(), static_cast<int>(text.size()), SQLITE_PREPARE_PERSISTENT, &opened, nullptr) != SQLITE_OK)
         return failed(file, path);
-    out.statement_.reset(raw), out.of_ = file, out.path_ = &path;
+    out.statement_.reset(opened), out.of_ = file, out.path_ = &path;
     return out;
 }
 
-// A place that is not there is a mistake of ours; the step that follows would give wrong rows, and tests see it.
+// A position that does not exist is a programming error; the next step would return wrong rows, which tests detect.
 Statement& Statement::set(int place, std::int64_t x) { return sqlite3_bind_int64(statement_.get(), place, x), *this; }
 Statement& Statement::set(int place, double x) { return sqlite3_bind_double(statement_.get(), place, x), *this; }
 Statement& Statement::set(int place, std::string_view x) {

@@ -1,5 +1,5 @@
 #pragma once
-// SQLite, with errors as ours are: what went wrong with which file, and what to do.
+// SQLite with this project's errors: they name the file, the problem and a remedy.
 
 #include <cstdint>
 #include <memory>
@@ -14,10 +14,10 @@ struct sqlite3_stmt;
 
 namespace corpuscle::sql {
 
-/// What the last call on this file came to.
+/// The error of the last call on this file.
 Error failed(sqlite3*, const std::string& path);
 
-/// A name of a table or column as it stands in a statement.
+/// A table or column name, quoted for a statement.
 std::string name(std::string_view);
 
 Result<void> run(sqlite3*, const std::string& path, const std::string& statements);
@@ -28,40 +28,40 @@ struct Closer {
 };
 using Handle = std::unique_ptr<sqlite3, Closer>;
 
-/// Opened with these flags (SQLITE_OPEN_...); its close never writes into the file, and what another holds is waited for a while.
+/// Opens a file with these flags (SQLITE_OPEN_...). Closing never writes into the file. Waits a while for other processes' locks.
 Result<Handle> open(const std::string& path, int flags);
 
 class Statement {
     std::unique_ptr<sqlite3_stmt, Closer> statement_;
     sqlite3* of_ = nullptr;
-    const std::string* path_ = nullptr;  // the file's, which outlives it
+    const std::string* path_ = nullptr;  // path of the file, which outlives the statement
 
 public:
     Statement() = default;
     static Result<Statement> make(sqlite3*, const std::string& path, const std::string& text);
 
-    /// Places count from 1. Text and bytes stay where they are until the statement is run.
+    /// Positions count from 1. Text and bytes must stay valid until the statement has run.
     Statement& set(int place, std::int64_t);
-    Statement& set(int place, double);  ///< NaN: nothing
+    Statement& set(int place, double);  ///< NaN is stored as NULL
     Statement& set(int place, std::string_view);
     Statement& set(int place, std::span<const std::byte>);
     Statement& set_nothing(int place);
 
-    /// Whether there is a row (more).
+    /// Returns true if there is a (further) row.
     Result<bool> step();
-    /// For one that gives no rows: to its end, and ready to be run again.
+    /// Runs a statement that returns no rows, and resets it.
     Result<void> finish();
     void rewind();
 
-    /// Of the row; columns count from 0.
+    /// Values of the current row; columns count from 0.
     std::int64_t integer(int column) const;
-    double number(int column) const;  ///< nothing: NaN
+    double number(int column) const;  ///< NULL gives NaN
     std::string text(int column) const;
     bool is_nothing(int column) const;
-    std::span<const std::byte> bytes(int column) const;  ///< until the next step
+    std::span<const std::byte> bytes(int column) const;  ///< valid until the next step
 };
 
-/// The first column of the first row; nothing found: 0.
+/// The first column of the first row; 0 if there is no row.
 Result<std::int64_t> integer(sqlite3*, const std::string& path, const std::string& text);
 
 }  // namespace corpuscle::sql

@@ -1,5 +1,5 @@
 #pragma once
-// What the subjects of sweeps have in common: a plan, columns, what is kept, and the facts.
+// Common parts of the subjects of sweeps: plan, columns, recorded outputs, and metadata.
 
 #include "signal/afferent.hpp"
 #include "study/sweep/measured.hpp"
@@ -7,10 +7,10 @@
 
 namespace corpuscle::sweeps {
 
-/// Results of another number are of a program that answers otherwise.
+/// Results of another number come from a program that computes differently.
 inline constexpr int results_format = 1;
 
-/// A unit that takes this many times the nominal one's iterations is stopped, unless the file says when.
+/// An item is stopped after this many times the nominal item's iterations, unless the file sets a limit.
 inline constexpr double many_times_nominal = 20;
 
 class PlannedSweep : public Sweep {
@@ -21,7 +21,7 @@ protected:
     std::vector<double> trace_times_;
     std::vector<Fact> facts_;
 
-    /// The last fact, where mismatch is drawn: what each transistor of the chips draws.
+    /// Adds the last metadata entry if mismatch is sampled: the mismatch of each transistor.
     void tell_draws(const std::string& subject, const circuit::Circuit&);
 
 public:
@@ -31,47 +31,47 @@ public:
     const std::vector<std::string>& trains() const override { return trains_; }
     const std::vector<std::string>& traces() const override { return traces_; }
     const std::vector<double>& trace_times() const override { return trace_times_; }
-    std::vector<double> values(std::int64_t unit) const override { return plan_.values(unit); }
+    std::vector<double> values(std::int64_t item) const override { return plan_.values(item); }
     const std::vector<Fact>& facts() const override { return facts_; }
 };
 
-/// An afferent of equations, one that is a netlist, a netlist with its analyses. `folder`: where the sweep file lies.
+/// A model afferent, a netlist afferent, and a netlist with its analyses. `folder`: the folder of the sweep file.
 Result<std::unique_ptr<Sweep>> equations_sweep(const SweepText&, const std::string& folder);
 Result<std::unique_ptr<Sweep>> chips_sweep(const SweepText&, const std::string& folder);
 Result<std::unique_ptr<Sweep>> analyses_sweep(const SweepText&, const std::string& folder);
 
-/// Who knows what can vary.
+/// The quantities of a subject that can vary.
 struct Varying {
-    std::function<Result<Target>(const Said& what)> target;
-    std::function<void(const SweepAxis&, const std::string& what, std::size_t axis)> vary;
-    bool chips = false;  ///< whether process and mismatch can be drawn
-    std::string named;   ///< the subject
+    std::function<Result<Target>(const Said& quantity)> target;
+    std::function<void(const SweepAxis&, const std::string& quantity, std::size_t axis)> vary;
+    bool chips = false;  ///< process and mismatch can be sampled
+    std::string named;   ///< name of the subject
 };
 Result<std::uint64_t> seed_of(const SweepText&);
-/// `written`: what a netlist's own .step and .mc say.
+/// `written`: the .step and .mc lines of the netlist itself.
 Result<SweepPlan> plan_of(const SweepText&, const Varying&, const circuit::Variants* written = nullptr);
 
-/// Who knows measures by name, and what a model has of them.
+/// Looks up measures by name, and computes a model's values of them.
 struct Limiting {
     std::function<Result<std::size_t>(const Said& measure)> column;
     std::function<Result<double>(const Said& model, std::size_t column)> like;
 };
 Result<void> set_limits(const SweepText&, const Limiting&, std::vector<SweepColumn>&);
 
-/// Whether trains of spikes are kept: they are if nobody says what is.
+/// True if spike trains are kept, which is the default.
 Result<bool> keeps_spikes(const SweepText&);
-/// Of what is shown every so often: the step in samples.
+/// The sampling step of the kept probes, in samples.
 Result<std::size_t> samples_between(const SweepText&, double T);
 /// Title and format, then the sweep file.
 std::vector<Sweep::Fact> first_facts(const SweepText&, const std::string& title);
 
-/// What a model that is one afferent says under a force, by the names of measures.
+/// The measure of a model afferent's response to a force.
 Result<double> model_says(const Said& model, const ForceMaker&, const Said& measure);
 
-/// One afferent by itself through a whole force.
+/// The response of one afferent to a complete force.
 struct AloneAnswer {
     std::vector<double> spikes;             ///< s
-    std::vector<std::vector<float>> shown;  ///< each probe asked for at each `every`th sample
+    std::vector<std::vector<float>> shown;  ///< each requested probe at each `every`th sample
 };
 Result<AloneAnswer> answer_alone(const Afferent&, const FeltForce&, std::span<const std::size_t> probes = {}, std::size_t every = 0,
                                  const std::function<bool()>& stop = {});

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep: one circuit, or one afferent, many times over, each time with other numbers. What varies is said in a file (doc/sweeps.md).
+// A sweep: one circuit, or one afferent, simulated many times with different values. A file defines what varies (doc/sweeps.md).
 
 #include <cstdint>
 #include <functional>
@@ -12,59 +12,59 @@
 
 namespace corpuscle {
 
-/// A column of a sweep's table: what a unit was given, or what was measured of it.
+/// A column of a sweep's table: an axis value or a measure of an item.
 struct SweepColumn {
     std::string name, unit, sentence = {};
-    std::vector<std::string> words = {};                ///< of what varies by word: value k means words[k]
-    std::optional<double> at_least = {}, at_most = {};  ///< of a measure: within these a unit passes
+    std::vector<std::string> words = {};                ///< for an axis of labels: value k means words[k]
+    std::optional<double> at_least = {}, at_most = {};  ///< limits of a measure, which an item must meet to pass
 };
 
-enum class UnitEnd { done, capped, lost };  ///< capped: its iterations were more than one unit may cost; lost: it did not converge
+enum class UnitEnd { done, capped, lost };  ///< diverged: the solver did not converge
 
-/// What one unit gave.
+/// The outcome of one work item.
 struct UnitOutcome {
     std::int64_t unit = 0;
     UnitEnd end = UnitEnd::done;
-    std::string why = {};                          ///< of an end that is not done
-    std::vector<double> measures = {};             ///< one for each column of measures; NaN: it has none
-    std::vector<std::vector<double>> spikes = {};  ///< of each train, s
-    std::vector<std::vector<float>> traces = {};   ///< of each trace that is kept, at the times that all share
+    std::string why = {};                          ///< reason, unless the end is done
+    std::vector<double> measures = {};             ///< one for each column of measures; NaN: not available
+    std::vector<std::vector<double>> spikes = {};  ///< for each train, s
+    std::vector<std::vector<float>> traces = {};   ///< for each kept probe, at the common sample times
     std::int64_t steps = 0, iterations = 0;        ///< of a circuit
-    bool alone = false;                            ///< it had to leave its lane and was done again by itself
+    bool alone = false;                            ///< removed from its lane and simulated alone
 };
 
-/// All that a unit's outcome depends on is in here and in its number: not who runs it, nor with whom, nor when.
+/// An item's outcome depends only on this object and the item's index: not on the process, the batch or the time.
 class Sweep {
 public:
     virtual ~Sweep() = default;
 
     virtual std::int64_t units() const = 0;
-    virtual const std::vector<SweepColumn>& axes() const = 0;  ///< what varies and has a value that can be told
+    virtual const std::vector<SweepColumn>& axes() const = 0;  ///< quantities that vary and have a value
     virtual const std::vector<SweepColumn>& measures() const = 0;
-    virtual const std::vector<std::string>& trains() const = 0;  ///< names of the trains of spikes that are kept
-    virtual const std::vector<std::string>& traces() const = 0;  ///< names of the traces that are kept
+    virtual const std::vector<std::string>& trains() const = 0;  ///< names of the kept spike trains
+    virtual const std::vector<std::string>& traces() const = 0;  ///< names of the kept probes
     virtual const std::vector<double>& trace_times() const = 0;  ///< s
-    /// The value of each axis for a unit.
-    virtual std::vector<double> values(std::int64_t unit) const = 0;
+    /// The value of each axis for an item.
+    virtual std::vector<double> values(std::int64_t item) const = 0;
 
-    /// What results depend on, as text: title, the sweep file, every netlist and card that it reads. Two sweeps of the same facts have the
-    /// same results; the first in which two differ says what has changed.
+    /// Everything that the results depend on, as text: title, the sweep file, every netlist and model card that it reads. Two sweeps with
+    /// equal metadata have equal results; the first difference names what has changed.
     struct Fact {
         std::string name, text;  ///< "netlist circuits/sa1.cir"
     };
     virtual const std::vector<Fact>& facts() const = 0;
 
-    /// Takes one unit after another until there is none left, and tells each when it has ended, in any order. Several threads may be at
-    /// it, each with its own call. `stop` is asked often; true: what is not done is left. An error: the sweep itself is at fault.
+    /// Takes items until there is none left and reports each outcome, in any order. Several threads may call it at the same time. `stop` is
+    /// called often; true leaves the remaining items. An error is returned only if the sweep itself is wrong.
     using Next = std::function<std::optional<std::int64_t>()>;
     using Told = std::function<void(UnitOutcome&&)>;
     virtual Result<void> work(const Next&, const Told&, const std::function<bool()>& stop) const = 0;
 
-    /// How many lanes a circuit's chips run on: 1, 4 or 8; results do not depend on it.
+    /// The number of lanes for a circuit's chips: 1, 4 or 8. Results do not depend on it.
     virtual void set_lanes(std::size_t) {}
 };
 
-/// What is asked for in place of what the file says.
+/// Options that replace settings of the file.
 struct SweepAsked {
     std::optional<std::uint64_t> seed = {};
     std::optional<std::int64_t> units = {};

@@ -11,7 +11,7 @@ using SummaryJson = nlohmann::ordered_json;
 
 SummaryJson optional_json(const std::optional<double>& x) { return x ? json_number(*x) : SummaryJson(nullptr); }
 
-/// value, and where the truth lies.
+/// The value and its confidence interval.
 SummaryJson estimate_json(const Estimate& e) {
     return {{"value", json_number(e.value)}, {"low", json_number(e.low)}, {"high", json_number(e.high)}};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep's results say, for programs: `corpuscle sweep show --json`.
+// A sweep's results as a JSON document: `corpuscle sweep show --json`.
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -11,7 +11,7 @@
 namespace corpuscle {
 namespace {
 
-/// A row's part of an axis: a number from 0, and what each is called.
+/// For each row the index of its part of an axis, and the labels of the parts.
 struct AxisParts {
     std::vector<std::size_t> part;
     std::vector<std::string> labels;
@@ -39,7 +39,7 @@ AxisParts bands_of(const SweepColumn& axis, const std::vector<double>& all) {
     std::erase_if(sorted, [](double x) { return std::isnan(x); });
     if (sorted.empty()) return {std::vector<std::size_t>(all.size()), {axis.name + " = none"}};
     std::sort(sorted.begin(), sorted.end());
-    std::vector<double> edges;  // the first value of each band but the first
+    std::vector<double> edges;  // the first value of each band except the first
     for (std::size_t b = 1; b < SweepGroups::bands; ++b) edges.push_back(sorted[b * sorted.size() / SweepGroups::bands]);
     AxisParts out;
     for (const double x : all)
@@ -75,7 +75,7 @@ SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& 
     std::vector<std::size_t> key(table.rows());
     for (const auto& p : parts)
         for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.part[r];
-    std::map<std::size_t, std::size_t> number;  // of each combination that occurs
+    std::map<std::size_t, std::size_t> number;  // index of each combination that occurs
     for (std::size_t r = 0; r < key.size(); ++r)
         if (r == 0 || key[r] != key[r - 1]) number[key[r]] = 0;
     for (auto& [k, n] : number) {
@@ -101,9 +101,9 @@ Result<SweepGroups> grouped(const SweepTable& table, const std::vector<std::stri
     for (const auto& name : by) {
         const auto at = std::find(known.begin(), known.end(), name);
         if (at == known.end())
-            return bad_usage(known.empty() ? fmt::format("--by {}: nothing in this sweep has a value to go by", name)
-                                           : fmt::format("--by {}: no axis is called so{}; there are {}", name, did_you_mean(name, known),
-                                                         fmt::join(known, ", ")));
+            return bad_usage(
+                known.empty() ? fmt::format("--by {}: this sweep has no axis with values", name)
+                              : fmt::format("--by {}: unknown axis{}; known: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
         axes.push_back(static_cast<std::size_t>(at - known.begin()));
     }
     if (!by.empty()) return grouped_by(table, axes);

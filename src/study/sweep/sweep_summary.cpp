@@ -22,29 +22,29 @@ MeasureSummary measure_summary(const Sorted& sorted, std::size_t units, const Sw
     return out;
 }
 
-/// One measure, at each point and then over all.
+/// Summarises one measure, at each point and then over all.
 void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
     std::vector<Sorted> sorted;
-    std::int64_t kept_of_all = 0;
-    const auto put = [&](PointSummary& point, const Sorted& values, std::size_t units, std::int64_t kept) {
+    std::int64_t total_passed = 0;
+    const auto put = [&](PointSummary& point, const Sorted& values, std::size_t units, std::int64_t passed) {
         auto& at = point.measures[measure];
         at = measure_summary(values, units, out.question);
-        if (table.has_limits(measure)) at.yield = share_of(kept, static_cast<std::int64_t>(units));
+        if (table.has_limits(measure)) at.yield = share_of(passed, static_cast<std::int64_t>(units));
     };
     for (std::size_t p = 0; p < groups.groups.size(); ++p) {
         const auto& rows = groups.groups[p].rows;
         std::vector<double> values;
-        std::int64_t kept = 0;
+        std::int64_t passed = 0;
         values.reserve(rows.size());
-        for (const auto r : rows) values.push_back(table.measure_values[measure][r]), kept += table.keeps(r, measure);
+        for (const auto r : rows) values.push_back(table.measure_values[measure][r]), passed += table.keeps(r, measure);
         sorted.emplace_back(std::move(values));
-        put(out.points[p], sorted.back(), rows.size(), kept);
-        kept_of_all += kept;
+        put(out.points[p], sorted.back(), rows.size(), passed);
+        total_passed += passed;
     }
-    put(out.all, sorted.size() == 1 ? sorted[0] : Sorted::merged(sorted), table.rows(), kept_of_all);
+    put(out.all, sorted.size() == 1 ? sorted[0] : Sorted::merged(sorted), table.rows(), total_passed);
 }
 
-/// How the units of a point ended.
+/// Counts how the items of a point ended.
 PointSummary point_summary(const SweepTable& table, const SweepGroup& group, const std::vector<char>& passed) {
     PointSummary out;
     out.label = group.label;
@@ -61,7 +61,7 @@ void finish(PointSummary& point, std::size_t measures) {
     point.measures.resize(measures);
 }
 
-/// Less the mean of its group.
+/// Values minus the mean of their group.
 std::vector<double> inside_groups(const std::vector<double>& values, const SweepGroups& points) {
     std::vector<double> sums(points.groups.size()), counts(points.groups.size()), out(values.size());
     for (std::size_t r = 0; r < values.size(); ++r)
@@ -70,9 +70,9 @@ std::vector<double> inside_groups(const std::vector<double>& values, const Sweep
     return out;
 }
 
-/// The chips of a sweep, and of each its mean over the points: the same chip at several points says what it draws once, not several times.
+/// The chips of a sweep, with each chip's mean over the points: the same chip at several points has one mismatch sample.
 class ChipMeans {
-    std::vector<std::size_t> chip_of_;  // each row, or none
+    std::vector<std::size_t> chip_of_;  // for each row, or none
     std::vector<std::uint64_t> chips_;
     static constexpr auto none = static_cast<std::size_t>(-1);
 
@@ -101,7 +101,7 @@ public:
     }
 };
 
-/// Whom a measure is of: NAME.MEASURE; the only subject, whatever it is called; or nobody.
+/// The subject of a measure: from NAME.MEASURE, or the only subject; -1 if there is none.
 std::ptrdiff_t subject_of(const std::string& measure, const Drawn& drawn) {
     if (drawn.subjects.size() == 1) return 0;
     for (std::size_t s = 0; s < drawn.subjects.size(); ++s)
@@ -109,7 +109,7 @@ std::ptrdiff_t subject_of(const std::string& measure, const Drawn& drawn) {
     return -1;
 }
 
-/// All that may matter, as factors; those of axes for every measure, those of devices for measures of their own netlist.
+/// All factors that may matter: those of axes for every measure, those of devices for measures of their own netlist.
 struct Factors {
     std::vector<SweepFactor> axes;
     std::vector<NamedInfluence> axis_names;
@@ -146,7 +146,7 @@ Factors factors_of(const SweepTable& table, const std::optional<Drawn>& drawn, c
     return out;
 }
 
-std::vector<DeviceShare> device_shares(const std::vector<NamedInfluence>& influences) {
+std::vector<DeviceShare> device_contributions(const std::vector<NamedInfluence>& influences) {
     std::vector<DeviceShare> out;
     for (const auto& i : influences) {
         if (i.device < 0 || !(i.found.share.value > 0)) continue;
@@ -160,7 +160,7 @@ std::vector<DeviceShare> device_shares(const std::vector<NamedInfluence>& influe
     return out;
 }
 
-struct Searched {
+struct DependenceSearch {
     const SweepTable& table;
     const std::optional<Drawn>& drawn;
     SweepGroups points;
@@ -169,7 +169,7 @@ struct Searched {
     Factors factors;
 };
 
-/// A yield has limits on both sides: what is far off on either lowers it, so it depends on squares, too.
+/// A yield has limits on both sides, so deviations in either direction lower it. It therefore depends on squares as well.
 void add_squares(Factors::OfSubject& own) {
     const auto count = own.values.size();
     for (std::size_t f = 0; f < count; ++f) {
@@ -180,8 +180,8 @@ void add_squares(Factors::OfSubject& own) {
     }
 }
 
-/// The factors of the axes, and for a while those of the measure's own devices behind them.
-Dependence dependence_of(const std::string& name, const std::vector<double>& values, Searched& in) {
+/// Finds the dependences of one measure. The factors of its own devices are appended to those of the axes during the search.
+Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& in) {
     Dependence out{name, {}, {}, {}, {}, {}};
     for (const auto& [axis, groups] : in.by_axis) {
         const auto between = between_groups(values, groups.group_of, groups.groups.size());
@@ -203,21 +203,21 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     if (own)
         for (std::size_t f = 0; f < own->values.size(); ++f) own->values[f] = std::move(all[axes + f]);
     all.resize(axes);
-    out.devices = device_shares(out.influences);
+    out.devices = device_contributions(out.influences);
     return out;
 }
 
 std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<Drawn>& drawn, const std::vector<char>& passed,
                                        std::size_t& chips) {
-    std::vector<std::size_t> listed;
+    std::vector<std::size_t> point_axes;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
-        if (table.makes_points(a)) listed.push_back(a);
-    auto points = grouped_by(table, listed);
+        if (table.makes_points(a)) point_axes.push_back(a);
+    auto points = grouped_by(table, point_axes);
     const auto count = static_cast<std::int64_t>(points.groups.size());
     const ChipMeans means(table, drawn ? drawn->chips : count > 0 && table.units % count == 0 ? table.units / count : 0);
     chips = means.chips().size();
-    Searched in{table, drawn, std::move(points), {}, means, factors_of(table, drawn, means)};
-    for (const auto a : listed)
+    DependenceSearch in{table, drawn, std::move(points), {}, means, factors_of(table, drawn, means)};
+    for (const auto a : point_axes)
         if (auto groups = grouped_by(table, {a}); groups.groups.size() > 1) in.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m)
@@ -227,15 +227,15 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     return out;
 }
 
-/// A grid is all that there is: no interval, no deviation and no distribution is told of it.
-void leave_chance_out(PointSummary& point) {
-    const auto value_alone = [](Estimate& e) { e.low = e.high = Estimate::none; };
-    value_alone(point.yield);
+/// A grid is complete, so it has no intervals, deviations or distributions.
+void remove_statistics(PointSummary& point) {
+    const auto remove_interval = [](Estimate& e) { e.low = e.high = Estimate::none; };
+    remove_interval(point.yield);
     for (auto& m : point.measures) {
-        value_alone(m.mean);
+        remove_interval(m.mean);
         m.sigma = {}, m.normality = m.normality_floor = Estimate::none;
-        for (auto& q : m.quantiles) value_alone(q);
-        if (m.yield) value_alone(*m.yield);
+        for (auto& q : m.quantiles) remove_interval(q);
+        if (m.yield) remove_interval(*m.yield);
     }
 }
 
@@ -268,8 +268,8 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Dra
         out.dependences = dependences_of(table, drawn, passed, out.chips);
         return out;
     }
-    leave_chance_out(out.all);
-    for (auto& point : out.points) leave_chance_out(point);
+    remove_statistics(out.all);
+    for (auto& point : out.points) remove_statistics(point);
     out.dependences = effects_on_all(table, passed);
     return out;
 }

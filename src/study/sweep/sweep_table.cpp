@@ -13,7 +13,7 @@
 namespace corpuscle {
 namespace {
 
-Result<std::vector<std::size_t>> measures_called(const SweepResults& results, const std::vector<std::string>& names) {
+Result<std::vector<std::size_t>> find_measures(const SweepResults& results, const std::vector<std::string>& names) {
     std::vector<std::size_t> out;
     std::vector<std::string_view> known;
     for (const auto& m : results.measures()) known.push_back(m.name);
@@ -21,16 +21,16 @@ Result<std::vector<std::size_t>> measures_called(const SweepResults& results, co
     for (const auto& name : names) {
         const auto at = std::find(known.begin(), known.end(), name);
         if (at == known.end())
-            return bad_usage(fmt::format("--measure {}: there is no such measure{}; there are {}", name, did_you_mean(name, known),
-                                         fmt::join(known, ", ")));
+            return bad_usage(
+                fmt::format("--measure {}: unknown measure{}; known: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
         if (const auto k = static_cast<std::size_t>(at - known.begin()); std::find(out.begin(), out.end(), k) == out.end())
             out.push_back(k);
     }
     return out;
 }
 
-/// An axis's values in rising order, if they are few; else nothing.
-std::vector<double> few_values(const std::vector<double>& all, bool listed, std::size_t most) {
+/// The values of an axis in ascending order if they are few; otherwise empty.
+std::vector<double> few_values(const std::vector<double>& all, bool is_listed, std::size_t limit) {
     std::vector<double> known;
     double last = std::nan("");
     for (const double x : all) {
@@ -38,24 +38,25 @@ std::vector<double> few_values(const std::vector<double>& all, bool listed, std:
         last = x;
         const auto at = std::lower_bound(known.begin(), known.end(), x);
         if (at != known.end() && *at == x) continue;
-        if (known.size() == most) return {};
+        if (known.size() == limit) return {};
         known.insert(at, x);
     }
-    return listed || 2 * known.size() <= all.size() ? known : std::vector<double>();
+    return is_listed || 2 * known.size() <= all.size() ? known : std::vector<double>();
 }
 
-/// What is read of each row, in the order of the columns asked for.
+/// Columns read for a range of rows.
 struct ReadPart {
     std::vector<std::int64_t> unit;
     std::vector<UnitEnd> end;
     std::vector<std::vector<double>> columns;
 };
 
-/// The rows of units [from, to).
-Result<ReadPart> read_part(const SweepResults& results, const std::string& asked, std::size_t columns, std::int64_t from, std::int64_t to) {
+/// Reads the rows of items [from, to).
+Result<ReadPart> read_part(const SweepResults& results, const std::string& columns_sql, std::size_t columns, std::int64_t from,
+                           std::int64_t to) {
     auto rows = sql::Statement::make(
         results.handle(), results.path(),
-        fmt::format("SELECT unit, ended, {} FROM units WHERE unit >= {} AND unit < {} ORDER BY unit", asked, from, to));
+        fmt::format("SELECT unit, ended, {} FROM units WHERE unit >= {} AND unit < {} ORDER BY unit", columns_sql, from, to));
     if (!rows) return rows.error();
     ReadPart out;
     out.columns.resize(columns);
@@ -70,8 +71,8 @@ Result<ReadPart> read_part(const SweepResults& results, const std::string& asked
     }
 }
 
-/// Large tables in several parts at once, each by a connection of its own.
-Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std::string& asked, std::size_t columns) {
+/// Reads large tables in several parts in parallel, each with its own connection.
+Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std::string& columns_sql, std::size_t columns) {
     constexpr std::int64_t large = 100000;
     const auto parts = results.finished() > large ? std::size_t{4} : std::size_t{1};
     std::vector<ReadPart> out(parts);
@@ -82,7 +83,7 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
         };
         const auto own = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::look(results.path());
         if (parts > 1 && !own) return void(errors[k] = own.error());
-        auto read = read_part(parts == 1 ? results : *own, asked, columns, at(k), at(k + 1));
+        auto read = read_part(parts == 1 ? results : *own, columns_sql, columns, at(k), at(k + 1));
         read ? void(out[k] = std::move(*read)) : void(errors[k] = read.error());
     });
     for (auto& e : errors)
@@ -113,21 +114,21 @@ bool SweepTable::passes(std::size_t row) const {
 }
 
 Result<SweepTable> read_table(const SweepResults& results, const std::vector<std::string>& measures) {
-    const auto wanted = measures_called(results, measures);
+    const auto wanted = find_measures(results, measures);
     if (!wanted) return wanted.error();
     SweepTable out;
     out.units = results.units(), out.axes = results.axes();
-    std::vector<std::string> asked;
-    for (std::size_t k = 0; k < results.axes().size(); ++k) asked.push_back(sql::name(results.stored()[k]));
+    std::vector<std::string> columns_sql;
+    for (std::size_t k = 0; k < results.axes().size(); ++k) columns_sql.push_back(sql::name(results.stored()[k]));
     for (const auto m : *wanted)
-        asked.push_back(sql::name(results.stored()[results.axes().size() + m])), out.measures.push_back(results.measures()[m]);
-    const auto works = sql::integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
-    if (!works) return works.error();
-    if (*works && measures.empty()) {
-        asked.emplace_back("iterations");
-        out.measures.push_back({"iterations", "", "Newton's, of the circuit"});
+        columns_sql.push_back(sql::name(results.stored()[results.axes().size() + m])), out.measures.push_back(results.measures()[m]);
+    const auto has_iterations = sql::integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
+    if (!has_iterations) return has_iterations.error();
+    if (*has_iterations && measures.empty()) {
+        columns_sql.emplace_back("iterations");
+        out.measures.push_back({"iterations", "", "Newton iterations of the circuit"});
     }
-    auto parts = read_parts(results, fmt::format("{}", fmt::join(asked, ", ")), asked.size());
+    auto parts = read_parts(results, fmt::format("{}", fmt::join(columns_sql, ", ")), columns_sql.size());
     if (!parts) return parts.error();
     out.axis_values.resize(out.axes.size()), out.measure_values.resize(out.measures.size());
     const auto put = [](auto& all, auto& part) {
@@ -135,7 +136,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     };
     for (auto& part : *parts) {
         put(out.unit, part.unit), put(out.end, part.end);
-        for (std::size_t k = 0; k < asked.size(); ++k) {
+        for (std::size_t k = 0; k < columns_sql.size(); ++k) {
             put(k < out.axes.size() ? out.axis_values[k] : out.measure_values[k - out.axes.size()], part.columns[k]);
             std::vector<double>().swap(part.columns[k]);
         }
@@ -147,9 +148,9 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     return out;
 }
 
-Result<std::vector<LostUnit>> lost_units(const SweepResults& results, std::size_t most) {
+Result<std::vector<LostUnit>> lost_units(const SweepResults& results, std::size_t limit) {
     auto rows = sql::Statement::make(results.handle(), results.path(),
-                                     fmt::format("SELECT unit, ended, why FROM units WHERE ended <> 'done' ORDER BY unit LIMIT {}", most));
+                                     fmt::format("SELECT unit, ended, why FROM units WHERE ended <> 'done' ORDER BY unit LIMIT {}", limit));
     if (!rows) return rows.error();
     std::vector<LostUnit> out;
     for (;;) {

@@ -1,4 +1,4 @@
-// A sweep file's TOML; the one place that knows toml++.
+// Reads a sweep file's TOML; the only file that uses toml++.
 
 #include "study/sweep/text.hpp"
 
@@ -16,8 +16,8 @@ const Names known_keys = {"title",      "afferent", "netlist", "force", "channel
 const Names axis_keys = {"what", "how", "from", "to", "count", "log", "list", "mean", "sigma", "at_least", "at_most"};
 const Names limit_keys = {"at_least", "at_most", "like", "within"};
 
-/// What TOML of a sweep means.
-class Reading : public TomlReading {
+/// Reads the tables of a sweep file.
+class SweepFileReader : public TomlReading {
 public:
     using TomlReading::TomlReading;
 
@@ -26,7 +26,7 @@ public:
             SaidLimit limit{{before + std::string(key.str()), place(key.source())}, {}, {}, {}, {}};
             if (const auto* pair = value.as_array()) {
                 if (pair->size() != 2)
-                    return refuse(value.source(), fmt::format("{}: a limit of two numbers is wanted, [least, most]", limit.measure.text));
+                    return refuse(value.source(), fmt::format("{}: a limit needs two numbers, [min, max]", limit.measure.text));
                 limit.at_least = scalar((*pair)[0], limit.measure.text), limit.at_most = scalar((*pair)[1], limit.measure.text);
             } else if (const auto* inner = value.as_table()) {
                 const bool of_limit = inner->is_inline() || inner->empty() || std::any_of(inner->begin(), inner->end(), [](const auto& e) {
@@ -41,7 +41,7 @@ public:
                 limit.like = scalar(*inner, "like"), limit.within = scalar(*inner, "within");
             } else {
                 return refuse(value.source(),
-                              fmt::format("{0}: write {0} = [least, most], or {{at_least = ...}}, {{at_most = ...}}, {{like = \"sa1\", "
+                              fmt::format("{0}: write {0} = [min, max], or {{at_least = ...}}, {{at_most = ...}}, {{like = \"sa1\", "
                                           "within = ...}}",
                                           limit.measure.text));
             }
@@ -55,7 +55,8 @@ public:
         if (auto what = scalar(from, "what"))
             a.what = std::move(*what);
         else
-            refuse(from.source(), "[[vary]]: what varies is missing: what = \"process\", \"temp\", a parameter's name ...");
+            refuse(from.source(),
+                   "[[vary]]: 'what' is missing, the quantity that varies: what = \"process\", \"temp\", a parameter's name ...");
         a.how = scalar(from, "how"), a.from = scalar(from, "from"), a.to = scalar(from, "to"), a.count = scalar(from, "count");
         a.log = scalar(from, "log", true), a.mean = scalar(from, "mean"), a.sigma = scalar(from, "sigma");
         a.at_least = scalar(from, "at_least"), a.at_most = scalar(from, "at_most"), a.list = list(from, "list");
@@ -63,7 +64,7 @@ public:
     }
 };
 
-SweepText text_from(const toml::table& top, Reading& reading) {
+SweepText text_from(const toml::table& top, SweepFileReader& reading) {
     SweepText out;
     reading.only(top, known_keys, "");
     out.title = reading.scalar(top, "title"), out.afferent = reading.scalar(top, "afferent"), out.netlist = reading.scalar(top, "netlist");
@@ -79,18 +80,18 @@ SweepText text_from(const toml::table& top, Reading& reading) {
     return out;
 }
 
-/// Tables as tables, whichever way they were written.
-void lay_out(toml::node& node) {
+/// Makes all tables regular ones, however they were written.
+void make_tables_regular(toml::node& node) {
     if (auto* table = node.as_table()) {
         table->is_inline(false);
-        for (auto&& [key, value] : *table) lay_out(value);
+        for (auto&& [key, value] : *table) make_tables_regular(value);
     }
     if (auto* array = node.as_array())
-        for (auto& value : *array) lay_out(value);
+        for (auto& value : *array) make_tables_regular(value);
 }
 
 std::string canonical_text(toml::table top) {
-    lay_out(top);
+    make_tables_regular(top);
     std::ostringstream out;
     out << toml::toml_formatter{top} << '\n';
     return out.str();
@@ -101,7 +102,7 @@ std::string canonical_text(toml::table top) {
 Result<SweepText> read_sweep_text(std::string_view text, const std::string& file) {
     const auto top = parse_toml(text, file);
     if (!top) return top.error();
-    Reading reading(file);
+    SweepFileReader reading(file);
     auto out = text_from(*top, reading);
     if (reading.wrong) return *reading.wrong;
     out.file = file, out.canonical = canonical_text(*top);

@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep file says, word by word, before anybody knows what it means.
+// The text of a sweep file, before it is interpreted.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@ namespace corpuscle::sweeps {
 
 /// One [[vary]].
 struct SaidAxis {
-    Said what;  ///< its place, where nothing names it, is that of the whole
+    Said what;  ///< its location is that of the section if there is no name
     MaybeSaid how, from, to, count, log, mean, sigma, at_least, at_most;
     std::optional<std::vector<Said>> list;
 };
@@ -30,10 +30,10 @@ struct SweepText {
     std::optional<std::vector<Said>> measures, keep;
     std::vector<Said> traces;
     std::vector<SaidLimit> limits;
-    std::string canonical;  ///< all of it without comments and blanks: two files that say the same have the same
+    std::string canonical;  ///< the text without comments and blanks; equal for files with the same content
 };
 
-/// Reads TOML. Keys that nobody knows, and values of the wrong kind, are refused.
+/// Reads TOML. Unknown keys and values of the wrong type are errors.
 Result<SweepText> read_sweep_text(std::string_view text, const std::string& file);
 
 }  // namespace corpuscle::sweeps

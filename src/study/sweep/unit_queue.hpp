@@ -1,5 +1,5 @@
 #pragma once
-// The units that are still to be done, handed out in blocks.
+// The queue of unfinished work items, handed out in blocks.
 
 #include <cstdint>
 #include <utility>
@@ -7,16 +7,16 @@
 
 namespace corpuscle {
 
-/// Which part of a sweep is done here: units k with k % of == index.
+/// The part of a sweep to run here: items k with k % of == index.
 struct Shard {
     std::int64_t index = 0, of = 1;
 
-    bool has(std::int64_t unit) const { return unit % of == index; }
-    /// How many of [from, to).
+    bool has(std::int64_t item) const { return item % of == index; }
+    /// Number of items in [from, to).
     std::int64_t count(std::int64_t from, std::int64_t to) const { return before(to) - before(from); }
 
 private:
-    std::int64_t before(std::int64_t unit) const { return (unit + of - 1 - index) / of; }
+    std::int64_t before(std::int64_t item) const { return (item + of - 1 - index) / of; }
 };
 
 class UnitQueue {
@@ -27,9 +27,9 @@ public:
         for (const auto& [from, to] : ranges_) left_ += shard_.count(from, to);
     }
 
-    /// The next ones, in order, `most` of them if there are so many; those that came back first.
-    std::vector<std::int64_t> take(std::int64_t most);
-    /// To be handed out again.
+    /// The next items, in order, at most `max`; returned items come first.
+    std::vector<std::int64_t> take(std::int64_t max);
+    /// Returns items to the queue.
     void put_back(const std::vector<std::int64_t>& units) {
         back_.insert(back_.end(), units.begin(), units.end());
         left_ += static_cast<std::int64_t>(units.size());

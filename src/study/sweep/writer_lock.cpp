@@ -16,21 +16,21 @@ namespace {
 
 std::string lock_path(const std::string& results) { return results + "-writer"; }
 
-struct flock all_of_it(short kind) {
+struct flock whole_file_lock(short kind) {
     struct flock lock = {};
     lock.l_type = kind;
     lock.l_whence = SEEK_SET;
     return lock;
 }
 
-/// Whether what is open here is what stands there: the one who had the lock before may have removed it meanwhile.
-bool still_there(int file, const std::string& path) {
-    struct stat open_one = {}, there = {};
-    return ::fstat(file, &open_one) == 0 && ::stat(path.c_str(), &there) == 0 && open_one.st_ino == there.st_ino &&
-           open_one.st_dev == there.st_dev;
+/// True if the open file is still the one at this path; its previous owner may have removed it.
+bool is_file_at_path(int file, const std::string& path) {
+    struct stat open_file = {}, file_at_path = {};
+    return ::fstat(file, &open_file) == 0 && ::stat(path.c_str(), &file_at_path) == 0 && open_file.st_ino == file_at_path.st_ino &&
+           open_file.st_dev == file_at_path.st_dev;
 }
 
-/// Whether it is empty, or what note() writes: anything else is somebody's file and must not be emptied.
+/// True if the file is empty or has the content of write_progress(). Any other file is not ours and must not be truncated.
 bool is_ours(int file) {
     struct stat status = {};
     if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink > 1 || status.st_size > 512) return false;
@@ -38,24 +38,25 @@ bool is_ours(int file) {
     std::array<char, 513> text = {};
     if (::pread(file, text.data(), text.size() - 1, 0) <= 0) return false;
     std::istringstream words(text.data());
-    double process = 0, since = 0, finished = 0, to_do = 0;
+    double process = 0, since = 0, finished = 0, planned = 0;
     std::string host, more;
-    return static_cast<bool>(words >> process >> since >> finished >> to_do >> host) && !(words >> more);
+    return static_cast<bool>(words >> process >> since >> finished >> planned >> host) && !(words >> more);
 }
 
 Error not_ours(const std::string& path, std::string_view why) {
-    return bad_input(fmt::format("stands where the mark of the one who writes the results would be, and {}; move it away, or give another "
+    return bad_input(fmt::format("is at the path of the results' lock file, but {}; move it away, or give another "
                                  "file with --out",
                                  why),
                      {path});
 }
 
-Error held(const std::string& results) {
-    const auto who = WriterLock::holder(results);
-    const auto whom = who && who->process ? fmt::format("process {} on {}", who->process, who->host) : std::string("another process");
-    return bad_input(fmt::format("is being written by {}; 'corpuscle sweep FILE --status' says how far it is. Wait for it, or give another "
+Error locked_error(const std::string& results) {
+    const auto holder = WriterLock::holder(results);
+    const auto writer =
+        holder && holder->process ? fmt::format("process {} on {}", holder->process, holder->host) : std::string("another process");
+    return bad_input(fmt::format("is being written by {}; 'corpuscle sweep FILE --status' shows its progress. Wait for it, or give another "
                                  "file with --out (shards have one each, for 'corpuscle sweep merge')",
-                                 whom),
+                                 writer),
                      {results});
 }
 
@@ -80,18 +81,18 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (file < 0 && errno == ELOOP) return not_ours(path, "is a link");
         if (file < 0)
-            return bad_input(fmt::format("cannot be written: there is no making a file beside it ({}); give a place that can be written "
-                                         "to with --out",
+            return bad_input(fmt::format("cannot be written: its folder is not writable ({}); give a writable path "
+                                         "with --out",
                                          std::strerror(errno)),
                              {results});
-        auto whole = all_of_it(F_WRLCK);
-        if (::fcntl(file, F_OFD_SETLK, &whole) != 0) {
+        auto lock_range = whole_file_lock(F_WRLCK);
+        if (::fcntl(file, F_OFD_SETLK, &lock_range) != 0) {
             const int cause = errno;
             ::close(file);
-            if (cause == EAGAIN || cause == EACCES) return held(results);
-            return bad_input(fmt::format("cannot be locked ({}): is this file system one that knows locks?", std::strerror(cause)), {path});
+            if (cause == EAGAIN || cause == EACCES) return locked_error(results);
+            return bad_input(fmt::format("cannot be locked ({}): does this file system support locks?", std::strerror(cause)), {path});
         }
-        if (still_there(file, path)) {
+        if (is_file_at_path(file, path)) {
             if (!is_ours(file)) return ::close(file), not_ours(path, "holds something else");
             lock.path_ = path, lock.file_ = file;
             lock.note(0, 0);
@@ -101,12 +102,12 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
     }
 }
 
-void WriterLock::note(std::int64_t finished, std::int64_t to_do) const {
+void WriterLock::note(std::int64_t finished, std::int64_t planned) const {
     std::array<char, 256> host = {};
     ::gethostname(host.data(), host.size() - 1);
     const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-    const auto text = fmt::format("{} {:.3f} {} {} {}\n", ::getpid(), now, finished, to_do, host[0] ? host.data() : "-");
-    // It is told to people only; on a full disk it is left out.
+    const auto text = fmt::format("{} {:.3f} {} {} {}\n", ::getpid(), now, finished, planned, host[0] ? host.data() : "-");
+    // The content is only informative; on a full disk it is left out.
     if (::ftruncate(file_, 0) == 0) [[maybe_unused]]
         const auto written = ::pwrite(file_, text.data(), text.size(), 0);
 }
@@ -114,8 +115,8 @@ void WriterLock::note(std::int64_t finished, std::int64_t to_do) const {
 std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results) {
     const int file = ::open(lock_path(results).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) return {};
-    auto whole = all_of_it(F_RDLCK);
-    const bool free = ::fcntl(file, F_OFD_GETLK, &whole) == 0 && whole.l_type == F_UNLCK;
+    auto lock_range = whole_file_lock(F_RDLCK);
+    const bool free = ::fcntl(file, F_OFD_GETLK, &lock_range) == 0 && lock_range.l_type == F_UNLCK;
     std::array<char, 512> text = {};
     const auto size = ::read(file, text.data(), text.size() - 1);
     ::close(file);

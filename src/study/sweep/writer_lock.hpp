@@ -1,5 +1,5 @@
 #pragma once
-// Who writes a file of results: one process at a time. The lock dies with its process.
+// Lock of a results file: only one process writes it. The lock is released when the process ends.
 
 #include <cstdint>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace corpuscle {
 
-/// Held on path-writer, a file beside the results that says who writes them, since when, and how many units had ended then. (A lock on
-/// the results themselves would be in SQLite's way.)
+/// A lock on path-writer, a file beside the results that names the writer, its start time, and the number of items finished then. (A lock
+/// on the results file itself would interfere with SQLite.)
 class WriterLock {
     std::string path_;
     int file_ = -1;
@@ -19,20 +19,20 @@ public:
     struct Writer {
         long process = 0;
         std::string host;
-        double since = 0;                      ///< s, of the system's clock
-        std::int64_t finished = 0, to_do = 0;  ///< units, when it began
+        double since = 0;                      ///< s, system clock
+        std::int64_t finished = 0, to_do = 0;  ///< items, at the start
     };
 
     WriterLock() = default;
     WriterLock(WriterLock&&) noexcept;
     WriterLock& operator=(WriterLock&&) noexcept;
-    ~WriterLock();  ///< and removes the file
+    ~WriterLock();  ///< also removes the file
 
-    /// Refuses if another has it, and names that.
+    /// Fails if another process has the lock, and names it.
     static Result<WriterLock> take(const std::string& results);
-    /// How many units had ended when this writer began, and how many it is to do.
+    /// Records the number of finished items at the start, and of items to run.
     void note(std::int64_t finished, std::int64_t to_do) const;
-    /// Who has it now, if anybody.
+    /// The current owner of the lock, if any.
     static std::optional<Writer> holder(const std::string& results);
 };
 
