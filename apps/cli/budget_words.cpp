@@ -10,16 +10,15 @@ namespace corpuscle {
 namespace {
 
 using namespace circuit;
-/// Beside the nearest that was made and measured.
-constexpr std::string_view beside_silicon =
-    "measured silicon of 0.18 um: 12.33 nW a taxel, 25 taxels a mm2 (Alea et al. 2024, doi:10.1109/TBCAS.2024.3387545); its\n"
-    "piezoelectric taxels bring their own charge and tell changes alone. Held against it may be what is left without the sensor's "
-    "current;\n"
-    "areas here are without wells, wires and pads.\n";
+/// The closest published chip with measurements, for comparison.
+constexpr std::string_view published_silicon =
+    "For comparison, measured silicon (0.18 um): 12.33 nW per taxel, 25 taxels per mm2 (Alea et al. 2024,\n"
+    "doi:10.1109/TBCAS.2024.3387545). Its piezoelectric taxels generate their own charge and respond to changes only, so compare\n"
+    "the power without the sensor current. Areas here exclude wells, wires and pads.\n";
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// So that a column can be added up by eye: three digits of the smallest that matters, and all of the largest.
+/// Three significant digits below 100 and all digits above, so that a column can be added up by eye.
 std::string cell(double x) { return x == 0 ? "0" : std::abs(x) < 100 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
 std::string um2(double area) { return cell(area * 1e12); }
 
@@ -29,9 +28,9 @@ void add_row(Rows& rows, const Cost& cost, std::string name, Of&& of) {
     for (const auto& [when, p] : cost.power) rows.back().push_back(cell(of(p) * 1e9));
 }
 
-/// Whether it is ever a part of the whole that could be seen.
+/// True if the contribution exceeds 1e-6 of the total in any column.
 template <class Of>
-bool matters(const Cost& cost, Of&& of) {
+bool is_visible(const Cost& cost, Of&& of) {
     constexpr double visible = 1e-6;
     for (const auto& [when, p] : cost.power)
         if (std::abs(of(p)) > visible * std::abs(p.supplies)) return true;
@@ -43,38 +42,38 @@ std::string power_table(const Cost& cost) {
     for (const auto& [when, p] : cost.power) rows[0].push_back(when == "op" ? ".op" : when);
     add_row(rows, cost, "delivered", [](const Powers& p) { return p.supplies; });
     for (std::size_t k = 0; k < cost.sources.size(); ++k)
-        if (matters(cost, [k](const Powers& p) { return p.sources[k]; }))
+        if (is_visible(cost, [k](const Powers& p) { return p.sources[k]; }))
             add_row(rows, cost, "  by " + cost.sources[k], [k](const Powers& p) { return p.sources[k]; });
     if (cost.has_sensor) {
-        add_row(rows, cost, "  for the sensor's current", [](const Powers& p) { return p.sensor; });
-        add_row(rows, cost, "  without it", [](const Powers& p) { return p.own; });
+        add_row(rows, cost, "  for the sensor current", [](const Powers& p) { return p.sensor; });
+        add_row(rows, cost, "  without the sensor", [](const Powers& p) { return p.own; });
     }
     for (std::size_t k = 0; k < cost.blocks.size(); ++k)
-        if (matters(cost, [k](const Powers& p) { return p.blocks[k]; }))
-            add_row(rows, cost, "lost in " + cost.blocks[k].name, [k](const Powers& p) { return p.blocks[k]; });
+        if (is_visible(cost, [k](const Powers& p) { return p.blocks[k]; }))
+            add_row(rows, cost, "dissipated in " + cost.blocks[k].name, [k](const Powers& p) { return p.blocks[k]; });
     return table(rows);
 }
 
 std::string area_table(const Cost& cost) {
     Rows rows = {
-        {"area, um2", "transistors", "units", "gates", "as arrays", "capacitors", "total", "units apart", "leaks, pA", "the most of"}};
-    const auto row = [&](const std::string& name, std::size_t transistors, std::size_t units, const Area& a) {
-        rows.push_back({name, fmt::format("{}", transistors), fmt::format("{}", units), um2(a.gates), um2(a.arrays), um2(a.capacitors),
+        {"area, um2", "transistors", "elements", "gates", "arrays", "capacitors", "total", "isolated", "leakage, pA", "largest leak"}};
+    const auto row = [&](const std::string& name, std::size_t transistors, std::size_t elements, const Area& a) {
+        rows.push_back({name, fmt::format("{}", transistors), fmt::format("{}", elements), um2(a.gates), um2(a.arrays), um2(a.capacitors),
                         um2(a.total()), um2(a.apart)});
     };
-    std::size_t transistors = 0, units = 0;
+    std::size_t transistors = 0, elements = 0;
     for (const auto& b : cost.blocks) {
-        transistors += b.transistors, units += b.units;
+        transistors += b.transistors, elements += b.units;
         if (b.area.total() == 0) continue;
         row(b.name, b.transistors, b.units, b.area);
         rows.back().push_back(b.worst_name.empty() ? "" : cell(b.worst.current * 1e12));
         rows.back().push_back(b.worst_name);
     }
     if (rows.size() == 1) return "";
-    row("all", transistors, units, cost.area());
+    row("total", transistors, elements, cost.area());
     const auto unsized = cost.unsized == 0
                              ? ""
-                             : fmt::format("{} element{} (resistors, inductors, diodes, charges by formula) of unknown area not counted\n",
+                             : fmt::format("Not counted: {} device{} of unknown area (resistors, inductors, diodes, charge expressions)\n",
                                            cost.unsized, cost.unsized == 1 ? "" : "s");
     return "\n" + table(rows) + unsized;
 }
@@ -82,13 +81,15 @@ std::string area_table(const Cost& cost) {
 std::string leaks_table(const Cost& cost) {
     if (cost.smallest_bias == 0) return "";
     const auto bias = format_quantity(cost.smallest_bias, "A");
-    if (cost.leaks.empty()) return fmt::format("\nNothing that is off leaks a tenth of the smallest bias current ({}).\n", bias);
-    Rows rows = {{"off in .op", "leaks, pA", "%", "onto"}};
+    if (cost.leaks.empty())
+        return fmt::format("\nNo transistor that is off leaks more than a tenth of the smallest bias current ({}).\n", bias);
+    Rows rows = {{"off in .op", "leakage, pA", "%", "into"}};
     for (std::size_t k = 0; k < cost.leaks.size(); ++k)
         rows.push_back({cost.leaking[k], cell(cost.leaks[k].current * 1e12), cell(100 * cost.leaks[k].current / cost.smallest_bias),
                         cost.leaks[k].onto});
-    return fmt::format("\nOff, and yet more than a tenth of the smallest bias current ({}), gate at source, {} across:\n{}", bias,
-                       format_quantity(cost.supply, "V"), table(rows));
+    return fmt::format(
+        "\nTransistors that are off but leak more than a tenth of the smallest bias current ({}), with V_GS = 0 and V_DS = {}:\n{}", bias,
+        format_quantity(cost.supply, "V"), table(rows));
 }
 
 const Powers& typical(const Cost& cost) {
@@ -102,8 +103,8 @@ std::string density(const Cost& cost) {
     std::string out = "\nreceptors";
     if (cost.area().total() > 0) out += fmt::format(" per mm2: {:.3g};", cost.per_mm2());
     if (p.own > 0) out += fmt::format(" per mW: {:.3g}", 1e-3 / p.own);
-    if (cost.has_sensor && p.supplies > 0) out += fmt::format(", {:.3g} with the sensor's current", 1e-3 / p.supplies);
-    return out + (cost.powers("mean") ? " (of the mean)\n" : " (of .op)\n") + std::string(beside_silicon);
+    if (cost.has_sensor && p.supplies > 0) out += fmt::format(", {:.3g} with the sensor current", 1e-3 / p.supplies);
+    return out + (cost.powers("mean") ? " (mean power)\n" : " (power in .op)\n") + std::string(published_silicon);
 }
 
 }  // namespace
@@ -112,8 +113,8 @@ std::string budget_text(const Cost& cost) { return power_table(cost) + area_tabl
 
 std::string budget_line(const Cost& cost) {
     const auto& p = typical(cost);
-    return fmt::format("  delivers {}  of it for the sensor {}  area {:.4g} um2", format_quantity(p.supplies, "W"),
-                       format_quantity(p.sensor, "W"), cost.area().total() * 1e12);
+    return fmt::format("  power {}  of which sensor {}  area {:.4g} um2", format_quantity(p.supplies, "W"), format_quantity(p.sensor, "W"),
+                       cost.area().total() * 1e12);
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// What a circuit costs, in tables for people.
+// The power, area and leakage of a circuit as printed tables (run --budget).
 
 #include <string>
 
@@ -8,7 +8,7 @@
 namespace corpuscle {
 
 std::string budget_text(const circuit::Cost&);
-/// Of one of many: power and area alone.
+/// Power and area in one line, for netlists with several steps.
 std::string budget_line(const circuit::Cost&);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// corpuscle compare: two files of spikes, train by train.
+// corpuscle compare: compares two spike files, train by train.
 
 #include "study/compare.hpp"
 
@@ -19,25 +19,25 @@ using Json = nlohmann::ordered_json;
 
 Result<CompareOptions> options_of(const CompareWords& w) {
     CompareOptions options{.pairs = w.pairs, .by_order = w.by_order};
-    for (const auto& [text, unit, word, to] : {std::tuple{&w.window, "s", "--window", &options.window},
-                                               {&w.cost, "Hz", "--cost", &options.cost},
-                                               {&w.tau, "s", "--tau", &options.tau}}) {
+    for (const auto& [text, unit, option, to] : {std::tuple{&w.window, "s", "--window", &options.window},
+                                                 {&w.cost, "Hz", "--cost", &options.cost},
+                                                 {&w.tau, "s", "--tau", &options.tau}}) {
         const auto value = parse_quantity(*text, unit);
-        if (!value) return bad_usage(fmt::format("{} {}", word, value.error().sentence));
+        if (!value) return bad_usage(fmt::format("{} {}", option, value.error().sentence));
         if (!(*value > 0) && !(to == &options.cost && *value == 0))
-            return bad_usage(fmt::format("{} {}: must be {}", word, *text, to == &options.cost ? "0 or more" : "longer than nothing"));
+            return bad_usage(fmt::format("{} {}: must be {}", option, *text, to == &options.cost ? "0 or more" : "greater than 0"));
         *to = *value;
     }
     return options;
 }
 
-/// Spikes half a second apart are hardly the same one: a bare number is in seconds.
+/// Warns of a window above 0.5 s. It is probably a number meant as milliseconds; a number without a unit is in seconds.
 void warn_of_window(const CompareOptions& options, const CompareWords& w) {
-    constexpr double longest_usual = 0.5;  // s
-    if (options.window <= longest_usual) return;
-    const bool bare = w.window.find_first_not_of("+0123456789.eE") == std::string::npos;
+    constexpr double max_usual = 0.5;  // s
+    if (options.window <= max_usual) return;
+    const bool has_no_unit = w.window.find_first_not_of("+0123456789.eE") == std::string::npos;
     fmt::print(stderr, "corpuscle: warning: --window {} matches spikes up to {} apart{}\n", w.window, format_quantity(options.window, "s"),
-               bare ? fmt::format("; for milliseconds write --window {}ms", w.window) : "");
+               has_no_unit ? fmt::format("; for milliseconds write --window {}ms", w.window) : "");
 }
 
 Json document_of(const Difference& d) {
@@ -84,11 +84,11 @@ std::vector<std::string> line_of(const Difference& d, const std::string& a, cons
 
 std::string text(const CompareOptions& options, const std::vector<Difference>& all, const Difference& total) {
     std::vector<std::vector<std::string>> rows = {
-        {"A", "B", "in A", "in B", "matched", "missing", "extra", "largest (ms)", "RMS (ms)", "Victor-Purpura", "a spike", "van Rossum"}};
+        {"A", "B", "in A", "in B", "matched", "missing", "extra", "max (ms)", "RMS (ms)", "Victor-Purpura", "per spike", "van Rossum"}};
     const auto shown = [](const std::string& name) { return name.empty() ? "-" : name; };
     for (const auto& d : all) rows.push_back(line_of(d, shown(d.a), shown(d.b)));
     if (all.size() > 1) rows.push_back(line_of(total, "total", ""));
-    return table(rows) + fmt::format("Matched within {}; Victor-Purpura at {:g} a second; van Rossum with {}.\n",
+    return table(rows) + fmt::format("Matching window {}; Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
                                      format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
 }
 
@@ -97,16 +97,16 @@ Result<void> run(const CompareWords& w, const Common& common) {
     if (!options) return options.error();
     if (w.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
     if (w.files.size() == 1 && w.pairs.empty())
-        return bad_usage(fmt::format("compare {}: with what? Name a second file, or two trains of this one: --pair sa1=fa1", w.files[0]));
+        return bad_usage(fmt::format("compare {}: needs a second file, or two trains of this file: --pair sa1=fa1", w.files[0]));
     warn_of_window(*options, w);
     const SpikeColumns columns{w.time, w.unit};
     auto a = read_spikes(w.files.front(), columns);
     auto b = w.files.size() == 1 ? a : read_spikes(w.files.back(), columns);
-    // Columns are named for the file that has them; the other's are called as usual.
+    // --time and --unit apply to the file that has these columns; the other file is read with the default columns.
     if (!a && b && w.files.size() == 2 && (w.time || w.unit))
-        if (auto usual = read_spikes(w.files.front())) a = std::move(usual);
+        if (auto with_defaults = read_spikes(w.files.front())) a = std::move(with_defaults);
     if (a && !b && (w.time || w.unit))
-        if (auto usual = read_spikes(w.files.back())) b = std::move(usual);
+        if (auto with_defaults = read_spikes(w.files.back())) b = std::move(with_defaults);
     if (!a) return a.error();
     if (!b) return b.error();
     const auto pairs = pair_trains(*a, *b, *options);

@@ -10,8 +10,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t block = 1 << 16;                         // bytes
-constexpr auto longest_wait = std::chrono::milliseconds(500);  // with a point in hand
+constexpr std::size_t block = 1 << 16;                      // bytes
+constexpr auto max_delay = std::chrono::milliseconds(500);  // before a pending point is written
 
 }  // namespace
 
@@ -63,10 +63,10 @@ Result<void> CurveFiles::point(std::span<const double> row) {
     csv_ ? append_csv_row(rows_, row) : append_raw_point(rows_, points_, row, !words_.ascii);
     ++points_, time_ = row[0];
     streamed_ = streamed_ || points_ > 1;
-    return rows_.size() >= block || Clock::now() - written_ > longest_wait ? write_out() : Result<void>();
+    return rows_.size() >= block || Clock::now() - written_ > max_delay ? write_out() : Result<void>();
 }
 
-/// The points first, then how many they are: the count in the file never speaks of more than is there.
+/// Writes the points before their count, so that the count in the file never exceeds the points in it.
 Result<void> CurveFiles::write_out() {
     written_ = Clock::now();
     if (auto ok = file_->write(rows_); !ok) return ok;
@@ -88,13 +88,13 @@ Result<void> CurveFiles::finish() {
 }
 
 Result<std::string> CurveFiles::finish_early(bool interrupted) {
-    if (!streamed_ && !(interrupted && has_whole_)) files_.clear();  // what stood there before stays
+    if (!streamed_ && !(interrupted && has_whole_)) files_.clear();  // keeps the earlier files at these paths
     if (files_.empty()) return std::string();
-    const bool within = file_ != nullptr;
-    const auto remark = fmt::format("{} ends early{}{}", within ? file_->path() : words_.out, label_.empty() ? "" : ", in " + label_,
-                                    within ? ", at " + format_quantity(written_to_, "s") : "");
+    const bool in_transient = file_ != nullptr;
+    const auto note = fmt::format("{} ends early{}{}", in_transient ? file_->path() : words_.out, label_.empty() ? "" : ", in " + label_,
+                                  in_transient ? ", at " + format_quantity(written_to_, "s") : "");
     if (auto ok = finish(); !ok) return ok.error();
-    return remark;
+    return note;
 }
 
 std::string CurveFiles::path_of(std::size_t count, std::size_t k) const {
@@ -112,7 +112,7 @@ Result<void> CurveFiles::check(std::size_t analysis_count) const {
     return {};
 }
 
-/// File k of `count`, made at its first use with `head` in it.
+/// File k of `count`. The first use creates it with `head` as its content.
 Result<OutputFile*> CurveFiles::open(std::size_t count, std::size_t k, const std::string& head) {
     if (k < files_.size()) return &files_[k];
     const auto path = path_of(count, k);

@@ -12,24 +12,24 @@
 
 namespace corpuscle {
 
-/// Where curves go as they come: a .raw file of all, or a table for each analysis, x.csv or x-1.csv, x-2.csv ..., whose rows begin with
-/// the step they belong to, if there are several. A transient's points are written in blocks; the files can be read at any moment.
+/// Writes curves while they are computed: either one .raw file, or one CSV table per analysis (x.csv, or x-1.csv, x-2.csv ...).
+/// With several steps each CSV row begins with its step. A transient's points are written in blocks; the files are readable at any time.
 class CurveFiles final : public circuit::CurveSink {
     using Clock = std::chrono::steady_clock;
     const RunWords& words_;
     OutputCheck check_;
     bool several_, csv_;
-    std::deque<OutputFile> files_;  // where each is stays the same
+    std::deque<OutputFile> files_;  // a deque keeps addresses stable
     std::string title_, label_;
-    std::size_t analyses_ = 0, plots_ = 0;  // of the variant at work: how many analyses; plots so far
-    // of the transient at work:
+    std::size_t analyses_ = 0, plots_ = 0;  // of the current variant: number of analyses; plots written so far
+    // state of the current transient:
     OutputFile* file_ = nullptr;
     std::string rows_;  // not written yet
     std::size_t points_ = 0, count_at_ = 0;
-    double time_ = 0, written_to_ = 0;  // of the newest point; of the last that is in the file
+    double time_ = 0, written_to_ = 0;  // s: newest point; last point written to the file
     Clock::time_point written_;
-    bool streamed_ = false;   // a transient has come beyond its first point
-    bool has_whole_ = false;  // some analysis was whole
+    bool streamed_ = false;   // a transient has delivered more than its first point
+    bool has_whole_ = false;  // an analysis has delivered complete plots
 
     Result<void> write_out();
     Result<void> table(const circuit::Plot&, std::size_t count);
@@ -40,7 +40,7 @@ public:
     CurveFiles(const RunWords& words, bool several, bool overwrite)
         : words_(words), check_(overwrite), several_(several), csv_(words.out.ends_with(".csv")) {}
 
-    /// Whether the files of a netlist with so many analyses may be written; before it runs.
+    /// Checks before the run that the files of a netlist with this many analyses may be written.
     Result<void> check(std::size_t analysis_count) const;
     void next(const circuit::Variant&);
     Result<void> whole(std::span<const circuit::Plot>) override;
@@ -48,10 +48,10 @@ public:
     Result<void> point(std::span<const double> row) override;
     Result<void> end() override;
 
-    /// Puts the files in their places.
+    /// Renames the finished files to their final names.
     Result<void> finish();
-    /// The same of a run that was broken off; a remark that says where, or "" if there is nothing to keep: of one that failed, rather than
-    /// was interrupted, a transient's points are worth it.
+    /// Finishes the files of an incomplete run. Returns a note that says where they end, or "" if nothing was kept.
+    /// After a failure only the points of a transient are kept; after an interruption complete analyses are kept, too.
     Result<std::string> finish_early(bool interrupted);
 };
 

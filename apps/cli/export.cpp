@@ -1,4 +1,4 @@
-// corpuscle export: a netlist as another simulator's.
+// corpuscle export: converts a netlist to the format of another simulator.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

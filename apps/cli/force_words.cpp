@@ -9,20 +9,20 @@
 
 namespace corpuscle {
 
-bool is_force(const std::string& word) {
+bool is_force(const std::string& argument) {
     const auto touches = named_touches();
     std::error_code status;
-    return is_stimulus(word) || word == "-" || std::filesystem::exists(word, status) ||
-           std::any_of(touches.begin(), touches.end(), [&](const NamedTouch& t) { return t.name == word; });
+    return is_stimulus(argument) || argument == "-" || std::filesystem::exists(argument, status) ||
+           std::any_of(touches.begin(), touches.end(), [&](const NamedTouch& t) { return t.name == argument; });
 }
 
-Result<std::unique_ptr<Source>> open_force(const std::string& force, const RecordingOptions& options, std::span<const Wish> wishes,
+Result<std::unique_ptr<Source>> open_force(const std::string& force, const RecordingOptions& options, std::span<const Wish> overrides,
                                            double rate, std::uint64_t seed) {
-    if (is_stimulus(force)) return make_stimulus(force, wishes, options.rate.value_or(rate), seed);
+    if (is_stimulus(force)) return make_stimulus(force, overrides, options.rate.value_or(rate), seed);
     std::error_code status;
     if (!std::filesystem::exists(force, status) && force.find_first_of("./") == std::string::npos && force != "-") {
-        auto error = make_stimulus(force, wishes, rate, seed).error();
-        error.sentence += fmt::format(" (and there is no file '{}')", force.substr(0, 64));
+        auto error = make_stimulus(force, overrides, rate, seed).error();
+        error.sentence += fmt::format(" (and no file '{}' exists)", force.substr(0, 64));
         return error;
     }
     return open_recording(force == "-" ? "/dev/stdin" : force, options);

@@ -1,5 +1,5 @@
 #pragma once
-// What is said of a force on the command line, as a source: a stimulus by name, or a recording.
+// Opens the FORCE argument of the command line: a stimulus by name, or a recording.
 
 #include <memory>
 #include <span>
@@ -11,12 +11,12 @@
 
 namespace corpuscle {
 
-/// Whether a word of the command line is a stimulus, a touch by name or a recording that is there.
-bool is_force(const std::string& word);
+/// True if an argument is a stimulus, a named skin stimulus, an existing file, or "-".
+bool is_force(const std::string& argument);
 
-/// A stimulus by name goes before a file of that name; ./press is the file, - is standard input. `rate`: of a stimulus, Hz, if nobody
-/// says another.
-Result<std::unique_ptr<Source>> open_force(const std::string& force, const RecordingOptions&, std::span<const Wish> wishes, double rate,
+/// A stimulus takes precedence over a file of the same name: write ./press for the file. "-" is standard input.
+/// `rate`: the default sampling rate of stimuli, Hz.
+Result<std::unique_ptr<Source>> open_force(const std::string& force, const RecordingOptions&, std::span<const Wish> overrides, double rate,
                                            std::uint64_t seed);
 
 }  // namespace corpuscle

@@ -8,21 +8,21 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t widest = 100;  // columns
+constexpr std::size_t max_width = 100;  // columns
 
-/// How many columns a UTF-8 text takes.
+/// The width of a UTF-8 text in columns, one per character.
 std::size_t columns_of(std::string_view text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-/// Breaks a line at blanks; the lines behind the first begin with `indent` blanks.
+/// Breaks a line at blanks; continuation lines begin with `indent` blanks.
 std::string wrapped(std::string_view line, std::size_t indent) {
     std::string out;
-    while (columns_of(line) > widest) {
-        auto end = line.rfind(' ', widest);
+    while (columns_of(line) > max_width) {
+        auto end = line.rfind(' ', max_width);
         const auto first = line.find_first_not_of(' ');
-        if (end == line.npos || end <= first) end = line.find(' ', widest);
+        if (end == line.npos || end <= first) end = line.find(' ', max_width);
         if (end == line.npos) break;
         auto part = line.substr(0, end);
         part = part.substr(0, part.find_last_not_of(' ') + 1);
@@ -35,22 +35,22 @@ std::string wrapped(std::string_view line, std::size_t indent) {
     return out + std::string(line) + "\n";
 }
 
-/// A name and its sentence, which stands beside it or, behind a long name, below.
-std::string entry(const std::string& name, const std::string& sentence, std::size_t width) {
+/// A name and its description in columns. After a long name the description begins on the next line.
+std::string entry(const std::string& name, const std::string& description, std::size_t width) {
     const auto head = "  " + name;
-    if (sentence.empty()) return wrapped(head, 4);
-    if (columns_of(head) + 2 <= width) return wrapped(head + std::string(width - columns_of(head), ' ') + sentence, width);
-    return wrapped(head, 4) + wrapped(std::string(width, ' ') + sentence, width);
+    if (description.empty()) return wrapped(head, 4);
+    if (columns_of(head) + 2 <= width) return wrapped(head + std::string(width - columns_of(head), ' ') + description, width);
+    return wrapped(head, 4) + wrapped(std::string(width, ' ') + description, width);
 }
 
-/// A command on several lines, as a shell takes it; not broken within quotes.
+/// A command broken into lines with backslashes, as a shell accepts it; never broken within quotes.
 std::string continued(std::string_view command) {
     std::string out;
-    constexpr std::size_t room = widest - 2;  // for the backslash
-    for (std::string indent = "  "; columns_of(command) + indent.size() > widest; indent = "      ") {
+    constexpr std::size_t max_command = max_width - 2;  // leaves two columns for the backslash
+    for (std::string indent = "  "; columns_of(command) + indent.size() > max_width; indent = "      ") {
         std::size_t end = command.npos;
         bool quoted = false;
-        for (std::size_t k = 0; k < command.size() && k + indent.size() <= room; ++k) {
+        for (std::size_t k = 0; k < command.size() && k + indent.size() <= max_command; ++k) {
             quoted ^= command[k] == '\'' || command[k] == '"';
             if (command[k] == ' ' && !quoted) end = k;
         }
@@ -61,19 +61,20 @@ std::string continued(std::string_view command) {
     return fmt::format("{}{}{}\n", out, out.empty() ? "  " : "      ", command);
 }
 
-/// An example with its remark, which goes below a long one.
+/// An example and its explanation, which follows on a new line if the example is long.
 std::string example(std::string_view line) {
     constexpr std::string_view gap = "   ";
     const auto begin = line.find_first_not_of(' ');
-    if (columns_of(line) <= widest || begin == line.npos) return std::string(line) + "\n";
+    if (columns_of(line) <= max_width || begin == line.npos) return std::string(line) + "\n";
     const auto end = line.find(gap, begin);
     if (end == line.npos) return continued(line.substr(begin));
-    const auto command = line.substr(begin, end - begin), remark = line.substr(line.find_first_not_of(' ', end));
-    if (2 + columns_of(command) + gap.size() + columns_of(remark) <= widest) return fmt::format("  {}{}{}\n", command, gap, remark);
-    return fmt::format("{}      {}\n", continued(command), remark);
+    const auto command = line.substr(begin, end - begin), explanation = line.substr(line.find_first_not_of(' ', end));
+    if (2 + columns_of(command) + gap.size() + columns_of(explanation) <= max_width)
+        return fmt::format("  {}{}{}\n", command, gap, explanation);
+    return fmt::format("{}      {}\n", continued(command), explanation);
 }
 
-/// The footer's paragraphs that begin with "Examples:" or so, and all others.
+/// Splits the footer into the paragraphs of examples and all others.
 std::pair<std::string, std::string> split_footer(const std::string& footer) {
     std::pair<std::string, std::string> out;
     bool in_examples = false;
@@ -111,22 +112,23 @@ std::string Help::make_help(const CLI::App* app, std::string name, CLI::AppForma
     return out;
 }
 
-std::vector<std::string> with_help_first(std::vector<std::string> words) {
-    if (words.empty()) return {"--help"};
-    if (words[0] != "help") return words;
-    words.erase(words.begin());
-    words.emplace_back("--help");
-    return words;
+std::vector<std::string> with_help_first(std::vector<std::string> arguments) {
+    if (arguments.empty()) return {"--help"};
+    if (arguments[0] != "help") return arguments;
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+    return arguments;
 }
 
-std::string unknown_verb(const CLI::App& app, const std::vector<std::string>& words) {
-    if (words.empty() || words[0].empty() || words[0].starts_with('-')) return "";
+std::string unknown_verb(const CLI::App& app, const std::vector<std::string>& arguments) {
+    if (arguments.empty() || arguments[0].empty() || arguments[0].starts_with('-')) return "";
     std::vector<std::string> names;
     for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());
-    if (std::find(names.begin(), names.end(), words[0]) != names.end()) return "";
+    if (std::find(names.begin(), names.end(), arguments[0]) != names.end()) return "";
     const std::vector<std::string_view> known(names.begin(), names.end());
-    const auto hint = did_you_mean(words[0], known);
-    return fmt::format("there is no verb '{}'{}", words[0], hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint);
+    const auto hint = did_you_mean(arguments[0], known);
+    return fmt::format("unknown verb '{}'{}", arguments[0],
+                       hint.empty() ? fmt::format("; the verbs are {}", fmt::join(names, ", ")) : hint);
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// What --help prints: examples first, nothing wider than 100 columns.
+// Formats --help: examples first, lines of at most 100 columns.
 
 #include <CLI/CLI.hpp>
 
@@ -16,10 +16,10 @@ private:
     static constexpr std::size_t width_of_names = 30;
 };
 
-/// "help respond" is "respond --help"; no words are "--help".
-std::vector<std::string> with_help_first(std::vector<std::string> words);
+/// Rewrites "help respond" to "respond --help", and an empty command line to "--help".
+std::vector<std::string> with_help_first(std::vector<std::string> arguments);
 
-/// The error of a first word that is no verb of the program, or "".
-std::string unknown_verb(const CLI::App&, const std::vector<std::string>& words);
+/// The error message if the first argument is not a verb of the program, else "".
+std::string unknown_verb(const CLI::App&, const std::vector<std::string>& arguments);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// corpuscle list: the catalogues, printed.
+// corpuscle list: prints the catalogues.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -36,11 +36,11 @@ std::vector<Entry> entries_of(const std::vector<Card>& cards) {
     return entries;
 }
 
-/// For as long as the program runs: rows speak of names that a plan holds.
+/// Keeps an object alive until the program ends: entries hold views into names that a plan owns.
 template <class T>
-const std::shared_ptr<T>& kept(const std::shared_ptr<T>& held) {
+const std::shared_ptr<T>& keep_alive(const std::shared_ptr<T>& object) {
     static std::vector<std::shared_ptr<T>> all;
-    return all.emplace_back(held);
+    return all.emplace_back(object);
 }
 
 std::vector<Entry> afferent_entries() {
@@ -59,38 +59,38 @@ std::vector<Entry> afferent_entries() {
             entries.push_back(
                 {plan->name,
                  plan->made_of(),
-                 std::string(plan->sentence) + "; settable, too: temp, corner, mismatch, every array and device (doc/circuits.md)",
+                 std::string(plan->sentence) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
                  std::string(c.file),
-                 *kept(plan->parameters),
+                 *keep_alive(plan->parameters),
                  {}});
     entries.push_back({"path/own.cir",
                        "netlist",
-                       "any netlist that says where force goes in (a source with FORCE) and what a spike is (.spike)",
+                       "any netlist with a force input (a source with FORCE) and a spike output (.spike)",
                        "doc/circuits.md; circuits/spiker.cir",
                        {},
                        {}});
     return entries;
 }
 
-/// What netlists may hold and ask for: the cards of .model lines and M lines, elements by their letter, analyses.
+/// The contents of netlists: devices by letter, parameters of .model and M lines, analyses.
 std::vector<Section> circuit_sections() {
     using namespace circuit;
     const Card card{UicmCard::name, UicmCard::sentence, UicmCard::source, rows_of<UicmCard>(UicmCard::fields)};
-    const Card size{"m", "size of a transistor: an M line's own numbers", "choice: a unit of 1/1 um",
+    const Card size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
                     rows_of<UicmInstance>(UicmInstance::fields)};
-    std::vector<Entry> elements, asked;
+    std::vector<Entry> elements, analysis_entries;
     for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.sentence), "", {}, {}});
     for (const auto& a : circuit::analyses)
-        asked.push_back({"." + std::string(a.word), std::string(a.usage), std::string(a.sentence), "", {}, {}, "usage"});
-    return {{"devices", elements}, {"models", entries_of({card, size})}, {"analyses", asked}};
+        analysis_entries.push_back({"." + std::string(a.word), std::string(a.usage), std::string(a.sentence), "", {}, {}, "usage"});
+    return {{"devices", elements}, {"models", entries_of({card, size})}, {"analyses", analysis_entries}};
 }
 
 std::vector<Section> catalogue() {
-    std::vector<Entry> measured, readable;
+    std::vector<Entry> measure_entries, format_entries;
     for (const auto& m : measures)
-        measured.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}, "unit"});
+        measure_entries.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}, "unit"});
     for (const auto& f : formats)
-        readable.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}, "extensions"});
+        format_entries.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}, "extensions"});
     std::vector<Section> all = {{"afferents", afferent_entries()},
                                 {"sensors", entries_of(sensor_cards())},
                                 {"transducers", entries_of(transducer_cards())},
@@ -98,15 +98,15 @@ std::vector<Section> catalogue() {
                                 {"transductions", entries_of(receptor_cards())},
                                 {"neurons", entries_of(neuron_cards())},
                                 {"stimuli", entries_of(stimulus_cards())},
-                                {"measures", measured},
-                                {"formats", readable}};
+                                {"measures", measure_entries},
+                                {"formats", format_entries}};
     for (auto& s : skin_sections()) all.push_back(std::move(s));
     for (auto& s : circuit_sections()) all.push_back(std::move(s));
     return all;
 }
 
-/// The sections and entries asked for; all of them if nothing is.
-Result<std::vector<Section>> chosen(const std::vector<std::string>& what) {
+/// The requested sections and entries; all if `what` is empty.
+Result<std::vector<Section>> select_sections(const std::vector<std::string>& what) {
     auto all = catalogue();
     if (what.empty()) return all;
     std::vector<Section> out;
@@ -117,26 +117,27 @@ Result<std::vector<Section>> chosen(const std::vector<std::string>& what) {
     }
     for (const auto& typed : what) {
         const auto plan = plan_afferent(typed, {});
-        const std::string w = plan && typed.find('+') == std::string::npos ? plan->name : typed;  // SA1, RA ... are sa1, fa1
+        const std::string w = plan && typed.find('+') == std::string::npos ? plan->name : typed;  // TouchSim's SA1, RA ... are sa1, fa1 ...
         if (std::find(known.begin(), known.end(), w) == known.end())
-            return bad_usage(fmt::format("list: nothing is called '{}'{}", w, did_you_mean(w, known)));
+            return bad_usage(fmt::format("list: there is no '{}'{}", w, did_you_mean(w, known)));
         for (const auto& s : all) {
             if (s.name == w) {
                 out.push_back(s);
                 continue;
             }
-            Section part{s.name, {}};
-            std::copy_if(s.entries.begin(), s.entries.end(), std::back_inserter(part.entries), [&](const Entry& e) { return e.name == w; });
-            if (!part.entries.empty()) out.push_back(part);
+            Section selected{s.name, {}};
+            std::copy_if(s.entries.begin(), s.entries.end(), std::back_inserter(selected.entries),
+                         [&](const Entry& e) { return e.name == w; });
+            if (!selected.entries.empty()) out.push_back(selected);
         }
     }
     return out;
 }
 
-bool bounded(const Row& r) { return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max(); }
+bool has_range(const Row& r) { return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max(); }
 
 std::string range(const Row& r) {
-    if (!bounded(r)) return "";
+    if (!has_range(r)) return "";
     return fmt::format("[{}, {}]", format_quantity(r.low, r.unit), format_quantity(r.high, r.unit));
 }
 
@@ -161,8 +162,8 @@ Json document_of(const Entry& e) {
         out["parameters"].push_back({{"name", p.row.name},
                                      {"default", p.row.initial},
                                      {"unit", p.row.unit},
-                                     {"low", bounded(p.row) ? Json(p.row.low) : Json(nullptr)},
-                                     {"high", bounded(p.row) ? Json(p.row.high) : Json(nullptr)},
+                                     {"low", has_range(p.row) ? Json(p.row.low) : Json(nullptr)},
+                                     {"high", has_range(p.row) ? Json(p.row.high) : Json(nullptr)},
                                      {"sentence", p.row.sentence},
                                      {"source", p.row.source},
                                      {"of", p.of}});
@@ -179,7 +180,7 @@ int list(const ListWords& words, const Common& common) {
         fmt::print("{}", *sites);
         return 0;
     }
-    const auto sections = chosen(words.what);
+    const auto sections = select_sections(words.what);
     if (!sections) return fail(sections.error());
     if (common.json) {
         Json out = Json::object();

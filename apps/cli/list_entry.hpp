@@ -1,5 +1,5 @@
 #pragma once
-// What `corpuscle list` shows: sections of entries.
+// The sections and entries that `corpuscle list` prints.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// Something told of an entry that is no parameter.
+/// A property of an entry other than a parameter: its name, its text, and the source of its value.
 struct CatalogNote {
     std::string of, text, source;
 };
@@ -17,7 +17,7 @@ struct Entry {
     std::string name, made_of, sentence, source;
     std::vector<Parameter> parameters;
     std::vector<std::string> other_names;
-    std::string_view made_of_is = "made_of";  ///< what made_of is of this kind of entry, in JSON
+    std::string_view made_of_is = "made_of";  ///< the JSON key of made_of for this kind of entry
     std::vector<CatalogNote> told = {};
 };
 
@@ -26,10 +26,10 @@ struct Section {
     std::vector<Entry> entries;
 };
 
-/// Populations, and what can press on them.
+/// Skin populations, and indenters.
 std::vector<Section> skin_sections();
 
-/// The sites of one population, in the order that frames have them: CSV that a population file takes as its list, or JSON.
+/// The sites of one population in frame order. The CSV form can be used as the site list of a population file.
 Result<std::string> sites_listing(const std::vector<std::string>& populations, bool json);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// corpuscle list skins, contact: populations with their classes, indenters with their measures.
+// corpuscle list skins, contact: populations with their classes, indenters with their parameters.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,15 +15,15 @@
 namespace corpuscle {
 namespace {
 
-std::string source_named(const std::vector<Sourced>& sources, std::string_view of) {
-    const auto found = std::find_if(sources.begin(), sources.end(), [&](const Sourced& s) { return s.of == of; });
+std::string source_for(const std::vector<Sourced>& sources, std::string_view property) {
+    const auto found = std::find_if(sources.begin(), sources.end(), [&](const Sourced& s) { return s.of == property; });
     return found == sources.end() ? "" : found->source;
 }
 
-/// "tip 70, middle 33, palm 10 /cm2": by what stands behind the last dot of a region's name, where that is enough to tell them apart.
+/// "tip 70, middle 33, palm 10 /cm2". Regions are named by the part after the last dot if regions of that name share one density.
 std::string densities(const SkinPlan& plan, const SkinClass& c) {
     std::vector<std::pair<std::string, double>> found;
-    bool enough = true;
+    bool is_unique = true;
     for (std::size_t r = 0; r < c.density.size(); ++r) {
         const auto& region = plan.sites.regions[r];
         const auto name = region.substr(region.rfind('.') + 1);
@@ -31,9 +31,9 @@ std::string densities(const SkinPlan& plan, const SkinClass& c) {
         if (same == found.end())
             found.emplace_back(name, c.density[r]);
         else
-            enough = enough && same->second == c.density[r];
+            is_unique = is_unique && same->second == c.density[r];
     }
-    if (!enough) {
+    if (!is_unique) {
         found.clear();
         for (std::size_t r = 0; r < c.density.size(); ++r) found.emplace_back(plan.sites.regions[r], c.density[r]);
     }
@@ -42,36 +42,38 @@ std::string densities(const SkinPlan& plan, const SkinClass& c) {
     return out + " /cm2";
 }
 
-void tell_class(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogNote>& out) {
+void add_class_notes(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogNote>& out) {
     const auto& c = plan.classes[k];
     const auto by_region = units_by_region(plan, k);
-    const auto units = std::accumulate(by_region.begin(), by_region.end(), std::uint64_t{0});
+    const auto count = std::accumulate(by_region.begin(), by_region.end(), std::uint64_t{0});
     out.push_back(
-        {c.name, fmt::format("{} units of {}: {}", units, c.afferent.made_of(), densities(plan, c)), source_named(c.sources, "density")});
+        {c.name, fmt::format("{} afferents, {}: {}", count, c.afferent.made_of(), densities(plan, c)), source_for(c.sources, "density")});
     const auto length = [](double m) { return format_quantity(m, "m"); };
-    out.push_back({"", fmt::format("field: a Gaussian, sigma {}", length(c.sigma)), source_named(c.sources, "sigma")});
+    out.push_back({"", fmt::format("receptive field: Gaussian, sigma {}", length(c.sigma)), source_for(c.sources, "sigma")});
     if (c.hot_spots > 1)
-        out.push_back({"", fmt::format("{} hot spots, each so wide, {} about its place", c.hot_spots, length(c.hot_spot_spread)),
-                       source_named(c.sources, "hot_spots")});
+        out.push_back({"", fmt::format("{} hot spots of this width, spread {} around the centre", c.hot_spots, length(c.hot_spot_spread)),
+                       source_for(c.sources, "hot_spots")});
     if (c.velocity > 0)
-        out.push_back({"", fmt::format("{} +- {}", format_quantity(c.velocity, "m/s"), format_quantity(c.velocity_spread, "m/s")),
-                       source_named(c.sources, "velocity")});
+        out.push_back(
+            {"",
+             fmt::format("conduction velocity: {} +- {}", format_quantity(c.velocity, "m/s"), format_quantity(c.velocity_spread, "m/s")),
+             source_for(c.sources, "velocity")});
     std::string spread;
     for (const auto& s : c.spreads)
         spread += fmt::format("{}{} {}", spread.empty() ? "" : ", ", s.parameter,
                               s.share ? fmt::format("{:.3g}%", *s.share * 100) : format_quantity(s.deviation, s.unit));
-    if (!spread.empty()) out.push_back({"", "spread: " + spread, source_named(c.sources, "spread")});
+    if (!spread.empty()) out.push_back({"", "spread: " + spread, source_for(c.sources, "spread")});
 }
 
 Entry entry_of_skin(const NamedSkin& named) {
     Entry e{std::string(named.name), "", std::string(named.sentence), fmt::format("skins/{}.toml", named.name), {}, {}};
     const auto plan = plan_skin(named.name);
-    if (!plan) return e;  // the tests see to it that there is one
+    if (!plan) return e;  // a test makes sure that it exists
     const auto& sites = plan->sites;
     e.told.push_back({"sites", fmt::format("{}, {:.3g} mm2 each, in {} regions", sites.size(), sites.area * 1e6, sites.regions.size()),
-                      source_named(plan->sources, "sites")});
-    e.told.push_back({"felt_area", fmt::format("{:.3g} cm2", plan->felt_area * 1e4), source_named(plan->sources, "felt_area")});
-    for (std::uint32_t k = 0; k < plan->classes.size(); ++k) tell_class(*plan, k, e.told);
+                      source_for(plan->sources, "sites")});
+    e.told.push_back({"felt_area", fmt::format("{:.3g} cm2", plan->felt_area * 1e4), source_for(plan->sources, "felt_area")});
+    for (std::uint32_t k = 0; k < plan->classes.size(); ++k) add_class_notes(*plan, k, e.told);
     return e;
 }
 
@@ -84,18 +86,18 @@ std::vector<Entry> contact_entries() {
             if (std::find(i.measures.begin(), i.measures.end(), row.name) != i.measures.end()) e.parameters.push_back({row, "contact"});
         out.push_back(std::move(e));
     }
-    Entry path{"path", "", "where any of them is, and how it moves", "", {}, {}};
+    Entry path{"path", "", "position and movement of any indenter", "", {}, {}};
     for (const auto& row : rows)
         if (is_path_measure(row.name)) path.parameters.push_back({row, "contact"});
     out.push_back(std::move(path));
     for (const auto& t : named_touches()) {
         Entry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.sentence), "choice", {}, {}};
-        const auto tell = [&](std::string_view of, const std::vector<Setting>& settings) {
+        const auto add_note = [&](std::string_view of, const std::vector<Setting>& settings) {
             std::string text;
             for (const auto& s : settings) text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", s.name, s.value);
             e.told.push_back({std::string(of), text + " (SI)", ""});
         };
-        tell("contact", t.settings), tell(t.force, t.force_settings);
+        add_note("contact", t.settings), add_note(t.force, t.force_settings);
         out.push_back(std::move(e));
     }
     return out;
@@ -127,8 +129,12 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
 std::vector<Section> skin_sections() {
     std::vector<Entry> skins;
     for (const auto& s : named_skins()) skins.push_back(entry_of_skin(s));
-    skins.push_back(
-        {"grid 8x8", "", "a sensor array of so many rows and columns, 2 mm apart, an SA-I and an FA-I at each", "choice", {}, {}});
+    skins.push_back({"grid 8x8",
+                     "",
+                     "a sensor array of this many rows and columns, 2 mm apart, with an SA-I and an FA-I afferent at each site",
+                     "choice",
+                     {},
+                     {}});
     skins.push_back({"path/own.toml", "", "any population file", "doc/skin.md", {}, {}});
     return {{"skins", skins}, {"contact", contact_entries()}};
 }

@@ -18,13 +18,13 @@ std::vector<circuit::Knob> knobs_of(const NetlistWords& w) {
 std::vector<std::string> traces_of(const NetlistWords& w) {
     std::vector<std::string> out;
     for (const auto& text : w.traces)
-        for (auto& word : circuit::trace_words(text)) out.push_back(std::move(word));
+        for (auto& probe : circuit::trace_words(text)) out.push_back(std::move(probe));
     return out;
 }
 
 std::string said_of(const NetlistWords& w) {
-    const auto knobs = knobs_of(w);
-    return !knobs.empty() ? knobs[0].said : !w.traces.empty() ? "--trace " + w.traces[0] : "";
+    const auto overrides = knobs_of(w);
+    return !overrides.empty() ? overrides[0].said : !w.traces.empty() ? "--trace " + w.traces[0] : "";
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The words of respond and run that are about netlists, as what is asked of them.
+// Converts the netlist options of respond and run to overrides and probe names.
 
 #include "circuit/knobs.hpp"
 #include "verbs.hpp"
@@ -9,10 +9,10 @@ namespace corpuscle {
 /// --supply, --temp, --corner, --mismatch.
 std::vector<circuit::Knob> knobs_of(const NetlistWords&);
 
-/// Every --trace, word by word.
+/// The probes of all --trace options, one string each.
 std::vector<std::string> traces_of(const NetlistWords&);
 
-/// The option among these that was said; "": none.
+/// The first of these options that was given, with its value, such as "--temp 85"; "" if none was.
 std::string said_of(const NetlistWords&);
 
 }  // namespace corpuscle

@@ -12,7 +12,7 @@
 #include "written.hpp"
 
 namespace corpuscle {
-/// The last first: a directory goes with the first file, which made it, and then must hold no other.
+/// Removes unfinished files in reverse order. The first file may have created the directory, which must be empty when it is removed.
 Outputs::~Outputs() {
     report_file_.reset(), summary_file_.reset();
     while (!files_.empty()) files_.pop_back();
@@ -26,10 +26,10 @@ Result<void> Outputs::add(const char* name, A... how) {
     return {};
 }
 
-Result<void> Outputs::open_directory(const RespondWords& w, const Copies& population, std::optional<double> bin) {
+Result<void> Outputs::open_directory(const RespondWords& w, const Copies& copy_spec, std::optional<double> bin) {
     if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
-    if (population.copies > 0)
-        if (auto ok = add<CopiesFile>("copies.csv", population); !ok) return ok;
+    if (copy_spec.copies > 0)
+        if (auto ok = add<CopiesFile>("copies.csv", copy_spec); !ok) return ok;
     if (w.npz)
         if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
     if (bin)
@@ -52,11 +52,11 @@ std::vector<std::string> Outputs::paths() const {
     return all;
 }
 
-/// All that will be written, before any of it is.
-Result<void> Outputs::check(const RespondWords& w, const Copies& population, const std::optional<std::string>& page,
+/// Checks all output files before the first is created.
+Result<void> Outputs::check(const RespondWords& w, const Copies& copy_spec, const std::optional<std::string>& page,
                             std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> names[] = {{"spikes.csv", true},
-                                                  {"copies.csv", population.copies > 0},
+                                                  {"copies.csv", copy_spec.copies > 0},
                                                   {"spikes.npz", w.npz},
                                                   {"psth.csv", w.bin.has_value()},
                                                   {"summary.json", true}};
@@ -65,28 +65,29 @@ Result<void> Outputs::check(const RespondWords& w, const Copies& population, con
     return check_outputs(w.out, std::move(later), page, w.checkpoint, outputs);
 }
 
-Result<void> Outputs::open(const RespondWords& w, const Copies& population, std::vector<std::string> later, OutputCheck& outputs) {
-    const std::pair<const char*, bool> words[] = {
+Result<void> Outputs::open(const RespondWords& w, const Copies& copy_spec, std::vector<std::string> later, OutputCheck& outputs) {
+    const std::pair<const char*, bool> options[] = {
         {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
-    for (const auto& [word, said] : words)
-        if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
-    for (const auto& [word, said] : {std::pair{"--traces", w.traces}, std::pair{"--vectors", w.vectors}})
-        if (said && w.copies > Report::most_copies)
-            return bad_usage(fmt::format("{} is for {} copies at the most, not {}: ask for fewer, or --set what one of copies.csv has",
-                                         word, Report::most_copies, w.copies));
+    for (const auto& [option, given] : options)
+        if (given && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
+    for (const auto& [option, given] : {std::pair{"--traces", w.traces}, std::pair{"--vectors", w.vectors}})
+        if (given && w.copies > Report::most_copies)
+            return bad_usage(
+                fmt::format("{} works with at most {} copies, not {}; use fewer, or --set the values of one copy in copies.csv", option,
+                            Report::most_copies, w.copies));
     const auto bin = quantity(w.bin, "s", "--bin");
     if (!bin) return bin.error();
-    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
+    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *w.bin));
     directory_ = w.out;
     const auto page_path = page_of(w);
-    if (auto ok = check(w, population, page_path, std::move(later), outputs); !ok) return ok;
+    if (auto ok = check(w, copy_spec, page_path, std::move(later), outputs); !ok) return ok;
     if (!w.out.empty())
-        if (auto ok = open_directory(w, population, *bin); !ok) return ok;
+        if (auto ok = open_directory(w, copy_spec, *bin); !ok) return ok;
     if (!page_path) return {};
     auto page = OutputFile::create(*page_path);
     if (!page) return page.error();
     report_file_ = std::move(*page);
-    report_.emplace(Report::all_points, population, !w.in_float);
+    report_.emplace(Report::all_points, copy_spec, !w.in_float);
     return {};
 }
 

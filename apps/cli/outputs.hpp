@@ -12,7 +12,7 @@
 
 namespace corpuscle {
 
-/// The files of one run: made before it, put in their places after it.
+/// The output files of one run of respond. They are created before the run and renamed to their final names after it.
 class Outputs {
     std::string directory_;
     std::vector<std::unique_ptr<WrittenFile>> files_;
@@ -32,10 +32,10 @@ public:
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
     ~Outputs();
-    /// `later`: names in the directory that are made only while it runs.
+    /// `later`: names of files in the directory that are created only during the run.
     Result<void> open(const RespondWords&, const Copies&, std::vector<std::string> later, OutputCheck&);
     void listen(std::vector<Listener*>&);
-    /// What is written into the directory, by name.
+    /// The names of the files that are written into the directory.
     std::vector<std::string> names() const;
     Result<void> commit(const Summary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings,
                         const std::string& document, const std::string& command, const nlohmann::ordered_json& costs);

@@ -6,7 +6,7 @@
 namespace corpuscle {
 namespace {
 
-/// Takes the first line off; its end may be missing.
+/// Removes and returns the first line. The line end may be missing.
 std::string_view take_line(std::string_view& text) {
     const auto end = std::min(text.find('\n'), text.size());
     const auto line = text.substr(0, end);
@@ -14,7 +14,7 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-/// Takes the first field of a line of CSV off, with its quotes; commas in brackets or quotes are part of it.
+/// Removes and returns the first field of a CSV line, with its quotes. Commas within quotes are part of the field.
 std::string_view take_csv_field(std::string_view& line) {
     bool quoted = false;
     std::size_t end = 0;
@@ -24,7 +24,7 @@ std::string_view take_csv_field(std::string_view& line) {
     return field;
 }
 
-/// As .raw and CSV name what a simulator finds: "v(out)", "\"v(in,out)\".re", "time", "v-sweep".
+/// True for a curve name of .raw and CSV files: "v(out)", "\"v(in,out)\".re", "time", "v-sweep".
 bool is_curve_name(std::string_view name) {
     for (const std::string_view part : {".re", ".im"})
         if (name.ends_with(part)) name.remove_suffix(part.size());
@@ -36,14 +36,14 @@ bool is_curve_name(std::string_view name) {
     return has_quantity && name.ends_with(')') && std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c); });
 }
 
-/// A time as events have it: "0.319562339".
+/// True for a time as event files write it: "0.319562339".
 bool is_event_time(std::string_view text) {
     constexpr std::size_t decimals = 9;
     const auto point = text.find('.');
     return point > 0 && point != text.npos && text.size() - point - 1 == decimals && text.find_first_not_of("0123456789.") == text.npos;
 }
 
-/// A table of events whose first row, if there is one, has its time in the first or the last field.
+/// True for a table of events with this header. The first row, if present, has its time in the first or the last field.
 bool is_event_table(std::string_view beginning, std::string_view header, bool time_first) {
     if (take_line(beginning) != header) return false;
     const auto row = take_line(beginning);
@@ -63,7 +63,7 @@ bool is_event_record(std::string_view line) {
 bool is_own_raw(std::string_view beginning) {
     const auto title = take_line(beginning), plot = take_line(beginning), flags = take_line(beginning), variables = take_line(beginning),
                points = take_line(beginning);
-    constexpr std::size_t width = std::string_view("No. Points: ").size() + 20;  // the count has room to grow
+    constexpr std::size_t width = std::string_view("No. Points: ").size() + 20;  // the count is padded, so that it can be rewritten
     return title.starts_with("Title: ") && plot.starts_with("Plotname: ") && (flags == "Flags: real" || flags == "Flags: complex") &&
            variables.starts_with("No. Variables: ") && points.starts_with("No. Points: ") && points.size() == width;
 }
@@ -71,13 +71,13 @@ bool is_own_raw(std::string_view beginning) {
 bool is_own_table(std::string_view beginning) {
     auto header = take_line(beginning);
     if (header.empty()) return false;
-    bool of_circuit = false;
+    bool has_circuit_curve = false;
     while (!header.empty()) {
         const auto name = take_csv_field(header);
         if (!is_curve_name(name)) return false;
-        of_circuit = of_circuit || name != "time";
+        has_circuit_curve = has_circuit_curve || name != "time";
     }
-    return of_circuit;
+    return has_circuit_curve;
 }
 
 bool is_own_events(std::string_view beginning) {

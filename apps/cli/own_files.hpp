@@ -1,11 +1,11 @@
 #pragma once
-// How a file that stands alone is known as one that an earlier run of ours wrote: by its first bytes.
+// Recognises, by its first bytes, a file that an earlier run of the program wrote. Such a file may be replaced without --overwrite.
 
 #include <string_view>
 
 namespace corpuscle {
 
-bool is_own_raw(std::string_view beginning);         ///< of 'run': .raw, which ngspice's differs from by its date
+bool is_own_raw(std::string_view beginning);         ///< of 'run': .raw; ngspice's own .raw files differ by their date line
 bool is_own_table(std::string_view beginning);       ///< of 'run': CSV
 bool is_own_events(std::string_view beginning);      ///< of 'stream'
 bool is_own_state(std::string_view beginning);       ///< of 'stream --save-state'

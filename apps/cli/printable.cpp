@@ -15,7 +15,7 @@ struct Character {
     bool is_valid = false;
 };
 
-/// The first character of a text that is not empty.
+/// Decodes the first character of a non-empty text.
 Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k])); };
     if (byte(0) < 0x80) return {byte(0), 1, true};
@@ -26,12 +26,12 @@ Character first_character(std::string_view text) {
         if ((byte(k) & 0xc0U) != 0x80) return {};
         code = code << 6 | (byte(k) & 0x3fU);
     }
-    constexpr std::array<std::uint32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};
-    if (code < least[bytes] || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return {};
+    constexpr std::array<std::uint32_t, 5> min_code = {0, 0, 0x80, 0x800, 0x10000};
+    if (code < min_code[bytes] || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return {};
     return {code, bytes, true};
 }
 
-/// C0, DEL, C1; marks of direction; line and paragraph separators; the byte order mark.
+/// C0, DEL, C1, bidirectional marks, line and paragraph separators, and the byte order mark.
 bool is_control(std::uint32_t c) {
     return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x61c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) ||
            (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;
@@ -44,7 +44,7 @@ std::string escaped(std::uint32_t c) {
     return c < 0x80 ? fmt::format("\\x{:02x}", c) : fmt::format("\\u{:04x}", c);
 }
 
-std::string printable_but_for(std::string_view text, std::string_view kept) {
+std::string escape_except(std::string_view text, std::string_view kept) {
     std::string out;
     out.reserve(text.size());
     while (!text.empty()) {
@@ -62,16 +62,16 @@ std::string printable_but_for(std::string_view text, std::string_view kept) {
 
 }  // namespace
 
-std::string printable(std::string_view text) { return printable_but_for(text, ""); }
-std::string printable_lines(std::string_view text) { return printable_but_for(text, "\n"); }
+std::string printable(std::string_view text) { return escape_except(text, ""); }
+std::string printable_lines(std::string_view text) { return escape_except(text, "\n"); }
 
 std::string json_text(const nlohmann::ordered_json& document) {
-    const auto text = document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // a name may hold any bytes
+    const auto text = document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // names may contain any bytes
     std::string out;
     for (std::string_view left = text; !left.empty();) {
         const auto c = first_character(left);
-        const bool stays = c.bytes == 1 ? left[0] != '\x7f' : !is_control(c.code);
-        stays ? out += left.substr(0, c.bytes) : out += fmt::format("\\u{:04x}", c.code);
+        const bool is_kept = c.bytes == 1 ? left[0] != '\x7f' : !is_control(c.code);
+        is_kept ? out += left.substr(0, c.bytes) : out += fmt::format("\\u{:04x}", c.code);
         left.remove_prefix(c.bytes);
     }
     return out;

@@ -1,6 +1,6 @@
 #pragma once
-// Text on its way to a terminal. Names come from files that anybody may have made: a control character in one could move the cursor, set
-// the window's title or make up a message. None is printed as it is.
+// Escapes text for a terminal. Names come from untrusted files: a control character in one could move the cursor, set the window title
+// or forge a message. Control characters are therefore never printed raw.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -8,14 +8,13 @@
 
 namespace corpuscle {
 
-/// As it is, but that control characters, line breaks, marks that turn the direction of writing, and bytes that are no UTF-8 are written
-/// as \x1b, \n, \u202e, \xff.
+/// Escapes control characters, line breaks, bidirectional marks and bytes that are not UTF-8: \x1b, \n, \u202e, \xff.
 std::string printable(std::string_view);
 
-/// The same of text of our own of several lines: these are kept.
+/// The same, but keeps line breaks; for text of several lines that the program composed.
 std::string printable_lines(std::string_view);
 
-/// A document; what no terminal should see is escaped as JSON has it, so that its meaning stays.
+/// A JSON document with the same characters escaped in JSON's notation, so that its content is unchanged.
 std::string json_text(const nlohmann::ordered_json&);
 
 }  // namespace corpuscle

@@ -15,12 +15,12 @@ Result<std::pair<double, double>> range_of(const std::string& text) {
     const auto low = parse_quantity(text.substr(0, dots), ""),
                high = dots == std::string::npos ? low : parse_quantity(text.substr(dots + 2), "");
     if (dots == std::string::npos || !low || !high || !(*low < *high))
-        return bad_usage(fmt::format("--range {}: write LO..HI with LO below HI, such as 0..4095, in what is read", text));
+        return bad_usage(fmt::format("--range {}: write LO..HI with LO below HI, in the unit of the readings, such as 0..4095", text));
     return std::pair{*low, *high};
 }
 
-/// Words that are more than one number.
-Result<void> read_words(const RecordingWords& w, RecordingOptions& options) {
+/// Reads the options that are not a single quantity.
+Result<void> read_structured_options(const RecordingWords& w, RecordingOptions& options) {
     if (w.range) {
         const auto range = range_of(*w.range);
         if (!range) return range.error();
@@ -33,7 +33,7 @@ Result<void> read_words(const RecordingWords& w, RecordingOptions& options) {
     if (w.despike) {
         const auto limit = *w.despike == "auto" ? Result<double>(1) : parse_quantity(*w.despike, "");
         if (!limit || !(*limit > 0))
-            return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in what is read", *w.despike));
+            return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in the unit of the readings", *w.despike));
         options.despike.emplace();
         if (*w.despike != "auto") options.despike->limit = *limit;
     }
@@ -45,12 +45,12 @@ Result<void> read_words(const RecordingWords& w, RecordingOptions& options) {
     return {};
 }
 
-/// Newtons per unit of what is read: "0.002", "10%", or with its unit, "2mN".
+/// Newtons per unit of the readings: "0.002", "10%", or with a unit, "2mN".
 Result<std::optional<double>> scale_of(const std::optional<std::string>& text) {
     const auto plain = quantity(text, "", "--scale");
     const auto force = plain ? plain : quantity(text, "N", "--scale");
     if (force) return force;
-    return bad_usage(fmt::format("--scale '{}': write what is read times S is newtons as a number, or with its unit: 0.002, 2mN", *text));
+    return bad_usage(fmt::format("--scale '{}': write newtons per unit of the readings: 0.002, or 2mN", *text));
 }
 
 }  // namespace
@@ -83,31 +83,39 @@ Result<RecordingOptions> recording_options(const RecordingWords& w) {
     if (!scale) return scale.error();
     options.scale = *scale;
     options.offset = offset.value_or(0);
-    if (auto ok = read_words(w, options); !ok) return ok.error();
+    if (auto ok = read_structured_options(w, options); !ok) return ok.error();
     return options;
 }
 
 std::string_view recording_word(const RecordingWords& w) {
-    const std::pair<std::string_view, bool> words[] = {{"--channel", !w.channels.empty()},       {"--dataset", w.dataset.has_value()},
-                                                       {"--skip", w.skip.has_value()},           {"--transpose", w.transpose.has_value()},
-                                                       {"--time", w.time.has_value()},
-                                                       {"--time-unit", w.time_unit.has_value()}, {"--unit", w.unit.has_value()},
-                                                       {"--scale", w.scale.has_value()},         {"--abs", w.absolute},
-                                                       {"--resample", w.resample.has_value()},   {"--offset", w.offset.has_value()},
-                                                       {"--range", w.range.has_value()},         {"--bad-fields", w.bad_fields.has_value()},
-                                                       {"--despike", w.despike.has_value()},     {"--notch", !w.notch.empty()},
-                                                       {"--lowpass", w.lowpass.has_value()},     {"--layout", !w.layout.empty()}};
-    for (const auto& [word, given] : words)
-        if (given) return word;
+    const std::pair<std::string_view, bool> options[] = {{"--channel", !w.channels.empty()},
+                                                         {"--dataset", w.dataset.has_value()},
+                                                         {"--skip", w.skip.has_value()},
+                                                         {"--transpose", w.transpose.has_value()},
+                                                         {"--time", w.time.has_value()},
+                                                         {"--time-unit", w.time_unit.has_value()},
+                                                         {"--unit", w.unit.has_value()},
+                                                         {"--scale", w.scale.has_value()},
+                                                         {"--abs", w.absolute},
+                                                         {"--resample", w.resample.has_value()},
+                                                         {"--offset", w.offset.has_value()},
+                                                         {"--range", w.range.has_value()},
+                                                         {"--bad-fields", w.bad_fields.has_value()},
+                                                         {"--despike", w.despike.has_value()},
+                                                         {"--notch", !w.notch.empty()},
+                                                         {"--lowpass", w.lowpass.has_value()},
+                                                         {"--layout", !w.layout.empty()}};
+    for (const auto& [option, given] : options)
+        if (given) return option;
     return "";
 }
 
 Result<void> check_recording_words(const RespondWords& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const auto word = recording_word(w);
-    if (word.empty()) return {};
+    const auto option = recording_word(w);
+    if (option.empty()) return {};
     return bad_usage(
-        fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word, w.forces[0], w.forces[0]));
+        fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, w.forces[0], w.forces[0]));
 }
 
 }  // namespace corpuscle

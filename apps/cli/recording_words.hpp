@@ -1,5 +1,5 @@
 #pragma once
-// What is said of recordings on the command line, as options of the reader.
+// Converts the recording options of the command line to options of the reader.
 
 #include <optional>
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace corpuscle {
 
-/// A quantity in SI, if it was said; errors name the option.
+/// A quantity in SI, if the option was given. Errors name the option.
 Result<std::optional<double>> quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option);
 
-/// The reader's options, of whichever verb: respond and stream read a recording alike.
+/// The reader's options; respond and stream share them.
 Result<RecordingOptions> recording_options(const RecordingWords&);
 
-/// The first of these options that was given, such as "--channel"; "" if none was (--rate does not count).
+/// The first of these options that was given, such as "--channel"; "" if none was. --rate is not counted.
 std::string_view recording_word(const RecordingWords&);
 
-/// An option of recordings is refused where there are only stimuli.
+/// Rejects recording options if all forces are stimuli.
 Result<void> check_recording_words(const RespondWords&);
 
 }  // namespace corpuscle

@@ -17,7 +17,7 @@ namespace corpuscle {
 
 SkinOutputs::~SkinOutputs() {
     report_file_.reset(), summary_file_.reset();
-    while (!files_.empty()) files_.pop_back();  // the last first: a directory goes with the first
+    while (!files_.empty()) files_.pop_back();  // reverse order: the first file may have created the directory
 }
 
 template <class F, class... A>
@@ -32,13 +32,13 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
                                          OutputCheck& outputs) {
     const auto bin = quantity(w.bin, "s", "--bin");
     if (!bin) return bin.error();
-    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: a bin is longer than nothing, such as 10ms", *w.bin));
+    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *w.bin));
     const auto formats = event_formats();
     const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == w.events; });
     if (!w.events.empty() && format == formats.end()) {
         std::vector<std::string_view> names;
         for (const auto& f : formats) names.push_back(f.name);
-        return bad_usage(fmt::format("--events {}: there are {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
+        return bad_usage(fmt::format("--events {}: expected one of {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
     }
     const auto spikes = w.events.empty() ? std::string("spikes.csv") : fmt::format("spikes{}", format->extension);
     std::vector<std::string> names = {spikes, "units.csv", "summary.json"};
@@ -59,9 +59,9 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
 }
 
 Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary, OutputCheck& outputs) {
-    for (const auto& [word, said] :
+    for (const auto& [option, given] :
          {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}, std::pair{"--npz", w.npz}})
-        if (said && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR to write into", word));
+        if (given && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
     directory_ = w.out;
     const auto page_path = page_of(w);
     if (!w.out.empty())
@@ -92,10 +92,10 @@ std::vector<std::string> SkinOutputs::paths() const {
 
 std::vector<std::string> SkinOutputs::names() const { return names_in(directory_, paths()); }
 
-Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinTold& told, const std::string& document,
+Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinTold& run_info, const std::string& document,
                                  const std::string& command) {
     if (report_)
-        if (auto ok = put_whole(*report_file_, skin_page(summary, *report_, told, command)); !ok) return ok;
+        if (auto ok = put_whole(*report_file_, skin_page(summary, *report_, run_info, command)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};

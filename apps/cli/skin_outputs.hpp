@@ -1,5 +1,5 @@
 #pragma once
-// The files of one run of a skin: made before it, put in their places after it.
+// The output files of one skin run. They are created before the run and renamed to their final names after it.
 
 #include <memory>
 #include <optional>
@@ -30,7 +30,7 @@ public:
     SkinOutputs(const SkinOutputs&) = delete;
     SkinOutputs& operator=(const SkinOutputs&) = delete;
     ~SkinOutputs();
-    /// The summary counts what some of the files hold: it listens before them.
+    /// The summary must be called before the files: some of them write what it has counted.
     Result<void> open(const RespondWords&, const SkinSummary&, OutputCheck&);
     void listen(std::vector<SkinListener*>&);
     std::vector<std::string> names() const;

@@ -18,8 +18,8 @@ void SkinSpikeTimes::add(const Clock& clock, std::span<const Spike> spikes) {
     for (const auto& s : spikes) times_[s.unit].push_back(clock.time(s.step, s.offset));
 }
 
-Result<void> SkinSpikeTimes::block(const SkinInput& input, const SkinAnswered& answered) {
-    return add(input.clock, answered.spikes), Result<void>();
+Result<void> SkinSpikeTimes::block(const SkinInput& input, const SkinAnswered& response) {
+    return add(input.clock, response.spikes), Result<void>();
 }
 
 Result<void> SkinSpikeTimes::end(const SkinInput& input, std::int64_t, std::span<const Spike> last) {
@@ -28,10 +28,10 @@ Result<void> SkinSpikeTimes::end(const SkinInput& input, std::int64_t, std::span
 
 nlohmann::ordered_json SkinSpikeTimes::document() const {
     if (are_too_many()) return nullptr;
-    auto units = nlohmann::ordered_json::array();
+    auto trains = nlohmann::ordered_json::array();
     for (std::size_t u = 0; u < times_.size(); ++u)
-        if (!times_[u].empty()) units.push_back({{"afferent", afferents_[u]}, {"channel", channels_[u]}, {"times_s", times_[u]}});
-    return units;
+        if (!times_[u].empty()) trains.push_back({{"afferent", afferents_[u]}, {"channel", channels_[u]}, {"times_s", times_[u]}});
+    return trains;
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// The spikes of a population for the document on standard output.
+// Collects the spikes of a skin for the JSON document on standard output.
 
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -9,20 +9,21 @@
 namespace corpuscle {
 
 class SkinSpikeTimes final : public SkinListener {
-    std::vector<std::vector<double>> times_;  // of each unit, s
+    std::vector<std::vector<double>> times_;  // s, one list per afferent
     std::vector<std::string> afferents_, channels_;
     std::size_t count_ = 0;
 
     void add(const Clock&, std::span<const Spike>);
 
 public:
-    static constexpr std::size_t most = 10'000'000;  ///< more are left to files
+    static constexpr std::size_t most = 10'000'000;  ///< with more, the document has none
 
     Result<void> begin(const SkinInput&) override;
     Result<void> block(const SkinInput&, const SkinAnswered&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
     bool are_too_many() const { return count_ > most; }
-    /// A list with afferent, channel and times_s (s) of each unit that fired, named as in spikes.csv. null if there are too many spikes.
+    /// A list with afferent, channel and times_s (s) of each afferent that fired, named as in spikes.csv. null if there are too many
+    /// spikes.
     nlohmann::ordered_json document() const;
 };
 

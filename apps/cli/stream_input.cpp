@@ -15,27 +15,27 @@ namespace {
 
 constexpr double stimulus_rate = 1e3;  // Hz
 
-/// A quantity that has a default.
+/// Parses an option that has a default.
 Result<double> required_quantity(const std::string& text, std::string_view unit, std::string_view option) {
     const auto value = quantity(text, unit, option);
     if (!value) return value.error();
     return **value;
 }
 
-/// The options of recordings that frames on a wire do not have, and why.
-Result<void> check_wire_words(const StreamWords& w) {
+/// Rejects options of recordings that live frames do not have, with the reason.
+Result<void> check_live_options(const StreamWords& w) {
     RecordingWords others = w;
     others.unit.reset(), others.scale.reset(), others.offset.reset(), others.layout.clear();
-    const auto word = recording_word(others);
-    if (word.empty()) return {};
-    const auto why = word == "--channel" ? "every number of a frame is a site's, in the order of the sites or of --layout"
-                     : word == "--time" || word == "--time-unit"
-                         ? "the time of a frame is its number over --rate; --stamp time says that each begins with its time"
-                     : word == "--dataset" || word == "--skip" ? "frames have no file"
-                     : word == "--range" || word == "--bad-fields"
-                         ? "a force that is no number or beyond --limit is not a reading; the last reading of the site is held"
-                         : "it needs the readings before and behind, and a frame is answered as it comes";
-    return bad_usage(fmt::format("{} is for recordings (--in FILE), and frames come from {}: {}", word, name_of_input(w.in), why));
+    const auto option = recording_word(others);
+    if (option.empty()) return {};
+    const auto reason = option == "--channel" ? "every number of a frame belongs to a site, in the order of the sites or of --layout"
+                        : option == "--time" || option == "--time-unit"
+                            ? "the time of a frame is its number divided by --rate; use --stamp time if frames begin with their time"
+                        : option == "--dataset" || option == "--skip" ? "live frames are not read from a file"
+                        : option == "--range" || option == "--bad-fields"
+                            ? "an invalid force, or one beyond --limit, is replaced by the last force of the site"
+                            : "it needs later readings, and live frames are processed at once";
+    return bad_usage(fmt::format("{} is for recordings (--in FILE), not for live frames from {}: {}", option, name_of_input(w.in), reason));
 }
 
 Result<int> port_of(const StreamWords& w) {
@@ -44,7 +44,7 @@ Result<int> port_of(const StreamWords& w) {
     const auto* const end = w.in.data() + w.in.size();
     const auto [stop, status] = std::from_chars(w.in.data() + scheme.size(), end, port);
     if (status != std::errc{} || stop != end || port < 0 || port > 65535)
-        return bad_usage(fmt::format("--in {}: write {}PORT, such as {}7000; --listen says on which address", w.in, scheme, scheme));
+        return bad_usage(fmt::format("--in {}: write {}PORT, such as {}7000 (--listen sets the address)", w.in, scheme, scheme));
     return port;
 }
 
@@ -69,25 +69,26 @@ Result<StreamNumbers> stream_numbers(const StreamWords& w) {
         if (!(*value >= 0)) return bad_usage(fmt::format("{} {}: must not be negative", option, *text));
         *to = *value;
     }
-    if (!(n.buffer >= 1000 && n.buffer <= 1e10)) return bad_usage(fmt::format("--buffer {}: between 1k and 10G bytes", w.buffer));
+    if (!(n.buffer >= 1000 && n.buffer <= 1e10)) return bad_usage(fmt::format("--buffer {}: must be between 1k and 10G bytes", w.buffer));
     return n;
 }
 
-Result<std::unique_ptr<Source>> open_stream_source(const StreamWords& w, const StreamNumbers& n, std::span<const Wish> wishes) {
-    if (const auto word = recording_word(w); !word.empty() && is_stimulus(w.in))
-        return bad_usage(fmt::format("{} is for recordings, and {} is a stimulus; --set {}.PARAMETER=VALUE changes it", word, w.in, w.in));
+Result<std::unique_ptr<Source>> open_stream_source(const StreamWords& w, const StreamNumbers& n, std::span<const Wish> overrides) {
+    if (const auto option = recording_word(w); !option.empty() && is_stimulus(w.in))
+        return bad_usage(
+            fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, w.in, w.in));
     auto options = n.recording;
     options.keep_on = [](double) { return !interrupted(); };
-    return open_force(w.in, options, wishes, stimulus_rate, 0);
+    return open_force(w.in, options, overrides, stimulus_rate, 0);
 }
 
 Result<Clock> wire_clock(const StreamWords& w, const StreamNumbers& n) {
     if (n.recording.rate) return clock_of(*n.recording.rate);
-    return bad_usage(fmt::format("--rate is required: how many frames a second come from {}", name_of_input(w.in)));
+    return bad_usage(fmt::format("--rate is required: the frame rate of {}", name_of_input(w.in)));
 }
 
 Result<FrameLayout> wire_layout(const StreamWords& w, const StreamNumbers& n, std::size_t sites, const Clock& clock) {
-    if (auto ok = check_wire_words(w); !ok) return ok.error();
+    if (auto ok = check_live_options(w); !ok) return ok.error();
     Column number;
     number.name = "a frame";
     const auto scale = newtons_per_unit(number, n.recording, name_of_input(w.in));
@@ -111,7 +112,7 @@ Result<std::unique_ptr<ByteSource>> open_wire(const StreamWords& w, const Stream
     const SenderLimits limits{w.clients, static_cast<std::int64_t>(std::min(n.idle, 1e9) * 1e9)};
     if (w.in.starts_with("tcp:")) return listen_on(w.listen, *port, limits);
     if (layout.kind != FrameKind::csv && layout.bytes() > max_datagram)
-        return bad_usage(fmt::format("--in {}: a frame of {} bytes does not go into a datagram, which has at most {}; use tcp:{}{}", w.in,
+        return bad_usage(fmt::format("--in {}: a frame of {} bytes exceeds the maximum datagram of {} bytes; use tcp:{}{}", w.in,
                                      layout.bytes(), max_datagram, *port, w.frames == "f64" ? ", or --frames f32" : ""));
     return receive_datagrams(w.listen, *port, limits);
 }

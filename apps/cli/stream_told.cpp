@@ -11,14 +11,14 @@ namespace {
 std::string time_of(std::int64_t ns) { return format_quantity(static_cast<double>(ns) * 1e-9, "s"); }
 
 /// "3 gaps", "1 gap"
-std::string counted(std::int64_t n, std::string_view what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+std::string counted(std::int64_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 std::string quantiles(const Delays& d) {
-    return fmt::format("50 % {}, 99 % {}, 99.9 % {}, longest {}", time_of(d.quantile(0.5)), time_of(d.quantile(0.99)),
+    return fmt::format("median {}, 99 % {}, 99.9 % {}, max {}", time_of(d.quantile(0.5)), time_of(d.quantile(0.99)),
                        time_of(d.quantile(0.999)), time_of(d.most()));
 }
 
-/// Whether frames came one by one as a clock made them, or in bulk: then the time from one to the next says nothing.
+/// True if frames arrived one by one at the pace of a clock. If they arrived in bulk, jitter is meaningless.
 bool is_paced(const StreamFacts& f) {
     const auto& done = f.loop.done();
     if (!f.frames.is_live() || done.rate() == 0) return false;
@@ -26,32 +26,32 @@ bool is_paced(const StreamFacts& f) {
     return !in_bulk || done.rate() < 2 * f.skin.clock().rate();
 }
 
-/// What did not go as it should, a line each.
-std::string troubles(const StreamFacts& f) {
+/// Everything that went wrong, one line each.
+std::string problems(const StreamFacts& f) {
     const auto counts = f.frames.counts();
     const auto& order = counts.order;
     const auto& done = f.loop.done();
     const std::pair<std::int64_t, std::string> all[] = {
-        {order.gaps,
-         fmt::format("{}: {} held, {} without force", counted(order.gaps, "gap"), counted(order.held, "frame"), order.released)},
-        {order.duplicates, counted(order.duplicates, "duplicate") + " left out"},
-        {order.late, counted(order.late, "late frame") + " left out"},
-        {order.restarts, fmt::format("the sender's count began anew {}", order.restarts == 1 ? "once" : counted(order.restarts, "time"))},
-        {counts.unreadable, counted(counts.unreadable, "frame") + " could not be read: the last force was held"},
-        {counts.values, counted(counts.values, "force") + " no number, or beyond the limit: the site's last was held"},
-        {counts.halves, counted(counts.halves, "half frame") + " when the sender went"},
-        {counts.senders.idle, counted(counts.senders.idle, "sender") + " silent for too long, with another one waiting: made way"},
-        {counts.senders.strangers, counted(counts.senders.strangers, "datagram") + " of senders whose turn it was not, left out"},
-        {counts.senders.lost, counted(counts.senders.lost, "datagram") + " lost: they came faster than they were answered"},
-        {static_cast<std::int64_t>(done.unread),
-         counted(static_cast<std::int64_t>(done.unread), "byte") + " of frames left unread when it was stopped"},
-        {done.dropped, counted(done.dropped, "spike") + " left out: the reader was too slow, and the buffer full"},
-        {f.outlet.lost(), counted(f.outlet.lost(), "spike") + " lost: their reader went, or took no more"},
-        {f.skin.work().capped, fmt::format("{} with more spikes than the cap allows", counted(f.skin.work().capped, "step"))},
+        {order.gaps, fmt::format("{}: {} filled by the last force, {} by zero force", counted(order.gaps, "gap"),
+                                 counted(order.held, "frame"), order.released)},
+        {order.duplicates, counted(order.duplicates, "duplicate frame") + " ignored"},
+        {order.late, counted(order.late, "late frame") + " ignored"},
+        {order.restarts,
+         fmt::format("the sender's frame numbers restarted {}", order.restarts == 1 ? "once" : counted(order.restarts, "time"))},
+        {counts.unreadable, counted(counts.unreadable, "frame") + " unreadable: replaced by the last force"},
+        {counts.values, counted(counts.values, "reading") + " invalid or beyond the limit: replaced by the last force of the site"},
+        {counts.halves, counted(counts.halves, "incomplete frame") + " at a disconnect"},
+        {counts.senders.idle, counted(counts.senders.idle, "sender") + " disconnected: idle while another was waiting"},
+        {counts.senders.strangers, counted(counts.senders.strangers, "datagram") + " from other senders ignored"},
+        {counts.senders.lost, counted(counts.senders.lost, "datagram") + " lost: they arrived faster than they were processed"},
+        {static_cast<std::int64_t>(done.unread), counted(static_cast<std::int64_t>(done.unread), "byte") + " of input unread at the end"},
+        {done.dropped, counted(done.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
+        {f.outlet.lost(), counted(f.outlet.lost(), "spike") + " lost: the receiver disconnected or stopped reading"},
+        {f.skin.work().capped, fmt::format("{} truncated at the spike limit of one step", counted(f.skin.work().capped, "step"))},
     };
     std::string text;
-    for (const auto& [count, sentence] : all)
-        if (count > 0) text += "  " + sentence + "\n";
+    for (const auto& [count, message] : all)
+        if (count > 0) text += "  " + message + "\n";
     return text;
 }
 
@@ -70,21 +70,19 @@ std::string stream_summary(const StreamFacts& f) {
     const auto& done = f.loop.done();
     const auto counts = f.frames.counts();
     const double T = f.skin.clock().T();
-    auto text = fmt::format("{} of {} of touch, {} from {}\n", counted(counts.frames, "frame"),
+    auto text = fmt::format("{} ({} of force), {} from {}\n", counted(counts.frames, "frame"),
                             format_quantity(static_cast<double>(counts.frames + done.filled) * T, "s"), counted(done.spikes, "spike"),
                             counted(static_cast<std::int64_t>(f.skin.innervation().units.size()), "afferent"));
-    if (counts.producers != 1) text += fmt::format("  {} sent\n", counted(counts.producers, "client"));
-    if (f.outlet.readers() != 1) text += fmt::format("  {}\n", counted(f.outlet.readers(), "connection") + " to the reader");
-    if (done.delay.count() > 0) text += fmt::format("  from a frame to its spikes written: {}\n", quantiles(done.delay));
-    if (is_paced(f))
-        text += fmt::format("  frames came at {}; off {} from one to the next: {}\n", format_quantity(done.rate(), "Hz"),
-                            format_quantity(T, "s"), quantiles(done.jitter));
-    return text + troubles(f);
+    if (counts.producers != 1) text += fmt::format("  {}\n", counted(counts.producers, "client"));
+    if (f.outlet.readers() != 1) text += fmt::format("  {}\n", counted(f.outlet.readers(), "connection") + " to the receiver");
+    if (done.delay.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(done.delay));
+    if (is_paced(f)) text += fmt::format("  input rate {}; jitter: {}\n", format_quantity(done.rate(), "Hz"), quantiles(done.jitter));
+    return text + problems(f);
 }
 
 std::string stream_status(const StreamFacts& f) {
     const auto& done = f.loop.done();
-    return fmt::format("{} frames  {} spikes  {} left out  {} (99.9 %: {})", f.frames.counts().frames, done.spikes,
+    return fmt::format("{} frames  {} spikes  {} dropped  latency {} (99.9 %: {})", f.frames.counts().frames, done.spikes,
                        done.dropped + f.outlet.lost(), time_of(done.delay.quantile(0.5)), time_of(done.delay.quantile(0.999)));
 }
 
@@ -96,7 +94,7 @@ nlohmann::ordered_json stream_document(const StreamFacts& f) {
         {"population", plan.name},          {"sites", f.skin.sites()}, {"units", f.skin.innervation().units.size()},
         {"rate_Hz", f.skin.clock().rate()}, {"frames", counts.frames}, {"frames_filled", done.filled},
         {"steps", f.skin.frames()},         {"spikes", done.spikes}};
-    if (plan.is_by_channel) doc["channels"] = plan.sites.names;  // the numbers of binary events count these
+    if (plan.is_by_channel) doc["channels"] = plan.sites.names;  // binary events refer to channels by index
     doc["frames_in_order"] = {{"gaps", counts.order.gaps},         {"held", counts.order.held},
                               {"released", counts.order.released}, {"duplicates", counts.order.duplicates},
                               {"late", counts.order.late},         {"restarts", counts.order.restarts}};

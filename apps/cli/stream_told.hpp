@@ -1,5 +1,5 @@
 #pragma once
-// What people and programs are told of a live stream.
+// Status line, summary and JSON document of a live stream.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// A stream while it runs and when it has ended.
+/// The parts of a running or finished stream that the reports read.
 struct StreamFacts {
     const SkinStream& skin;
     const FrameSource& frames;
@@ -18,7 +18,7 @@ struct StreamFacts {
 };
 
 std::string stream_summary(const StreamFacts&);
-/// One line, for a terminal.
+/// One line for a terminal.
 std::string stream_status(const StreamFacts&);
 nlohmann::ordered_json stream_document(const StreamFacts&);
 

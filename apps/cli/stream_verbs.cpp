@@ -9,71 +9,78 @@ namespace corpuscle {
 namespace {
 
 constexpr const char* stream_examples =
-    R"(A frame is one force a site, all read at one instant. Its time is its number over --rate, never when it arrived. As CSV a frame is a
-line; in binary (f32, f64, i16, little-endian) one number after another. With --stamp count each begins with its number (binary: u32), with
---stamp time with its time in seconds (binary: f64); then gaps are filled by the last force, duplicates and late frames left out. All of
-that is counted, and told at the end. A recording at --pace fast waits for a slow reader of the spikes, and any stream for its own file;
-else force never waits: spikes that a reader does not take in time are left out and counted, and the exit status is 1 (--allow-drops: 0).
+    R"(A frame is one force per site, all sampled at the same time. The time of a frame is its number
+divided by --rate, not its time of arrival. A CSV frame is a line of text; a binary frame is a
+sequence of numbers (f32, f64 or i16, little-endian). With --stamp count a frame begins with its
+number (binary: u32), with --stamp time with its time in seconds (binary: f64). Gaps are then filled
+by the last force, and duplicate and late frames are ignored. The summary at the end counts all of
+these.
 
-POPULATION is hand, fingertip, "grid 8x8", a population file, or afferents by name, on every one of --channels channels.
+Input is never delayed: spikes that the receiver does not read in time are dropped and counted, and
+the exit status is 1 (0 with --allow-drops). Exceptions: a stream waits for its own output file, and
+a recording at --pace fast waits for the receiver.
+
+POPULATION is hand, fingertip, "grid 8x8", a population file, or names of afferents, which are
+simulated on each of --channels channels.
 
 Examples:
-  corpuscle stream --in press                                          try it: the thesis's press, at its own pace
-  sensor | corpuscle stream --rate 1kHz                                a force a line in, a spike a line out
+  corpuscle stream --in press                                          try it: the thesis's stimulus in real time
+  sensor | corpuscle stream --rate 1kHz                                one force per line in, one spike per line out
   corpuscle stream --population hand --rate 1kHz --frames f32 --in tcp:7000 --to 7001 --format aer
   corpuscle stream --population "grid 64x64" --rate 5.2kHz --frames f32 < frames.f32 > spikes.aer --format aer
   corpuscle stream --channels 16 --rate 500Hz --in serial:/dev/ttyACM0 --baud 921600 --frames i16 --scale 2mN -o spikes.csv
-  corpuscle stream --in grip.csv --unit mN --format jsonl --pace fast  a recording, with all options of respond
-  corpuscle stream --channels 16 --rate 1kHz --in udp:7000 --stamp count --frames f32     frames in datagrams, numbered
+  corpuscle stream --in grip.csv --unit mN --format jsonl --pace fast  a recording, with the recording options of respond
+  corpuscle stream --channels 16 --rate 1kHz --in udp:7000 --stamp count --frames f32     numbered frames in datagrams
   corpuscle stream --rate 1kHz --save-state now.state; corpuscle stream --rate 1kHz --resume now.state
 
-Ctrl-C ends it: what has come is answered, files are whole, the state is kept, and a summary is printed on standard error.)";
+Ctrl-C ends the stream: received frames are processed, files and the state are saved, and a summary
+is printed on standard error.)";
 
 void add_frames(CLI::App& verb, StreamWords& w) {
     verb.add_option("--in,-i", w.in,
-                    "where frames come from: - (standard input), tcp:PORT or udp:PORT to listen on (0: any that is free), serial:DEVICE, a "
-                    "recording, or a stimulus by name")
+                    "source of the frames: - (standard input), tcp:PORT or udp:PORT to listen on (0: any free port), serial:DEVICE, a "
+                    "recording, or a stimulus")
         ->capture_default_str()
         ->type_name("WHERE");
-    verb.add_option("--rate,-r", w.rate, "frames a second; of a recording, as its clock says if nothing is said")->type_name("FREQUENCY");
+    verb.add_option("--rate,-r", w.rate, "frame rate (default for a recording: its own)")->type_name("FREQUENCY");
     const auto group = "Frames";
-    verb.add_option("--frames", w.frames, "what they are: csv, or little-endian f32, f64, i16")
+    verb.add_option("--frames", w.frames, "frame format: csv, or little-endian f32, f64, i16")
         ->check(CLI::IsMember({"csv", "f32", "f64", "i16"}))
         ->capture_default_str()
         ->type_name("KIND")
         ->group(group);
-    verb.add_option("--stamp", w.stamp, "what stands before each: none, its count, or its time in seconds")
+    verb.add_option("--stamp", w.stamp, "first field of a frame: none, count (its number), or time (in seconds)")
         ->check(CLI::IsMember({"none", "count", "time"}))
         ->capture_default_str()
         ->type_name("WHAT")
         ->group(group);
-    verb.add_option("--limit", w.limit, "a force beyond it is no reading: that site's last is held")
+    verb.add_option("--limit", w.limit, "maximum valid force; beyond it the last force of the site is used")
         ->capture_default_str()
         ->type_name("FORCE")
         ->group(group);
-    verb.add_option("--hold", w.hold, "of a gap: as long the last force is held, then there is none")
+    verb.add_option("--hold", w.hold, "hold the last force for TIME in a gap, then use 0 N")
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
-    verb.add_option("--longest-gap", w.longest, "a stamp further from the last is no gap: the sender's count began anew")
+    verb.add_option("--longest-gap", w.longest, "treat a larger jump of the stamp as a restart of the sender")
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
-    verb.add_option("--listen", w.listen, "which of this machine's addresses tcp:PORT and udp:PORT listen on; 0.0.0.0 is all of them")
+    verb.add_option("--listen", w.listen, "local address for tcp:PORT and udp:PORT; 0.0.0.0: all addresses")
         ->capture_default_str()
         ->type_name("ADDRESS")
         ->group(group);
-    verb.add_option("--clients", w.clients, "end after so many senders to tcp:PORT or udp:PORT, one after another (0: go on)")
+    verb.add_option("--clients", w.clients, "end after N senders to tcp:PORT or udp:PORT, one after another (0: no limit)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str()
         ->type_name("N")
         ->group(group);
-    verb.add_option("--idle-limit", w.idle, "a sender that was silent for so long makes way for another that wants to send (0: never)")
+    verb.add_option("--idle-limit", w.idle, "disconnect a sender that is silent for TIME if another is waiting (0: never)")
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
-    verb.add_option("--baud", w.baud, "of a serial device")->capture_default_str()->type_name("N")->group(group);
-    verb.add_option("--pace", w.pace, "of a recording: real, each frame when it is due, or fast")
+    verb.add_option("--baud", w.baud, "baud rate of a serial device")->capture_default_str()->type_name("N")->group(group);
+    verb.add_option("--pace", w.pace, "pace of a recording or stimulus: real (real time), or fast (no waiting)")
         ->check(CLI::IsMember({"real", "fast"}))
         ->capture_default_str()
         ->type_name("PACE")
@@ -82,50 +89,52 @@ void add_frames(CLI::App& verb, StreamWords& w) {
 
 void add_events(CLI::App& verb, StreamWords& w) {
     const auto group = "Spikes";
-    verb.add_option("--out,-o", w.out, "where spikes go: - (standard output), or a file, which is FILE.part while it grows")
+    verb.add_option("--out,-o", w.out, "write the spikes to - (standard output) or to a file, named FILE.part until the end")
         ->capture_default_str()
         ->type_name("FILE")
         ->group(group);
-    verb.add_option("--to", w.to, "send them to who listens there; on this machine if only a port is said")
-        ->type_name("[HOST:]PORT")
-        ->group(group);
-    verb.add_option("--format,-f", w.format, "lines (afferent,channel,time_s), jsonl, aer (binary, all of it), aedat2; their headers say which address is which afferent and channel (doc/events.md)")
+    verb.add_option("--to", w.to, "send the spikes to a TCP server (default host: this machine)")->type_name("[HOST:]PORT")->group(group);
+    verb.add_option(
+            "--format,-f", w.format,
+            "spike format: lines (afferent,channel,time_s), jsonl, aer (binary, exact times), aedat2; binary headers map addresses to "
+            "afferents and channels (doc/events.md)")
         ->capture_default_str()
         ->type_name("FORMAT")
         ->group(group);
-    verb.add_option("--buffer", w.buffer, "bytes that may wait for a slow reader; what is more is left out and counted")
+    verb.add_option("--buffer", w.buffer, "buffer for a slow receiver, in bytes; spikes beyond it are dropped and counted")
         ->capture_default_str()
         ->type_name("BYTES")
         ->group(group);
-    verb.add_flag("--allow-drops", w.allow_drops, "spikes that a reader did not take, and datagrams that were lost, are no error")
-        ->group(group);
-    verb.add_option("--save-state", w.save, "at the end keep where all stands in this file; spikes on their way are part of it")
+    verb.add_flag("--allow-drops", w.allow_drops, "exit with status 0 even if spikes were dropped or datagrams lost")->group(group);
+    verb.add_option("--save-state", w.save, "save the state at the end, including spikes that are not yet due")
         ->type_name("FILE")
         ->group(group);
-    verb.add_option("--resume", w.resume, "go on from there: the same population, the same rate")->type_name("FILE")->group(group);
+    verb.add_option("--resume", w.resume, "continue from a saved state, with the same population and rate")
+        ->type_name("FILE")
+        ->group(group);
 }
 
 }  // namespace
 
 void StreamVerb::add_to(CLI::App& app, Common& common) {
-    auto& verb = *app.add_subcommand("stream", "forces in as they come, spikes out as they happen");
+    auto& verb = *app.add_subcommand("stream", "simulate live: frames of force in, spikes out");
     auto& w = words_;
     verb.footer(stream_examples);
-    verb.add_option("--population,-p", w.population, "what answers")->capture_default_str()->type_name("POPULATION");
-    verb.add_option("--channels,-n", w.count, "of afferents by name: how many forces a frame has")
+    verb.add_option("--population,-p", w.population, "the afferents to simulate")->capture_default_str()->type_name("POPULATION");
+    verb.add_option("--channels,-n", w.count, "forces per frame, if the population is given by names of afferents")
         ->check(CLI::Range(1, 1 << 22))
         ->capture_default_str()
         ->type_name("N");
-    verb.add_option("--set,-s", w.settings, "a parameter, of an afferent, a population's class or a stimulus, with its unit")
+    verb.add_option("--set,-s", w.settings, "set a parameter of an afferent, a class of the population or a stimulus, such as sa1.f_B=25Hz")
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
-    verb.add_flag("--sampled", w.sampled, "spikes on the samples, as in the thesis; else interpolated inside the step");
+    verb.add_flag("--sampled", w.sampled, "put spikes on the sampling times, as in the thesis (default: interpolate within the step)");
     verb.add_option("--together", w.together,
-                    "answer so many frames at once: a fraction of the work, and spikes up to so many frames late; the spikes are the same")
+                    "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str()
         ->type_name("N");
-    verb.add_flag("--spin", w.spin, "wait for frames without sleeping: takes a core of its own, and saves the time to wake");
+    verb.add_flag("--spin", w.spin, "poll for frames without sleeping: lower latency, but occupies one core");
     add_frames(verb, w);
     add_recording_words(verb, w);
     add_events(verb, w);

@@ -1,5 +1,5 @@
 #pragma once
-// `corpuscle stream`, as words of the command line.
+// `corpuscle stream`: its options on the command line.
 
 #include "verbs.hpp"
 

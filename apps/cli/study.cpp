@@ -1,4 +1,4 @@
-// corpuscle study: what was printed, made again and held against it.
+// corpuscle study: reproduces published results and compares them with the published numbers.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -20,18 +20,18 @@
 namespace corpuscle {
 namespace {
 
-/// "table17" asks for table17-18, "eq40" for eq34-41.
-bool covers(std::string_view study, std::string_view asked) {
-    const auto digits = asked.find_first_of("0123456789");
-    if (digits == std::string_view::npos || digits == 0 || asked.find_first_not_of("0123456789", digits) != std::string_view::npos ||
-        !study.starts_with(asked.substr(0, digits)))
+/// True if `requested` lies in the range of a study: "table17" in table17-18, "eq40" in eq34-41.
+bool covers(std::string_view study, std::string_view requested) {
+    const auto digits = requested.find_first_of("0123456789");
+    if (digits == std::string_view::npos || digits == 0 || requested.find_first_not_of("0123456789", digits) != std::string_view::npos ||
+        !study.starts_with(requested.substr(0, digits)))
         return false;
     int from = 0, to = 0, number = 0;
     const auto read = [](std::string_view text, int& out) { return std::from_chars(text.data(), text.data() + text.size(), out).ptr; };
     const auto* dash = read(study.substr(digits), from);
     const auto* end = study.data() + study.size();
     if (dash == end || *dash != '-' || read({dash + 1, static_cast<std::size_t>(end - dash - 1)}, to) != end) return false;
-    read(asked.substr(digits), number);
+    read(requested.substr(digits), number);
     return number >= from && number <= to;
 }
 
@@ -51,13 +51,13 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
             if (name == s->name && std::find(out.begin(), out.end(), s) == out.end()) found = true, out.push_back(s);
         if (!found)
             return bad_usage(
-                fmt::format("study: none is called '{}'{}; there are {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+                fmt::format("study: unknown study '{}'{}; known studies: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
     }
     return out;
 }
 
 std::string text_of(const Study& study, const Outcome& outcome) {
-    std::vector<std::vector<std::string>> rows = {{"", "made", "printed", "deviation", "allowed", ""}};
+    std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", ""}};
     for (const auto& c : outcome.claims)
         rows.push_back({c.what, quantity_of(c.made, c), printed_of(c), deviation_of(c), allowed_of(c), c.verdict()});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, table(rows));
@@ -67,8 +67,8 @@ std::string text_of(const Study& study, const Outcome& outcome) {
     return text;
 }
 
-/// Where recordings made by others lie.
-std::string recordings() {
+/// The directory of third-party recordings.
+std::string recordings_directory() {
     const char* set = std::getenv("CORPUSCLE_DATA");
     return set && *set ? set : "../shared/data";
 }
@@ -84,7 +84,7 @@ Result<void> run(const StudyWords& words, const Common& common) {
             if (auto ok = outputs.file(path, ours); !ok) return ok;
     const auto outcomes = [&] {
         Progress progress(common.quiet);
-        return run_studies(*all, {[&](double share) { return progress.at(share), !interrupted(); }, recordings()});
+        return run_studies(*all, {[&](double fraction) { return progress.at(fraction), !interrupted(); }, recordings_directory()});
     }();
     if (!outcomes) return outcomes.error();
     if (!words.report_file.empty())

@@ -1,4 +1,4 @@
-// corpuscle sweep: many units, what they gave in one file; status, merging and dumping.
+// corpuscle sweep: runs the work items of a sweep into one results file; prints status, merges and dumps results.
 
 #include <fmt/format.h>
 #include <chrono>
@@ -24,60 +24,60 @@ Result<Shard> shard_of(const std::string& text) {
     long long k = 0, n = 0;
     char rest = 0;
     if (std::sscanf(text.c_str(), "%lld/%lld%c", &k, &n, &rest) != 2 || n < 1 || k < 1 || k > n)
-        return bad_usage(fmt::format("--shard {}: say which part of how many, such as 1/4, 2/4, 3/4 and 4/4", text));
+        return bad_usage(fmt::format("--shard {}: write K/N, part K of N, such as 1/4", text));
     return Shard{k - 1, n};
 }
 
-/// "mc.sqlite" of some/where/mc.toml, "mc-1of4.sqlite" of a part of it: where the command is given.
-std::string results_path(const SweepWords& words, const Shard& shard) {
-    if (!words.out.empty()) return words.out;
-    const auto stem = fs::path(words.file).stem().string();
+/// The default results file in the current directory: "mc.sqlite" for some/where/mc.toml, "mc-1of4.sqlite" for a shard.
+std::string results_path(const SweepWords& w, const Shard& shard) {
+    if (!w.out.empty()) return w.out;
+    const auto stem = fs::path(w.file).stem().string();
     return shard.of == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.of);
 }
 
-void tell(const Common& common, const SweepState& state) {
+void print_state(const Common& common, const SweepState& state) {
     if (common.json)
         fmt::print("{}\n", json_text(document_of(state)));
     else if (!common.quiet)
         show(text_of(state));
 }
 
-/// One of the processes that mpirun started, or all there is.
-struct Self {
-    std::unique_ptr<Ranks> ranks;  ///< none: alone
-    bool leads() const { return !ranks || ranks->rank() == 0; }
+/// This process among the MPI ranks.
+struct SweepProcess {
+    std::unique_ptr<Ranks> ranks;  ///< null: a single process
+    bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
 };
 
-Result<void> run_units(const Self& self, const Sweep& sweep, SweepResults& results, const SweepRun& run, const Common& common) {
+Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRun& run, const Common& common) {
     SweepCount count;
     if (!self.ranks) return run_sweep(sweep, results, run, count);
     if (!self.ranks->outlive_one() && !common.quiet)
         fmt::print(stderr,
-                   "corpuscle: remark: if one rank dies mpirun will end them all (the same command goes on then); "
-                   "'mpirun --enable-recovery ...' lets the others finish\n");
+                   "corpuscle: note: if one rank dies, mpirun ends all of them (the same command then resumes the sweep); "
+                   "with 'mpirun --enable-recovery ...' the others finish\n");
     RanksLost lost;
     auto ok = lead(*self.ranks, sweep, results, run, count, lost);
     if (lost.dead > 0)
-        fmt::print(stderr, "corpuscle: warning: {} rank{} died or fell silent; the {} units that were there went to others\n", lost.dead,
+        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding; other ranks repeat {} items\n", lost.dead,
                    lost.dead == 1 ? "" : "s", lost.units);
     return ok;
 }
 
-/// What to add to an error of a run, so that the next step is plain.
+/// Adds the next step to the error of an interrupted run.
 Error with_advice(const Error& error, const SweepResults& results) {
     if (error.code != Code::interrupted) return error;
-    return {error.code, fmt::format("interrupted; {} of {} units have ended and are in {}: the same command goes on from there",
+    return {error.code, fmt::format("interrupted; {} of {} items have ended and are saved in {}; the same command resumes the sweep",
                                     results.finished(), results.units(), results.path())};
 }
 
-Result<void> lead_run(const Self& self, const Sweep& sweep, const SweepWords& words, const Common& common, const Shard& shard) {
-    auto results = SweepResults::open(results_path(words, shard), sweep);
+Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepWords& w, const Common& common, const Shard& shard) {
+    auto results = SweepResults::open(results_path(w, shard), sweep);
     if (!results) {
         if (self.ranks) dismiss(*self.ranks);
         return results.error();
     }
     const auto before = results->finished();
-    SweepRun run{.threads = self.ranks ? std::max(1U, words.threads) : words.threads, .shard = shard, .stop = interrupted};
+    SweepRun run{.threads = self.ranks ? std::max(1U, w.threads) : w.threads, .shard = shard, .stop = interrupted};
     auto done = [&] {
         Progress progress(common.quiet);
         run.seen = [&](const SweepCount& c) {
@@ -86,79 +86,80 @@ Result<void> lead_run(const Self& self, const Sweep& sweep, const SweepWords& wo
         return run_units(self, sweep, *results, run, common);
     }();
     if (const auto folded = results->fold(); !folded && !common.quiet)
-        tell_warning(fmt::format("{} is whole, but only together with the file {}-wal beside it: {}", results->path(), results->path(),
+        tell_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
                                  folded.error().sentence));
     if (!done) return with_advice(done.error(), *results);
     const auto state = state_of(*results, shard);
     if (!state) return state.error();
-    auto told = *state;
-    told.now = results->finished() - before, told.sweep = words.file;
-    tell(common, told);
-    if (results->finished() > 0 && told.lost == results->finished())
-        return Error{Code::not_converged, fmt::format("not one of {} units converged: {}", told.lost, told.reasons.front().first)};
+    auto final_state = *state;
+    final_state.now = results->finished() - before, final_state.sweep = w.file;
+    print_state(common, final_state);
+    if (results->finished() > 0 && final_state.lost == results->finished())
+        return Error{Code::not_converged,
+                     fmt::format("none of {} items converged: {}", final_state.lost, final_state.reasons.front().first)};
     return {};
 }
 
-Result<void> run(const SweepWords& words, const Common& common, Self& self) {
-    const auto shard = shard_of(words.shard);
+Result<void> run(const SweepWords& w, const Common& common, SweepProcess& self) {
+    const auto shard = shard_of(w.shard);
     if (!shard) return shard.error();
     if (Ranks::are_started()) {
         auto ranks = Ranks::join();
         if (!ranks) return ranks.error();
         if ((*ranks)->size() > 1) self.ranks = std::move(*ranks);
     }
-    auto sweep = read_sweep(words.file, {words.seed, words.units});
-    if (sweep) (*sweep)->set_lanes(words.lanes);
-    if (!self.leads()) return follow(*self.ranks, sweep, {.threads = words.threads, .stop = interrupted});
+    auto sweep = read_sweep(w.file, {w.seed, w.units});
+    if (sweep) (*sweep)->set_lanes(w.lanes);
+    if (!self.is_coordinator()) return follow(*self.ranks, sweep, {.threads = w.threads, .stop = interrupted});
     if (!sweep) {
         if (self.ranks) dismiss(*self.ranks);
         return sweep.error();
     }
-    return lead_run(self, **sweep, words, common, *shard);
+    return coordinate_run(self, **sweep, w, common, *shard);
 }
 
-Result<void> status(const SweepWords& words, const Common& common) {
-    const auto shard = shard_of(words.shard);
+Result<void> status(const SweepWords& w, const Common& common) {
+    const auto shard = shard_of(w.shard);
     if (!shard) return shard.error();
-    const auto results = SweepResults::look(results_path(words, *shard));
+    const auto results = SweepResults::look(results_path(w, *shard));
     if (!results) return results.error();
     auto state = state_of(*results, *shard);
     if (!state) return state.error();
-    state->sweep = words.file;
+    state->sweep = w.file;
     if (const auto writer = WriterLock::holder(results->path())) {
         const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
         state->writer = *writer, state->written_for = now - writer->since;
     }
-    tell(common, *state);
+    print_state(common, *state);
     return {};
 }
 
-Result<void> take_all(SweepResults& out, const std::vector<SweepResults>& in, const Common& common) {
+Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const Common& common) {
     for (const auto& from : in) {
-        if (interrupted()) return Error{Code::interrupted, "interrupted; the same command goes on"};
+        if (interrupted()) return Error{Code::interrupted, "interrupted; the same command resumes"};
         const auto added = out.take(from);
         if (!added) return added.error();
-        if (!common.json && !common.quiet) show(fmt::format("{}: {} units, {} of them new\n", from.path(), from.finished(), *added));
+        if (!common.json && !common.quiet) show(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished(), *added));
     }
     return {};
 }
 
-Result<void> merge(const SweepMergeWords& words, const Common& common) {
+Result<void> merge(const SweepMergeWords& w, const Common& common) {
     std::vector<SweepResults> in;
-    for (const auto& path : words.in) {
+    for (const auto& path : w.in) {
         auto results = SweepResults::look(path);
         if (!results) return results.error();
         in.push_back(std::move(*results));
         if (auto ok = in.back().same_sweep(in.front()); !ok) return ok;
     }
-    auto out = SweepResults::open(words.out, in.front());
+    auto out = SweepResults::open(w.out, in.front());
     if (!out) return out.error();
-    auto ok = take_all(*out, in, common);
+    auto ok = merge_all(*out, in, common);
     if (auto folded = out->fold(); ok) ok = folded;
     if (!ok) return ok;
     const auto state = state_of(*out, {});
     if (!state) return state.error();
-    tell(common, *state);
+    print_state(common, *state);
     return {};
 }
 
@@ -170,7 +171,7 @@ Result<void> dump(const std::string& path) {
         written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
         return written && !interrupted();
     });
-    if (ok && (!written || std::fflush(stdout) != 0)) return bad_input("standard output cannot be written");
+    if (ok && (!written || std::fflush(stdout) != 0)) return bad_input("cannot write to standard output");
     if (ok && interrupted()) return Error{Code::interrupted, "interrupted"};
     return ok;
 }
@@ -179,24 +180,24 @@ int status_of(const Result<void>& done) { return done ? 0 : fail(done.error()); 
 
 }  // namespace
 
-int sweep(const SweepWords& words, const Common& common) {
+int sweep(const SweepWords& w, const Common& common) {
     catch_interrupt();
-    if (words.status) return status_of(status(words, common));
-    Self self;
-    const auto done = run(words, common, self);
-    // Of several ranks the first speaks; what others have to say they have told it, unless it is gone.
-    const bool speaks = self.ranks ? self.leads() || !done : Ranks::speaks();
-    const int code = done ? 0 : speaks ? fail(done.error()) : static_cast<int>(done.error().code);
+    if (w.status) return status_of(status(w, common));
+    SweepProcess self;
+    const auto done = run(w, common, self);
+    // With several ranks the coordinator prints errors. Other ranks have sent theirs to it, unless it has died.
+    const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::speaks();
+    const int code = done ? 0 : prints_errors ? fail(done.error()) : static_cast<int>(done.error().code);
     if (self.ranks && !self.ranks->left_together()) {
         std::fflush(nullptr);
-        std::_Exit(code);  // MPI's own end would wait for the dead
+        std::_Exit(code);  // MPI_Finalize would wait for dead ranks
     }
     return code;
 }
 
-int sweep_merge(const SweepMergeWords& words, const Common& common) {
+int sweep_merge(const SweepMergeWords& w, const Common& common) {
     catch_interrupt();
-    return status_of(merge(words, common));
+    return status_of(merge(w, common));
 }
 
 int sweep_dump(const std::string& results, const Common&) {

@@ -1,4 +1,4 @@
-// corpuscle sweep calibrate: chips of one netlist, each trimmed until it fires as a model does; how many bits that takes.
+// corpuscle sweep calibrate: trims simulated chips of one netlist to match a model; prints the yield for each number of bits.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -13,67 +13,69 @@
 namespace corpuscle {
 namespace {
 
-/// What the two chips are trimmed by if nobody says.
-struct UsualTrims {
+/// The default trims of the two built-in circuits.
+struct DefaultTrims {
     const char *netlist, *model, *trims[3];
 };
-constexpr UsualTrims usual[] = {
+constexpr DefaultTrims default_trims[] = {
     {"sa1-circuit", "sa1", {"i_leak=100%", "i_biasb=25%", "summer.n3b.m=50%"}},
     {"fa1-circuit", "fa1", {"i_leak=100%", "i_biasb=25%", "rect.p1b.m+rect.n2b.m=50%"}},
 };
 
-/// "summer.n3b.m=50%": the knobs, joined by +, and the range. Columns (.m) are whole.
-Result<Trim> trim_said(const std::string& text, const ChipCalibration& asked) {
+/// Parses "rect.p1b.m+rect.n2b.m=50%": parameter names joined by +, and the range. Multipliers (.m) are integers.
+Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibration) {
     const auto equals = text.find('=');
     const auto range = equals == std::string::npos ? std::nullopt : std::optional(text.substr(equals + 1));
     char* end = nullptr;
     const double percent = range ? std::strtod(range->c_str(), &end) : 0;
     if (!range || end == range->c_str() || std::string(end) != "%" || !(percent > 0 && percent <= 1000))
-        return bad_usage(fmt::format("--trim {}: it is NAME=RANGE, such as i_leak=50%: the highest code gives half as much again", text));
+        return bad_usage(
+            fmt::format("--trim {}: write NAME=RANGE, such as i_leak=50%: the highest code increases the value by 50 %", text));
     std::vector<std::string> names;
     for (std::size_t from = 0; from < equals;) {
         const auto to = std::min(text.find('+', from), equals);
         names.push_back(text.substr(from, to - from));
         from = to + 1;
     }
-    if (names.empty() || names[0].empty()) return bad_usage(fmt::format("--trim {}: the name is missing", text));
-    const bool whole = names[0].ends_with(".m");
-    return trim_of(asked.netlist, asked.knobs, std::move(names), percent / 100, whole);
+    if (names.empty() || names[0].empty()) return bad_usage(fmt::format("--trim {}: the name before = is missing", text));
+    const bool is_integer = names[0].ends_with(".m");
+    return trim_of(calibration.netlist, calibration.knobs, std::move(names), percent / 100, is_integer);
 }
 
-/// Model, touch and limits.
-constexpr double first = 10e-3;  // s, that the first spike may be off
+constexpr double max_first_spike_error = 10e-3;  // s
 
-Result<void> aim(ChipCalibration& asked, const std::string& model, const SweepCalibrateWords& words) {
+/// Sets the stimulus, and the limits from the response of the model.
+Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateWords& words) {
     const Asked press{model, words.force, {}, 10e3};
-    const auto touch = touch_of(press);
-    if (!touch) return touch.error();
+    const auto stimulus = touch_of(press);
+    if (!stimulus) return stimulus.error();
     const auto train = train_of(press);
     if (!train) return train.error();
-    asked.force = touch->force, asked.T = touch->clock.T();
+    calibration.force = stimulus->force, calibration.T = stimulus->clock.T();
     std::vector<Stretch> phases;
     double from = 0;
-    for (const auto& p : touch->phases) {
+    for (const auto& p : stimulus->phases) {
         if (p.from > from) phases.push_back({from, p.from});
         phases.push_back({p.from, p.to}), from = p.to;
     }
-    const double end = static_cast<double>(asked.force.size()) * asked.T;
+    const double end = static_cast<double>(calibration.force.size()) * calibration.T;
     if (end > from) phases.push_back({from, end});
-    asked.limits = FiringLimits::about(*train, phases, first);
+    calibration.limits = FiringLimits::about(*train, phases, max_first_spike_error);
     return {};
 }
 
-Result<std::vector<CalibrationTold>> work(ChipCalibration& asked, const std::vector<Trim>& trims, const SweepCalibrateWords& words) {
-    const circuit::Chips drawn{static_cast<double>(words.units), words.seed};
+Result<std::vector<CalibrationTold>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
+                                                      const SweepCalibrateWords& words) {
+    const circuit::Chips sampler{static_cast<double>(words.units), words.seed};
     std::vector<circuit::Draw> chips;
-    for (std::int64_t k = 0; k < words.units; ++k) chips.push_back(drawn.draw(static_cast<std::uint64_t>(k)));
+    for (std::int64_t k = 0; k < words.units; ++k) chips.push_back(sampler.draw(static_cast<std::uint64_t>(k)));
     std::vector<std::vector<Trim>> sets = {trims};
     if (words.apart && trims.size() > 1)
         for (const auto& t : trims) sets.push_back({t});
     std::vector<CalibrationTold> out;
     for (const auto& set : sets) {
-        asked.trims = set;
-        auto done = calibrate(asked, chips);
+        calibration.trims = set;
+        auto done = calibrate(calibration, chips);
         if (!done) return done.error();
         out.push_back({set, std::move(*done)});
     }
@@ -81,35 +83,38 @@ Result<std::vector<CalibrationTold>> work(ChipCalibration& asked, const std::vec
 }
 
 Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common) {
-    const UsualTrims* known = nullptr;
-    for (const auto& u : usual)
-        if (words.netlist == u.netlist) known = &u;
+    const DefaultTrims* known = nullptr;
+    for (const auto& d : default_trims)
+        if (words.netlist == d.netlist) known = &d;
     if (!known && (words.trims.empty() || words.like.empty()))
-        return bad_usage(fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE must be said of this netlist", words.netlist));
-    if (words.units < 1 || words.units > 1'000'000) return bad_usage(fmt::format("--units {}: 1 to 1000000", words.units));
-    ChipCalibration asked;
-    asked.netlist = words.netlist, asked.bits = words.bits, asked.threads = words.threads;
-    asked.knobs = {{"corner", words.corner, "--corner " + words.corner}};
-    asked.batch.most_iterations = 60'000;
-    asked.batch.stop = interrupted;
-    if (auto ok = aim(asked, words.like.empty() ? known->model : words.like, words); !ok) return ok;
+        return bad_usage(
+            fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE are required for this netlist", words.netlist));
+    if (words.units < 1 || words.units > 1'000'000) return bad_usage(fmt::format("--units {}: must be from 1 to 1000000", words.units));
+    ChipCalibration calibration;
+    calibration.netlist = words.netlist, calibration.bits = words.bits, calibration.threads = words.threads;
+    calibration.knobs = {{"corner", words.corner, "--corner " + words.corner}};
+    calibration.batch.most_iterations = 60'000;
+    calibration.batch.stop = interrupted;
+    if (auto ok = set_target(calibration, words.like.empty() ? known->model : words.like, words); !ok) return ok;
     std::vector<Trim> trims;
     for (const auto& text :
          words.trims.empty() ? std::vector<std::string>(std::begin(known->trims), std::end(known->trims)) : words.trims) {
-        auto trim = trim_said(text, asked);
+        auto trim = parse_trim(text, calibration);
         if (!trim) return trim.error();
         trims.push_back(std::move(*trim));
     }
     auto done = [&] {
         Progress progress(common.quiet);
-        asked.told = [&](std::size_t left, std::size_t) { progress.at(1 - static_cast<double>(left) / static_cast<double>(words.units)); };
-        return work(asked, trims, words);
+        calibration.told = [&](std::size_t left, std::size_t) {
+            progress.at(1 - static_cast<double>(left) / static_cast<double>(words.units));
+        };
+        return run_calibrations(calibration, trims, words);
     }();
     if (!done) return done.error();
     if (common.json)
-        fmt::print("{}\n", document_of(asked, *done).dump(1));
+        fmt::print("{}\n", document_of(calibration, *done).dump(1));
     else
-        show(text_of(asked, *done));
+        show(text_of(calibration, *done));
     return {};
 }
 

@@ -1,4 +1,4 @@
-// corpuscle sweep show: what a file of results says.
+// corpuscle sweep show: analyses a results file.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -25,7 +25,7 @@ Result<SweepQuestion> question_of(const SweepShowWords& words) {
     if (words.quantiles.empty()) return out;
     for (const double q : words.quantiles)
         if (!(q > 0 && q < 1))
-            return bad_usage(fmt::format("--quantile {:g}: must lie between 0 and 1; 0.05 is the value that 5 % are below", q));
+            return bad_usage(fmt::format("--quantile {:g}: must be between 0 and 1; 5 % of the values are below the quantile 0.05", q));
     out.quantiles = words.quantiles;
     std::sort(out.quantiles.begin(), out.quantiles.end());
     out.quantiles.erase(std::unique(out.quantiles.begin(), out.quantiles.end()), out.quantiles.end());
@@ -43,16 +43,16 @@ Result<void> run(const SweepShowWords& words, const Common& common) {
         if (auto ok = outputs.file(words.report_file, is_own_page); !ok) return ok;
     const auto table = read_table(*results, words.measures);
     if (!table) return table.error();
-    std::optional<Drawn> drawn;
+    std::optional<Drawn> samples;
     if (const auto text = results->about(drawn_fact); !text.empty()) {
         auto read = drawn_of(text);
         if (!read) return bad_input(read.error().sentence, {words.results});
-        drawn = std::move(*read);
+        samples = std::move(*read);
     }
-    const auto summary = summary_of(*table, drawn, *question);
+    const auto summary = summary_of(*table, samples, *question);
     if (!summary) return summary.error();
-    const auto said = results->about("title");
-    const auto title = said.empty() ? std::filesystem::path(words.results).stem().string() : said;
+    const auto given_title = results->about("title");
+    const auto title = given_title.empty() ? std::filesystem::path(words.results).stem().string() : given_title;
     if (!words.report_file.empty()) {
         const auto page = sweep_page(*results, *table, *summary, title, common.command);
         if (!page) return page.error();

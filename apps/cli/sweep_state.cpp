@@ -10,7 +10,7 @@
 namespace corpuscle {
 namespace {
 
-/// Units that have ended a second, since the writer began; nothing can be said yet: 0.
+/// Finished items per second since the writer started; 0 if not yet known.
 double rate_of(const SweepState& s) {
     if (!s.writer || s.written_for < 1) return 0;
     return static_cast<double>(s.finished - s.writer->finished) / s.written_for;
@@ -21,23 +21,24 @@ double seconds_left(const SweepState& s) {
     return left / rate_of(s);
 }
 
-std::string at_work(const SweepState& s) {
-    auto text = fmt::format("At work: process {} on {}", s.writer->process, s.writer->host);
-    if (const auto rate = rate_of(s); rate > 0) text += fmt::format(", {:.3g} units a second, {} left", rate, time_text(seconds_left(s)));
+std::string writer_text(const SweepState& s) {
+    auto text = fmt::format("Running: process {} on {}", s.writer->process, s.writer->host);
+    if (const auto rate = rate_of(s); rate > 0) text += fmt::format(", {:.3g} items per second, {} left", rate, time_text(seconds_left(s)));
     return text + "\n";
 }
 
-/// How a shell is told to do it, for the next step.
+/// The command for the next step.
 std::string next_step(const SweepState& s) {
     if (s.writer) return "";
     if (s.missing() > 0)
-        return s.sweep.empty()
-                   ? ""
-                   : fmt::format("{} units are missing: 'corpuscle sweep {}' with the same words goes on\n", s.missing(), s.sweep);
+        return s.sweep.empty() ? ""
+                               : fmt::format("{} items are missing: 'corpuscle sweep {}' with the same options resumes the sweep\n",
+                                             s.missing(), s.sweep);
     if (s.shard.of > 1)
-        return fmt::format("This part is whole. When all {0} are: corpuscle sweep merge ALL.sqlite PART1.sqlite ... PART{0}.sqlite\n",
-                           s.shard.of);
-    return fmt::format("What came out: corpuscle sweep show {0}\nAll rows:      corpuscle sweep dump {0}\n", s.results);
+        return fmt::format(
+            "This part is complete. When all {0} are complete: corpuscle sweep merge ALL.sqlite PART1.sqlite ... PART{0}.sqlite\n",
+            s.shard.of);
+    return fmt::format("Analyse:  corpuscle sweep show {0}\nAll rows: corpuscle sweep dump {0}\n", s.results);
 }
 
 }  // namespace
@@ -64,14 +65,14 @@ Result<SweepState> state_of(const SweepResults& results, const Shard& shard) {
 }
 
 std::string text_of(const SweepState& s) {
-    const auto done = s.finished - s.capped - s.lost;
-    std::vector<std::vector<std::string>> rows = {{"units", "ended", "missing", "done", "capped", "lost"}, {}};
-    for (const auto n : {s.units, s.finished, s.missing(), done, s.capped, s.lost}) rows[1].push_back(fmt::format("{}", n));
-    if (s.now) rows[0].insert(rows[0].begin() + 2, "now"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.now));
+    const auto completed = s.finished - s.capped - s.lost;
+    std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"}, {}};
+    for (const auto n : {s.units, s.finished, s.missing(), completed, s.capped, s.lost}) rows[1].push_back(fmt::format("{}", n));
+    if (s.now) rows[0].insert(rows[0].begin() + 2, "this run"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.now));
     if (s.iterations > 0) rows[0].push_back("iterations"), rows[1].push_back(fmt::format("{}", s.iterations));
     auto text = table(rows);
-    for (const auto& [why, units] : s.reasons) text += fmt::format("  {} of them: {}\n", units, why);
-    if (s.writer) text += at_work(s);
+    for (const auto& [reason, items] : s.reasons) text += fmt::format("  {} of them: {}\n", items, reason);
+    if (s.writer) text += writer_text(s);
     return text + (s.now ? fmt::format("Written: {}\n", s.results) : "") + next_step(s);
 }
 
@@ -82,7 +83,7 @@ nlohmann::ordered_json document_of(const SweepState& s) {
     if (s.now) out["now"] = *s.now;
     if (s.shard.of > 1) out["shard"] = {{"part", s.shard.index + 1}, {"of", s.shard.of}};
     auto& reasons = out["reasons"] = nlohmann::ordered_json::array();
-    for (const auto& [why, units] : s.reasons) reasons.push_back({{"why", why}, {"units", units}});
+    for (const auto& [reason, items] : s.reasons) reasons.push_back({{"why", reason}, {"units", items}});
     if (!s.writer) return out;
     auto& writer = out["writer"] = {{"process", s.writer->process}, {"host", s.writer->host}};
     if (const auto rate = rate_of(s); rate > 0) writer["units_a_second"] = rate, writer["seconds_left"] = seconds_left(s);

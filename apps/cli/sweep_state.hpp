@@ -1,5 +1,5 @@
 #pragma once
-// How far a sweep is, in words.
+// The progress of a sweep, as text and JSON.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,14 +10,14 @@
 namespace corpuscle {
 
 struct SweepState {
-    std::string sweep, results;  ///< files; sweep: "" if it is not known
+    std::string sweep, results;  ///< paths; sweep: "" if unknown
     Shard shard;
-    std::int64_t units = 0;  ///< of the shard, as all below
+    std::int64_t units = 0;  ///< work items of the shard; all counts below are of the shard, too
     std::int64_t finished = 0, capped = 0, lost = 0, iterations = 0;
-    std::optional<std::int64_t> now;                            ///< finished by this run
-    std::vector<std::pair<std::string, std::int64_t>> reasons;  ///< why units were capped or lost: the most frequent
-    std::optional<WriterLock::Writer> writer;                   ///< who is at it
-    double written_for = 0;                                     ///< s
+    std::optional<std::int64_t> now;                            ///< finished during this run
+    std::vector<std::pair<std::string, std::int64_t>> reasons;  ///< the most frequent reasons why items were truncated or diverged
+    std::optional<WriterLock::Writer> writer;                   ///< the process that is writing the results
+    double written_for = 0;                                     ///< s since that process started
 
     std::int64_t missing() const { return units - finished; }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep's results say, as tables for people: yields first, then measures, then what they depend on.
+// Prints the results of a sweep as tables: yields, measures, then what they depend on.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace corpuscle {
 
-/// `quantiles`: they were asked for, and are shown with their intervals.
+/// `quantiles`: print the requested quantiles with their confidence intervals.
 std::string sweep_tables(const SweepTable&, const SweepSummary&, const std::string& title, bool quantiles);
 
 }  // namespace corpuscle

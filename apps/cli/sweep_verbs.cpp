@@ -10,9 +10,11 @@ namespace corpuscle {
 namespace {
 
 constexpr const char* sweep_examples =
-    R"(FILE is a sweep file (TOML): what varies, how, how many, what is measured and what would pass; or a netlist with .mc and .step lines.
-Results go into one SQLite file, a row a unit, NAME.sqlite for NAME.toml unless --out says another. A sweep may be stopped or killed at
-any moment: the same command goes on with what is missing. Results are the same whoever ran a unit: threads, lanes, shards or ranks.
+    R"(FILE is a sweep file (TOML) with the varied parameters, the number of samples, the measures and the
+pass limits; or a netlist with .mc and .step lines. Results go into one SQLite file with one row per
+work item (a grid point and a random sample). Its default name is NAME.sqlite for NAME.toml. A sweep
+may be interrupted or killed at any time: the same command continues with the missing items. Results
+do not depend on threads, lanes, shards or MPI ranks.
 
   afferent = "sa1-circuit"             # chips.toml
   force = "press"
@@ -22,20 +24,22 @@ any moment: the same command goes on with what is missing. Results are the same 
 
 Examples:
   corpuscle sweep chips.toml                                        on all cores of this machine
-  corpuscle sweep chips.toml --status                               how far it is, also from another window
-  corpuscle sweep show chips.sqlite --report chips.html             means, yields, which device matters
-  corpuscle sweep dump chips.sqlite > chips.csv                     every row, in order
-  corpuscle sweep chips.toml --seed 2 --units 100 -o again.sqlite   other chips, fewer
-  corpuscle sweep chips.toml --shard 1/3                            a third of it, on one of three machines (chips-1of3.sqlite) ...
-  corpuscle sweep merge chips.sqlite chips-?of3.sqlite              ... and all three together
-  mpirun --enable-recovery -n 64 corpuscle sweep chips.toml         64 processes, over machines; one that dies costs its block only
+  corpuscle sweep chips.toml --status                               progress, also while it runs
+  corpuscle sweep show chips.sqlite --report chips.html             means, yields, most influential devices
+  corpuscle sweep dump chips.sqlite > chips.csv                     all rows, in order
+  corpuscle sweep chips.toml --seed 2 --units 100 -o again.sqlite   other random chips, fewer of them
+  corpuscle sweep chips.toml --shard 1/3                            one third, on one of three machines (chips-1of3.sqlite)
+  corpuscle sweep merge chips.sqlite chips-?of3.sqlite              combine the three parts
+  mpirun --enable-recovery -n 64 corpuscle sweep chips.toml         64 MPI processes; if one dies, only its block is repeated
   sqlite3 chips.sqlite "SELECT ended, count(*) FROM units GROUP BY ended"
 
-Exit status: 0 all units have ended (those capped or lost are told), 1 bad input, 2 bad usage, 3 not one unit converged, 130 interrupted.)";
+Exit status: 0 all items have ended (truncated and diverged ones are reported), 1 bad input, 2 bad
+usage, 3 no item converged, 130 interrupted.)";
 
 constexpr const char* sweep_show_examples =
-    R"(Shares and means come with their 95 % confidence intervals: of a yield Clopper and Pearson's, of a mean Student's, of a deviation
-Bonett's (no distribution is assumed), of a quantile from one order statistic to another. doc/sweeps.md tells how they are read.
+    R"(All estimates have 95 % confidence intervals: yields by Clopper and Pearson, means by Student,
+standard deviations by Bonett (without assuming a distribution), quantiles between two order
+statistics. doc/sweeps.md explains how to read them.
 
 Examples:
   corpuscle sweep show chips.sqlite
@@ -44,60 +48,63 @@ Examples:
   corpuscle sweep show chips.sqlite --json)";
 
 CLI::App& add_sweep(CLI::App& app, SweepWords& w, SweepMergeWords& m, std::string& dumped, Common& common) {
-    auto& verb = *app.add_subcommand("sweep", "Monte Carlo, corners, any grid: many units -> one file of results");
+    auto& verb = *app.add_subcommand("sweep", "run Monte Carlo, corner and grid sweeps -> one results file");
     verb.footer(sweep_examples);
     verb.require_subcommand(0, 1);
     verb.add_option("FILE", w.file, "a sweep file (TOML), or a netlist with .mc and .step lines");
-    verb.add_option("--out,-o", w.out, "the file of results (default: FILE's name, .sqlite, in this directory)")->type_name("RESULTS");
+    verb.add_option("--out,-o", w.out, "results file (default: the name of FILE with .sqlite, in the current directory)")
+        ->type_name("RESULTS");
     verb.add_option("--threads,-j", w.threads,
-                    "how many to use (0: one for each core; under mpirun one a rank); results do not depend on it")
+                    "number of threads (0: one per core, under mpirun one per rank); results do not depend on it")
         ->check(CLI::Range(0U, 1024U))
         ->capture_default_str()
         ->type_name("N");
-    verb.add_option("--lanes", w.lanes, "how many chips go side by side on a thread; results do not depend on it")
+    verb.add_option("--lanes", w.lanes, "number of chips simulated at once per thread (SIMD); results do not depend on it")
         ->check(CLI::IsMember({1, 4, 8}))
         ->capture_default_str()
         ->type_name("1|4|8");
-    verb.add_option("--shard", w.shard, "do this part of it alone, the k-th of n: on several machines without MPI")->type_name("K/N");
-    verb.add_option("--seed", w.seed, "in place of the file's")->type_name("N");
-    verb.add_option("--units", w.units, "how many draws, in place of the file's")->check(CLI::PositiveNumber)->type_name("N");
-    verb.add_flag("--status", w.status, "how far it is: what has ended, what is missing, how fast it goes");
+    verb.add_option("--shard", w.shard, "run only part K of N, for several machines without MPI")->type_name("K/N");
+    verb.add_option("--seed", w.seed, "random seed (replaces the seed of the file)")->type_name("N");
+    verb.add_option("--units", w.units, "number of random samples (replaces the number in the file)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("N");
+    verb.add_flag("--status", w.status, "print progress: finished items, missing items, speed");
     add_common(verb, common);
 
-    auto& merge = *verb.add_subcommand("merge", "files of results of one sweep, such as its shards -> one file");
+    auto& merge = *verb.add_subcommand("merge", "combine results files of one sweep, such as its shards");
     merge.footer(
-        "Nothing is counted twice: what is there already and the same is left, what differs is named and refused.\n\n"
+        "Items that are already in OUT are not added twice. If an item differs, merge stops with an error that names it.\n\n"
         "Example:\n  corpuscle sweep merge chips.sqlite chips-1of3.sqlite chips-2of3.sqlite chips-3of3.sqlite");
-    merge.add_option("OUT", m.out, "the file that all of it goes into; made if it is not there")->required();
-    merge.add_option("IN", m.in, "files of results")->required();
+    merge.add_option("OUT", m.out, "the combined results file, created if it does not exist")->required();
+    merge.add_option("IN", m.in, "results files")->required();
     add_common(merge, common);
 
-    auto& dump = *verb.add_subcommand("dump", "every row of a file of results as CSV, in order of unit, with spikes");
+    auto& dump = *verb.add_subcommand("dump", "print all rows of a results file as CSV, in order, with spikes");
     dump.footer(
-        "The same bytes whoever made the file: with 'cmp' or 'sha256sum' two can be held against one another.\n\n"
+        "The output does not depend on how the sweep was run, so two dumps can be compared with 'cmp' or 'sha256sum'.\n\n"
         "Example:\n  corpuscle sweep dump chips.sqlite > chips.csv");
-    dump.add_option("RESULTS", dumped, "a file of results")->required();
+    dump.add_option("RESULTS", dumped, "a results file")->required();
     verb.callback([&verb, &w] {
         if (w.file.empty() && verb.get_subcommands().empty())
-            throw CLI::RequiredError("corpuscle sweep: FILE, or one of merge, show, dump, calibrate");
+            throw CLI::RequiredError("corpuscle sweep: needs FILE, or one of merge, show, dump, calibrate");
     });
     return verb;
 }
 
 void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
-    auto& verb = *sweep.add_subcommand("show", "what a file of results says: yields, distributions, which device matters");
+    auto& verb = *sweep.add_subcommand("show", "analyse a results file: yields, distributions, most influential devices");
     verb.footer(sweep_show_examples);
-    verb.add_option("RESULTS", w.results, "a file of results, also while it is written")->required();
-    verb.add_option("--by", w.by, "point by point of these axes (default: all that are listed); one that is drawn is cut into five bands")
+    verb.add_option("RESULTS", w.results, "a results file; the sweep may still be running")->required();
+    verb.add_option("--by", w.by, "group the results by these axes (default: all listed axes); random axes are divided into five bands")
         ->allow_extra_args(false)
         ->type_name("AXIS");
-    verb.add_option("--measure,-m", w.measures, "these measures alone; the limits of others are left aside")
+    verb.add_option("--measure,-m", w.measures, "analyse only these measures; limits of other measures are ignored")
         ->allow_extra_args(false)
         ->type_name("NAME");
-    verb.add_option("--quantile", w.quantiles, "quantiles to be told with their intervals, such as 0.01")
+    verb.add_option("--quantile", w.quantiles, "print this quantile with its confidence interval, such as 0.01")
         ->allow_extra_args(false)
-        ->type_name("SHARE");
-    verb.add_option("--report", w.report_file, "write a page to look at")->type_name("FILE.html")->group("Output");
+        ->type_name("FRACTION");
+    verb.add_option("--report", w.report_file, "write a report page")->type_name("FILE.html")->group("Output");
     verb.callback([&w] {
         if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
     });
@@ -106,28 +113,30 @@ void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
 }
 
 void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common) {
-    auto& verb = *sweep.add_subcommand("calibrate", "chips trimmed until they fire as a model does -> yields by the number of bits");
+    auto& verb = *sweep.add_subcommand("calibrate", "trim simulated chips to match a model -> yield for each number of trim bits");
     verb.footer(
-        "Each chip is pressed and its spikes are counted; those of a phase may be a quarter more or fewer than the model's and at least "
-        "one,\n"
-        "none before the force, the first within 10 ms. A chip beyond that is trimmed, coarse steps before fine ones, and pressed "
-        "again.\n\n"
+        "Each chip is simulated with the stimulus. It passes if the spike count of each phase differs from\n"
+        "the model's by at most a quarter (or one spike), if no spike precedes the force, and if the first\n"
+        "spike is within 10 ms of the model's. A chip that fails is trimmed, coarse steps first, and\n"
+        "simulated again.\n\n"
         "Examples:\n  corpuscle sweep calibrate sa1-circuit\n  corpuscle sweep calibrate fa1-circuit --units 200 --bits 6 --apart\n"
         "  corpuscle sweep calibrate own.cir --like sa1 --trim i_leak=50% --trim x1.m3.m+x1.m4.m=25%");
-    verb.add_option("NETLIST", w.netlist, "sa1-circuit, fa1-circuit, or a netlist that is an afferent")->required();
-    verb.add_option("--like", w.like, "the model (default: of sa1-circuit sa1, of fa1-circuit fa1)")->type_name("AFFERENT");
-    verb.add_option(
-            "--trim", w.trims,
-            "what can be set, a .param or a device's number, several joined by +, and how much more the highest code gives; columns "
-            "(.m) are whole (default: I_LEAK, I_BIASB and one gain)")
+    verb.add_option("NETLIST", w.netlist, "sa1-circuit, fa1-circuit, or a netlist with a force input and a spike output")->required();
+    verb.add_option("--like", w.like, "the model to match (default: sa1 for sa1-circuit, fa1 for fa1-circuit)")->type_name("AFFERENT");
+    verb.add_option("--trim", w.trims,
+                    "a trimmed .param or device parameter (several are joined by +) and its range: the increase at the highest code. The "
+                    "multiplier .m is trimmed in integer steps (default: I_LEAK, I_BIASB and one gain)")
         ->type_name("NAME=RANGE");
-    verb.add_option("--bits", w.bits, "of each trim, at the most")->check(CLI::Range(1, 12))->capture_default_str()->type_name("N");
-    verb.add_option("--units", w.units, "how many chips")->check(CLI::PositiveNumber)->capture_default_str()->type_name("N");
-    verb.add_option("--seed", w.seed, "of process and mismatch")->capture_default_str()->type_name("N");
-    verb.add_option("--corner", w.corner, "the section of the card, mc has the spread of the process")->capture_default_str();
+    verb.add_option("--bits", w.bits, "maximum number of bits of each trim")
+        ->check(CLI::Range(1, 12))
+        ->capture_default_str()
+        ->type_name("N");
+    verb.add_option("--units", w.units, "number of chips")->check(CLI::PositiveNumber)->capture_default_str()->type_name("N");
+    verb.add_option("--seed", w.seed, "random seed of process and mismatch")->capture_default_str()->type_name("N");
+    verb.add_option("--corner", w.corner, "process corner; mc includes process variation")->capture_default_str();
     verb.add_option("--force", w.force, "the stimulus")->capture_default_str()->type_name("STIMULUS");
-    verb.add_flag("--apart", w.apart, "each trim by itself, too");
-    verb.add_option("--threads,-j", w.threads, "how many to use (0: one for each core); results do not depend on it")
+    verb.add_flag("--apart", w.apart, "also evaluate each trim alone");
+    verb.add_option("--threads,-j", w.threads, "number of threads (0: one per core); results do not depend on it")
         ->check(CLI::Range(0U, 1024U))
         ->capture_default_str()
         ->type_name("N");
@@ -138,13 +147,13 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common
 
 void add_common(CLI::App& verb, Common& common) {
     verb.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
-    verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else there");
-    verb.add_flag("--quiet,-q", common.quiet, "print no table, no progress and no remarks; warnings stay");
+    verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else");
+    verb.add_flag("--quiet,-q", common.quiet, "do not print tables, progress and notes; warnings are still printed");
 }
 
 void add_overwrite(CLI::App& verb, Common& common) {
     verb.add_flag("--overwrite", common.overwrite,
-                  "replace output files that no earlier run wrote; files that are read are never replaced");
+                  "also replace files that were not written by an earlier run; input files are never replaced");
 }
 
 void SweepVerbs::add_to(CLI::App& app, Common& common) {

@@ -1,5 +1,5 @@
 #pragma once
-// `corpuscle sweep` and the verbs below it, as words of the command line.
+// `corpuscle sweep` and its sub-verbs: their options on the command line.
 
 #include "verbs.hpp"
 
@@ -9,7 +9,7 @@ class App;
 
 namespace corpuscle {
 
-/// What every verb has: --json, --quiet.
+/// Adds the options that every verb has: --json, --quiet.
 void add_common(CLI::App& verb, Common&);
 /// Adds --overwrite, for verbs that write complete files.
 void add_overwrite(CLI::App& verb, Common&);
@@ -24,7 +24,7 @@ class SweepVerbs {
 
 public:
     void add_to(CLI::App&, Common&);
-    /// The one that was asked for; its exit status.
+    /// Runs the requested verb; returns its exit status.
     int run(const Common&) const;
 };
 

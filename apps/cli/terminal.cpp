@@ -21,31 +21,31 @@ namespace corpuscle {
 namespace {
 
 volatile std::sig_atomic_t stop = 0;
-volatile std::sig_atomic_t stop_time = 0;  // ms: when the first signal came
+volatile std::sig_atomic_t stop_time = 0;  // ms, of the first signal
 
-/// From some moment on; it begins again after twelve days. A signal handler may call it.
+/// Milliseconds of a monotonic clock, modulo twelve days. Safe in a signal handler.
 int milliseconds() {
     timespec now = {};
     ::clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<int>((now.tv_sec % 1'000'000) * 1000 + now.tv_nsec / 1'000'000);
 }
 
-constexpr std::size_t widest_table = 100;  // columns, before its header takes several lines
+constexpr std::size_t max_table_width = 100;  // columns; wider tables get a header of several lines
 
-/// A number, or a mean with its deviation: "9.4 +- 1.1".
+/// True for a number, or a mean with its standard deviation: "9.4 +- 1.1".
 bool is_number(std::string_view cell) {
     if (const auto sign = cell.find(" +- "); sign != cell.npos) return is_number(cell.substr(0, sign)) && is_number(cell.substr(sign + 4));
     return !cell.empty() && cell.find_first_not_of("0123456789.-+e") == std::string::npos;
 }
 
-/// How many columns a UTF-8 text takes, one a character.
+/// The width of a UTF-8 text in columns, one per character.
 std::size_t width(const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-/// The words of a heading, and the parts of those with a hyphen: "Victor-", "Purpura".
-std::vector<std::string> pieces_of(const std::string& heading) {
+/// Splits a heading at blanks and hyphens: "Victor-", "Purpura".
+std::vector<std::string> split_heading(const std::string& heading) {
     std::vector<std::string> out;
     std::istringstream words(heading);
     for (std::string word; words >> word;) {
@@ -58,21 +58,21 @@ std::vector<std::string> pieces_of(const std::string& heading) {
     return out;
 }
 
-/// The header of a table too wide for a terminal on several lines, a word on each where the column is narrow; gives how many.
-std::size_t narrow_header(std::vector<std::vector<std::string>>& rows) {
+/// Breaks the header of a table that is too wide into several lines. Returns the number of header lines.
+std::size_t wrap_header(std::vector<std::vector<std::string>>& rows) {
     if (rows.size() < 2) return 1;
     std::vector<std::size_t> widths(rows[0].size());
-    std::size_t all = 0;
+    std::size_t total = 0;
     for (std::size_t c = 0; c < rows[0].size(); ++c) {
         for (std::size_t r = 1; r < rows.size(); ++r)
             if (c < rows[r].size()) widths[c] = std::max(widths[c], width(rows[r][c]));
-        all += std::max(widths[c], width(rows[0][c])) + (c ? 2 : 0);
+        total += std::max(widths[c], width(rows[0][c])) + (c ? 2 : 0);
     }
-    if (all <= widest_table) return 1;
+    if (total <= max_table_width) return 1;
     std::vector<std::vector<std::string>> lines;
     for (std::size_t c = 0; c < rows[0].size(); ++c) {
         std::vector<std::string> parts;
-        for (const auto& word : pieces_of(rows[0][c])) {
+        for (const auto& word : split_heading(rows[0][c])) {
             const bool joined = !parts.empty() && parts.back().ends_with('-');
             if (!parts.empty() && width(parts.back()) + (joined ? 0 : 1) + width(word) <= widths[c])
                 parts.back() += (joined ? "" : " ") + word;
@@ -87,48 +87,48 @@ std::size_t narrow_header(std::vector<std::vector<std::string>>& rows) {
     return std::max<std::size_t>(lines.size(), 1);
 }
 
-/// The columns of a table in blocks that fit a terminal, one below the other; each begins with the words that name its rows.
+/// Splits the columns of a table into blocks that fit a terminal. Each block begins with the text columns that name the rows.
 std::vector<std::vector<std::size_t>> blocks_of(const std::vector<std::size_t>& widths, const std::vector<bool>& numeric) {
-    const auto all_of = [](std::size_t from, std::size_t to) {
+    const auto indices = [](std::size_t from, std::size_t to) {
         std::vector<std::size_t> out(to - from);
         std::iota(out.begin(), out.end(), from);
         return out;
     };
     const auto sum = [&](std::size_t from, std::size_t to) {
         return std::accumulate(widths.begin() + static_cast<std::ptrdiff_t>(from), widths.begin() + static_cast<std::ptrdiff_t>(to),
-                               std::size_t{0}, [](std::size_t all, std::size_t w) { return all + w + 2; });
+                               std::size_t{0}, [](std::size_t total, std::size_t w) { return total + w + 2; });
     };
     const auto names = static_cast<std::size_t>(std::find(numeric.begin(), numeric.end(), true) - numeric.begin());
-    if (sum(0, widths.size()) <= widest_table + 2 || sum(0, names) > widest_table / 2) return {all_of(0, widths.size())};
+    if (sum(0, widths.size()) <= max_table_width + 2 || sum(0, names) > max_table_width / 2) return {indices(0, widths.size())};
     std::vector<std::vector<std::size_t>> blocks;
     for (std::size_t c = names; c < widths.size();) {
         auto end = c + 1;
-        while (end < widths.size() && sum(0, names) + sum(c, end + 1) <= widest_table + 2) ++end;
-        auto block = all_of(0, names);
+        while (end < widths.size() && sum(0, names) + sum(c, end + 1) <= max_table_width + 2) ++end;
+        auto block = indices(0, names);
         for (; c < end; ++c) block.push_back(c);
         blocks.push_back(std::move(block));
     }
     return blocks;
 }
 
-/// "out/x.csv" -> "x.csv"; "1/4" and "5mV/K" are no files.
-std::string base_name(const std::string& piece) {
-    if (piece.find('/') == std::string::npos) return piece;
-    const std::filesystem::path path(piece);
+/// "out/x.csv" -> "x.csv". Text that is not a path, such as "1/4" and "5mV/K", is returned unchanged.
+std::string base_name(const std::string& part) {
+    if (part.find('/') == std::string::npos) return part;
+    const std::filesystem::path path(part);
     std::error_code status;
     const auto name = path.has_filename() ? path.filename() : path.parent_path().filename();
-    const bool is_file = path.has_extension() || piece.starts_with('/') || piece.starts_with('.') || piece.starts_with('~') ||
-                         std::filesystem::exists(path, status) || !std::isdigit(static_cast<unsigned char>(piece[0]));
-    return is_file && !name.empty() ? name.string() : piece;
+    const bool is_file = path.has_extension() || part.starts_with('/') || part.starts_with('.') || part.starts_with('~') ||
+                         std::filesystem::exists(path, status) || !std::isdigit(static_cast<unsigned char>(part[0]));
+    return is_file && !name.empty() ? name.string() : part;
 }
 
-/// Of a word: "--layout=/home/me/pad.csv", "sa1,/home/me/x.cir".
-std::string without_directories(const std::string& word) {
+/// Removes directories from all paths in an argument such as "--layout=/home/me/pad.csv" or "sa1,/home/me/x.cir".
+std::string without_directories(const std::string& argument) {
     std::string out;
-    for (std::size_t at = 0; at <= word.size();) {
-        const auto end = std::min(word.find_first_of("=,", at), word.size());
-        out += base_name(word.substr(at, end - at));
-        if (end < word.size()) out += word[end];
+    for (std::size_t at = 0; at <= argument.size();) {
+        const auto end = std::min(argument.find_first_of("=,", at), argument.size());
+        out += base_name(argument.substr(at, end - at));
+        if (end < argument.size()) out += argument[end];
         at = end + 1;
     }
     return out;
@@ -136,13 +136,13 @@ std::string without_directories(const std::string& word) {
 
 }  // namespace
 
-void tell(const std::string& sentence) { fmt::print(stderr, "corpuscle: {}\n", printable(sentence)); }
-void tell_warning(const std::string& sentence) { tell("warning: " + sentence); }
+void tell(const std::string& message) { fmt::print(stderr, "corpuscle: {}\n", printable(message)); }
+void tell_warning(const std::string& message) { tell("warning: " + message); }
 void show(const std::string& text) { fmt::print("{}", printable_lines(text)); }
 
 Result<void> finish_output() {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return {};
-    return bad_input(fmt::format("standard output cannot be written to the end: {}", std::strerror(errno)));
+    return bad_input(fmt::format("cannot write all of standard output: {}", std::strerror(errno)));
 }
 
 int fail(const Error& error) {
@@ -151,18 +151,18 @@ int fail(const Error& error) {
 }
 
 void catch_interrupt() {
-    struct sigaction action = {};  // without SA_RESTART: a call that waits ends
-    // 'timeout', terminals and launchers signal the program and then its group: the second of two at once asks for nothing new.
+    struct sigaction action = {};  // without SA_RESTART, so that blocked calls end
+    // 'timeout', terminals and launchers signal the program and then its process group. Two signals within 500 ms count as one.
     action.sa_handler = [](int) {
-        constexpr int at_once = 500;  // ms
+        constexpr int same_signal = 500;  // ms
         const int now = milliseconds();
-        if (stop && (now - stop_time < 0 || now - stop_time > at_once)) std::_Exit(130);
+        if (stop && (now - stop_time < 0 || now - stop_time > same_signal)) std::_Exit(130);
         if (!stop) stop_time = now;
         stop = 1;
     };
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
     set_interruption(interrupted);
-    std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early (| head) is an error of writing, told as such
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe (| head) is then reported as a write error
 }
 
 bool interrupted() { return stop != 0; }
@@ -174,11 +174,11 @@ std::string time_text(double seconds) {
                       : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
 }
 
-std::string table(const std::vector<std::vector<std::string>>& given) {
-    auto rows = given;
+std::string table(const std::vector<std::vector<std::string>>& raw_rows) {
+    auto rows = raw_rows;
     for (auto& row : rows)
         for (auto& cell : row) cell = printable(cell);
-    const auto headers = narrow_header(rows);
+    const auto headers = wrap_header(rows);
     std::vector<std::size_t> widths;
     std::vector<bool> numeric;
     for (std::size_t r = 0; r < rows.size(); ++r)
@@ -210,16 +210,16 @@ Progress::~Progress() {
     if (drawn_) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::at(double share) {
+void Progress::at(double fraction) {
     if (!shown_) return;
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     if (elapsed < 1 || (drawn_ && now - last_ < std::chrono::milliseconds(100))) return;
     last_ = now;
     drawn_ = true;
-    const auto full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * 32);
-    const auto left = share > 0 ? time_text(elapsed / share - elapsed) + " left" : std::string("...");
-    fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '='), std::string(32 - full, ' '), 100 * share, left);
+    const auto full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * 32);
+    const auto left = fraction > 0 ? time_text(elapsed / fraction - elapsed) + " left" : std::string("...");
+    fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '='), std::string(32 - full, ' '), 100 * fraction, left);
     std::fflush(stderr);
 }
 
@@ -227,13 +227,13 @@ std::string quoted(int argc, const char* const* argv) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     std::string text = "corpuscle";
     for (int k = 1; k < argc; ++k) {
-        const auto word = without_directories(argv[k]);
-        if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
-            text += " " + word;
+        const auto argument = without_directories(argv[k]);
+        if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) {
+            text += " " + argument;
             continue;
         }
         text += " '";
-        for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+        for (const char c : argument) text += c == '\'' ? "'\\''" : std::string(1, c);
         text += "'";
     }
     return text;

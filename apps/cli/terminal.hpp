@@ -1,5 +1,5 @@
 #pragma once
-// What people see of a run: tables, progress, errors; and their Ctrl-C.
+// Terminal input and output: messages, tables, a progress bar, and Ctrl-C.
 
 #include <chrono>
 #include <string>
@@ -9,30 +9,30 @@
 
 namespace corpuscle {
 
-/// Prints the error on standard error; gives the exit status it stands for.
+/// Prints the error on standard error and returns its exit status.
 int fail(const Error&);
 
-/// One line on standard error: "corpuscle: ...", "corpuscle: warning: ...". Control characters are escaped.
-void tell(const std::string& sentence);
-void tell_warning(const std::string& sentence);
+/// Prints one line on standard error: "corpuscle: ...", "corpuscle: warning: ...". Control characters are escaped.
+void tell(const std::string& message);
+void tell_warning(const std::string& message);
 
-/// Text of several lines on standard output. Control characters are escaped.
+/// Prints text of several lines on standard output. Control characters are escaped.
 void show(const std::string& text);
 
-/// What was printed has reached standard output, or the error that says why not.
+/// Flushes standard output. Returns an error if some of the text could not be written.
 Result<void> finish_output();
 
-/// From now on the first Ctrl-C only sets a flag, and ends a read that waits; the second ends the program.
+/// Installs the signal handlers. The first Ctrl-C sets a flag and ends a blocked read; the second ends the program.
 void catch_interrupt();
 bool interrupted();
 
 /// "12 s", "3:05 min", "2:10 h".
 std::string time_text(double seconds);
 
-/// Columns padded to their widest cell; numbers to the right, words to the left.
+/// Formats rows as a table: columns padded to their widest cell, numbers aligned right, text left.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
-/// A bar with the time left, on standard error, only to a terminal and only for what takes longer than a second.
+/// A progress bar with the remaining time on standard error. It appears only on a terminal and after one second.
 class Progress {
     using Clock = std::chrono::steady_clock;
     bool shown_;
@@ -42,10 +42,11 @@ class Progress {
 public:
     explicit Progress(bool quiet);
     ~Progress();
-    void at(double share);
+    /// `fraction`: 0 to 1.
+    void at(double fraction);
 };
 
-/// The words of a command line as a shell would need them, files by their names alone: a page that is given away tells no directories.
+/// The command line quoted for a shell. Files appear without their directories, so that a published page does not reveal them.
 std::string quoted(int argc, const char* const* argv);
 
 }  // namespace corpuscle

@@ -1,5 +1,6 @@
 #pragma once
-// What each verb is asked for, as typed; main.cpp fills these in, a file a verb does the work and gives the exit status.
+// The command-line arguments of each verb as typed. main.cpp fills these structures; one file per verb does the work and returns the
+// exit status.
 
 #include <cstdint>
 #include <optional>
@@ -8,7 +9,7 @@
 
 namespace corpuscle {
 
-/// An option as it was typed, by its long name.
+/// An option as typed, under its long name.
 struct TypedOption {
     std::string name;
     std::vector<std::string> values;
@@ -17,17 +18,17 @@ struct TypedOption {
 struct Common {
     bool json = false, quiet = false;
     bool overwrite = false;               ///< replace files that no earlier run wrote
-    std::string command;                  ///< as it was typed, for the report
+    std::string command;                  ///< as typed, for the report page
     std::vector<TypedOption> typed = {};  ///< the verb's options, in the order of --help
 };
 
-/// What is set of every netlist that takes part, and shown of it.
+/// Overrides and probes, which apply to every netlist of the run.
 struct NetlistWords {
     std::optional<std::string> supply, temp, corner, mismatch;
     std::vector<std::string> traces;
 };
 
-/// How a recording is to be read; recording_options() makes the reader's options of it.
+/// How to read a recording; recording_options() converts this to options of the reader.
 struct RecordingWords {
     std::vector<std::string> channels, notch;
     std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
@@ -44,16 +45,16 @@ struct RespondWords : RecordingWords {
     std::string method = "exact";
     bool sampled = false, traces = false, vectors = false, report = false, npz = false, wav = false;
     std::string out, report_file;
-    std::string population, contact, events, checkpoint;  ///< of a skin; "": not said
+    std::string population, contact, events, checkpoint;  ///< of a skin; "": not given
     std::uint64_t seed = 0;
-    std::uint32_t copies = 0;   ///< 0: not asked for
-    std::uint32_t threads = 0;  ///< 0: as many as there are cores
+    std::uint32_t copies = 0;   ///< 0: not given
+    std::uint32_t threads = 0;  ///< 0: one per core
     bool in_float = false;
 };
 
 struct CompareWords {
     std::vector<std::string> files, pairs;
-    std::optional<std::string> time, unit;  ///< columns of tables of spikes
+    std::optional<std::string> time, unit;  ///< columns of the spike tables
     bool by_order = false;
     std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
@@ -79,7 +80,7 @@ struct SweepWords {
     std::optional<std::uint64_t> seed;
     std::optional<std::int64_t> units;
     std::size_t lanes = 8;
-    std::uint32_t threads = 0;  ///< 0: as many as there are cores; of ranks: one each
+    std::uint32_t threads = 0;  ///< 0: one per core, or one per MPI rank
     bool status = false;
 };
 
@@ -113,15 +114,15 @@ struct StreamWords : RecordingWords {
     std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M", idle = "10s";
     std::string out = "-", to, format = "lines", save, resume;
     std::size_t count = 1;     ///< channels
-    std::size_t together = 1;  ///< frames
-    std::int64_t clients = 0;  ///< 0: without end
+    std::size_t together = 1;  ///< frames per batch
+    std::int64_t clients = 0;  ///< 0: unlimited
     long baud = 115200;
     bool sampled = false, spin = false, allow_drops = false;
 };
 
 struct ListWords {
     std::vector<std::string> what;
-    bool sites = false;  ///< of populations
+    bool sites = false;  ///< list the sites of a population
 };
 
 int respond(const RespondWords&, const Common&);

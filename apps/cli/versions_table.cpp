@@ -1,4 +1,4 @@
-// Below the rates of corpuscle respond: versions of one receptor, held against the first.
+// The table below the rates of corpuscle respond: implementations of one receptor, compared with the first.
 
 #include "versions_table.hpp"
 
@@ -10,18 +10,18 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t most_rows = 30;
-constexpr std::size_t most_rows_in_full = 8;  // silence is shown up to here
+constexpr std::size_t max_rows = 30;
+constexpr std::size_t max_rows_with_silent = 8;  // longer tables omit pairs without spikes
 
-/// "0 5 8 1 0", phase by phase.
-std::string by_phase(const Comparison& c, std::size_t Comparison::Count::* which) {
+/// The counts of all phases: "0 5 8 1 0".
+std::string by_phase(const Comparison& c, std::size_t Comparison::Count::*count) {
     std::string text;
-    for (const auto& p : c.phases) text += fmt::format("{}{}", text.empty() ? "" : " ", p.*which);
+    for (const auto& p : c.phases) text += fmt::format("{}{}", text.empty() ? "" : " ", p.*count);
     return text.empty() ? "-" : text;
 }
 
 std::vector<std::string> line_of(const Comparison& c) {
-    const auto shown = [](double x, const char* how) { return std::isnan(x) ? std::string("-") : fmt::format(fmt::runtime(how), x); };
+    const auto shown = [](double x, const char* format) { return std::isnan(x) ? std::string("-") : fmt::format(fmt::runtime(format), x); };
     return {c.afferent,
             c.channel,
             fmt::format("{}", c.all.spikes),
@@ -33,7 +33,7 @@ std::vector<std::string> line_of(const Comparison& c) {
             shown(c.van_rossum, "{:.2f}")};
 }
 
-/// What the lines after it are held against.
+/// The reference that the following lines are compared with.
 std::vector<std::string> reference_line(const Comparison& c) {
     return {c.reference, c.channel, fmt::format("{}", c.all.in_reference), by_phase(c, &Comparison::Count::in_reference)};
 }
@@ -42,28 +42,28 @@ std::vector<std::string> reference_line(const Comparison& c) {
 
 std::string versions_table(const Comparisons& comparisons) {
     std::vector<std::vector<std::string>> rows = {
-        {"version", "channel", "spikes", "by phase", "differ (%)", "matched", "shift (ms)", "Victor-Purpura", "van Rossum"}};
+        {"implementation", "channel", "spikes", "by phase", "change (%)", "matched", "shift (ms)", "Victor-Purpura", "van Rossum"}};
     const auto& all = comparisons.rows();
-    std::size_t more = 0, silent = 0;
-    const Comparison* last = nullptr;  // whose reference has its line
+    std::size_t omitted = 0, silent = 0;
+    const Comparison* last = nullptr;  // the last printed; its reference has been printed, too
     for (const auto& c : all) {
-        if (c.all.spikes + c.all.in_reference == 0 && all.size() > most_rows_in_full) {
+        if (c.all.spikes + c.all.in_reference == 0 && all.size() > max_rows_with_silent) {
             ++silent;
             continue;
         }
-        if (rows.size() > most_rows && ++more) continue;
+        if (rows.size() > max_rows && ++omitted) continue;
         if (!last || last->reference != c.reference || last->channel != c.channel) rows.push_back(reference_line(c));
         rows.push_back(line_of(c));
         last = &c;
     }
     if (rows.size() == 1) return "";
     auto text = "\n" + table(rows);
-    if (more > 0) text += fmt::format("... and {} rows more; --out writes them all to summary.json\n", more);
-    if (silent > 0) text += fmt::format("Silent both, and not shown: {}.\n", silent);
-    return text +
-           fmt::format(
-               "Against the first of each; matched within {}, shift their median; Victor-Purpura at {:g} a second; van Rossum with {}.\n",
-               format_quantity(2 / Comparisons::cost, "s"), Comparisons::cost, format_quantity(Comparisons::tau, "s"));
+    if (omitted > 0) text += fmt::format("... and {} more rows; --out writes all of them to summary.json\n", omitted);
+    if (silent > 0) text += fmt::format("Not shown: {} pairs without spikes.\n", silent);
+    return text + fmt::format(
+                      "Compared with the first implementation of each receptor. Spikes within {} match; shift: median of matched spikes.\n"
+                      "Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
+                      format_quantity(2 / Comparisons::cost, "s"), Comparisons::cost, format_quantity(Comparisons::tau, "s"));
 }
 
 }  // namespace corpuscle

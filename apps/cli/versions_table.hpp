@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// How the versions of one receptor differ, a line each; empty if nobody has two.
+/// A table of the differences between the implementations of one receptor. Empty if no receptor has two.
 std::string versions_table(const Comparisons&);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// Words that several verbs take, or that make a group of their own.
+// Groups of options, several of which are shared between verbs.
 
 #include "verbs.hpp"
 
@@ -9,14 +9,14 @@ class App;
 
 namespace corpuscle {
 
-/// The error of a page whose name is none.
+/// The error of a report page whose name does not end in .html.
 std::string page_name_needed(const std::string& name);
 
-/// The error of a force that stands where a page's name may.
+/// The error of a force in the place of a report page's name, with the command that works.
 std::string force_behind_report(const std::string& name, std::vector<std::string> forces);
 
 void add_netlist_words(CLI::App&, NetlistWords&);
-/// How a recording is to be read, but for --rate, which means other things besides.
+/// All recording options but --rate, which has further meanings.
 void add_recording_words(CLI::App&, RecordingWords&);
 void add_skin_words(CLI::App&, RespondWords&);
 

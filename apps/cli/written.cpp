@@ -52,10 +52,10 @@ Result<void> check_outputs(const std::string& directory, std::vector<std::string
 }
 
 std::string told_of(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {
-    if (paths.empty()) return "Nothing was written: --out DIR keeps the spikes, --report makes a page to look at.\n";
-    const auto gone =
-        removed.empty() ? "" : fmt::format("Removed, of an earlier run: {}\n", printable(fmt::format("{}", fmt::join(removed, ", "))));
-    return fmt::format("Written: {}\n{}", printable(fmt::format("{}", fmt::join(paths, ", "))), gone);
+    if (paths.empty()) return "Nothing was written: --out DIR writes the spikes, --report writes a report page.\n";
+    const auto removed_text =
+        removed.empty() ? "" : fmt::format("Removed files of an earlier run: {}\n", printable(fmt::format("{}", fmt::join(removed, ", "))));
+    return fmt::format("Written: {}\n{}", printable(fmt::format("{}", fmt::join(paths, ", "))), removed_text);
 }
 
 }  // namespace corpuscle

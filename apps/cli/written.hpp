@@ -1,5 +1,5 @@
 #pragma once
-// What a run has written, told.
+// Writes output files, and reports which were written.
 
 #include <optional>
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace corpuscle {
 
-/// All of a file at once, and in its place.
+/// Writes a complete file and renames it to its final name.
 Result<void> put_whole(OutputFile&, const std::string& text);
 Result<void> write_whole(const std::string& path, const std::string& text);
 
-/// Of some paths, the names of those that stand in this very directory.
+/// The file names of those paths that are directly in this directory.
 std::vector<std::string> names_in(const std::string& directory, const std::vector<std::string>& paths);
 
-/// Where the page of this run goes; none: no page is asked for.
+/// The path of the report page of this run, if one was requested.
 std::optional<std::string> page_of(const RespondWords&);
 
-/// Names in a directory ("": none), a page there or elsewhere, a checkpoint ("": none): whether each may be written.
+/// Checks that each output may be written: files of a directory ("": none), a page, a checkpoint ("": none).
 Result<void> check_outputs(const std::string& directory, std::vector<std::string> names, const std::optional<std::string>& page,
                            const std::string& checkpoint, OutputCheck&);
 
-/// "Written: a, b" and what of an earlier run is gone; or that nothing was.
+/// "Written: a, b", and the files of an earlier run that were removed; or that nothing was written.
 std::string told_of(const std::vector<std::string>& paths, const std::vector<std::string>& removed);
 
 }  // namespace corpuscle

@@ -17,7 +17,7 @@
 namespace corpuscle {
 namespace {
 
-/// Bytes of addresses in use: a limit below that would forbid everything.
+/// The address space in use, bytes. A limit below it would make every allocation fail.
 std::uint64_t addresses_in_use() {
     unsigned long long pages = 0;
     if (std::FILE* f = std::fopen("/proc/self/statm", "r")) {
@@ -27,17 +27,18 @@ std::uint64_t addresses_in_use() {
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void lower(__rlimit_resource what, std::uint64_t to) {
+/// Lowers a resource limit; never raises it.
+void lower(__rlimit_resource resource, std::uint64_t limit) {
     rlimit now{};
-    if (::getrlimit(what, &now) != 0) return;
-    const rlimit lowered{std::min<rlim_t>(now.rlim_cur, to), std::min<rlim_t>(now.rlim_max, to)};
-    (void)::setrlimit(what, &lowered);
+    if (::getrlimit(resource, &now) != 0) return;
+    const rlimit lowered{std::min<rlim_t>(now.rlim_cur, limit), std::min<rlim_t>(now.rlim_max, limit)};
+    (void)::setrlimit(resource, &lowered);
 }
 
-/// No path can be opened, made or removed: all that the first version of Landlock handles, and no exception.
+/// Forbids opening, creating and removing any path: all rights of Landlock ABI 1, without exceptions.
 void close_file_system() {
     landlock_ruleset_attr nothing{};
-    nothing.handled_access_fs = LANDLOCK_ACCESS_FS_MAKE_SYM * 2 - 1;  // its thirteen rights are the lowest bits
+    nothing.handled_access_fs = LANDLOCK_ACCESS_FS_MAKE_SYM * 2 - 1;  // the 13 rights of ABI 1 are the lowest bits
     const long rules = ::syscall(SYS_landlock_create_ruleset, &nothing, sizeof nothing.handled_access_fs, 0);
     if (rules < 0) return;
     (void)::syscall(SYS_landlock_restrict_self, rules, 0);
@@ -54,8 +55,8 @@ constexpr std::uint32_t architecture = AUDIT_ARCH_RISCV64;
 constexpr std::uint32_t architecture = 0;
 #endif
 
-/// Memory, the two descriptors, time and its own end; any other call fails with EPERM. newfstatat is what fstat calls; with a path it can
-/// tell whether a file exists, and its size.
+/// Calls for memory, the two descriptors, time and exit. Any other call fails with EPERM. fstat uses newfstatat; called with a path it can
+/// reveal whether a file exists, and its size.
 constexpr long allowed[] = {SYS_read,       SYS_pread64,      SYS_readv,          SYS_write,        SYS_writev,      SYS_lseek,
                             SYS_close,      SYS_fstat,        SYS_sendto,         SYS_recvfrom,
 #ifdef SYS_newfstatat
@@ -75,33 +76,33 @@ constexpr long allowed[] = {SYS_read,       SYS_pread64,      SYS_readv,        
 void forbid_system_calls() {
     if (architecture == 0) return;
     const auto load = [](std::size_t offset) { return sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)); };
-    const auto give = [](std::uint32_t what) { return sock_filter BPF_STMT(BPF_RET | BPF_K, what); };
-    const std::uint32_t refused = SECCOMP_RET_ERRNO | EPERM;
+    const auto finish = [](std::uint32_t action) { return sock_filter BPF_STMT(BPF_RET | BPF_K, action); };
+    const std::uint32_t denied = SECCOMP_RET_ERRNO | EPERM;
     std::vector<sock_filter> program = {load(offsetof(seccomp_data, arch)),
-                                        sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0), give(refused),
+                                        sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0), finish(denied),
                                         load(offsetof(seccomp_data, nr))};
     for (const long call : allowed) {
         program.push_back(sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 1));
-        program.push_back(give(SECCOMP_RET_ALLOW));
+        program.push_back(finish(SECCOMP_RET_ALLOW));
     }
-    const auto self = static_cast<std::uint32_t>(::getpid());  // abort() signals the own process, and no other can be
+    const auto self = static_cast<std::uint32_t>(::getpid());  // abort() signals this process; signals to others are denied
     program.insert(program.end(),
                    {sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t{SYS_tgkill}, 0, 3), load(offsetof(seccomp_data, args)),
-                    sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, self, 0, 1), give(SECCOMP_RET_ALLOW), give(refused)});
+                    sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, self, 0, 1), finish(SECCOMP_RET_ALLOW), finish(denied)});
     const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
     (void)::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter);
 }
 
 }  // namespace
 
-void confine(int last, std::uint64_t memory) {
+void confine(int last_descriptor, std::uint64_t memory) {
     lower(RLIMIT_AS, addresses_in_use() + memory);
     lower(RLIMIT_CORE, 0);
     lower(RLIMIT_FSIZE, 0);
     (void)::prctl(PR_SET_DUMPABLE, 0);
     (void)::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     close_file_system();
-    lower(RLIMIT_NOFILE, static_cast<std::uint64_t>(last) + 1);
+    lower(RLIMIT_NOFILE, static_cast<std::uint64_t>(last_descriptor) + 1);
     forbid_system_calls();
 }
 

@@ -12,7 +12,7 @@
 namespace corpuscle::hdf5 {
 namespace {
 
-int opened = -1;  // H5FDregister takes functions, which get no context
+int file_descriptor = -1;  // a global, because the functions of a driver get no context
 
 struct DescriptorFile : H5FD_t {
     int descriptor = -1;
@@ -21,10 +21,10 @@ struct DescriptorFile : H5FD_t {
 
 H5FD_t* open_descriptor(const char* name, unsigned flags, hid_t, haddr_t) {
     struct stat about{};
-    if (std::strcmp(name, the_file) != 0 || (flags & H5F_ACC_RDWR) || ::fstat(opened, &about) != 0) return nullptr;
+    if (std::strcmp(name, the_file) != 0 || (flags & H5F_ACC_RDWR) || ::fstat(file_descriptor, &about) != 0) return nullptr;
     auto* file = new (std::nothrow) DescriptorFile{};
     if (!file) return nullptr;
-    file->descriptor = opened;
+    file->descriptor = file_descriptor;
     file->end = static_cast<haddr_t>(about.st_size);
     return file;
 }
@@ -47,27 +47,27 @@ haddr_t file_end(const H5FD_t* file, H5FD_mem_t) { return static_cast<const Desc
 herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, size_t size, void* out) {
     auto* to = static_cast<char*>(out);
     while (size > 0) {
-        const auto got = ::pread(static_cast<DescriptorFile*>(file)->descriptor, to, size, static_cast<off_t>(at));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return -1;
-        if (got == 0) return std::memset(to, 0, size), 0;  // as HDF5's own driver: a file may end before what it has allocated
-        to += got, at += static_cast<haddr_t>(got), size -= static_cast<size_t>(got);
+        const auto count = ::pread(static_cast<DescriptorFile*>(file)->descriptor, to, size, static_cast<off_t>(at));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return -1;
+        if (count == 0) return std::memset(to, 0, size), 0;  // like HDF5's own driver: a file may end before its allocated size
+        to += count, at += static_cast<haddr_t>(count), size -= static_cast<size_t>(count);
     }
     return 0;
 }
 
 herr_t write(H5FD_t*, H5FD_mem_t, hid_t, haddr_t, size_t, const void*) { return -1; }
 
-/// Registered once; versions of HDF5 differ in the fields that are not set.
+/// Registers the driver once. Fields that are not set differ between versions of HDF5.
 hid_t driver() {
     static const hid_t registered = [] {
         static H5FD_class_t methods{};
 #ifdef H5FD_CLASS_VERSION
         methods.version = H5FD_CLASS_VERSION;
-        methods.value = 512;  // the first that is free for drivers of others
+        methods.value = 512;  // the first value for third-party drivers
 #endif
         methods.name = "corpuscle descriptor";
-        methods.maxaddr = HADDR_MAX >> 1;  // of off_t
+        methods.maxaddr = HADDR_MAX >> 1;  // the maximum of off_t
         methods.fc_degree = H5F_CLOSE_WEAK;
         methods.open = open_descriptor;
         methods.close = close_descriptor;
@@ -87,7 +87,7 @@ hid_t driver() {
 }  // namespace
 
 hid_t access_to(int descriptor) {
-    opened = descriptor;
+    file_descriptor = descriptor;
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     if (access >= 0 && H5Pset_driver(access, driver(), nullptr) < 0) {
         H5Pclose(access);

@@ -1,13 +1,13 @@
 #pragma once
-// HDF5's access to the one open file of the helper program: whatever other name the library is given by a file, it cannot be opened.
+// HDF5 file driver for the one open descriptor of the helper program. Other files that an HDF5 file names cannot be opened.
 
 #include <hdf5.h>
 
 namespace corpuscle::hdf5 {
 
-inline constexpr const char* the_file = "file";  ///< the only name that opens
+inline constexpr const char* the_file = "file";  ///< the only name that can be opened
 
-/// A property list for H5Fopen that reads the descriptor; below zero on failure. The caller closes it.
+/// A property list for H5Fopen that reads the descriptor; negative on failure. The caller closes it.
 hid_t access_to(int descriptor);
 
 }  // namespace corpuscle::hdf5

@@ -11,8 +11,8 @@
 namespace corpuscle::hdf5 {
 namespace {
 
-constexpr std::size_t most_datasets = 10000;  // looked at, in a file that has more
-constexpr std::size_t most_words = 1 << 20;
+constexpr std::size_t max_datasets = 10000;  // further datasets are ignored
+constexpr std::size_t max_text = 1 << 20;    // characters, or strings, of one attribute
 
 Id space_of(hid_t dataset) { return {H5Dget_space(dataset), H5Sclose}; }
 
@@ -20,32 +20,32 @@ Id attribute_of(hid_t object, const std::string& name) {
     return H5Aexists(object, name.c_str()) > 0 ? Id(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose) : Id();
 }
 
-/// Text up to its first zero, without the blanks that may fill it up.
-std::string cut(std::string s) {
+/// Text up to its first zero, without trailing blanks.
+std::string trimmed(std::string s) {
     s.resize(std::min(s.find('\0'), s.size()));
     return s.substr(0, s.find_last_not_of(' ') + 1);
 }
 
-std::vector<std::string> words_of_any_length(hid_t attribute, hid_t type, hid_t space, std::size_t count) {
+std::vector<std::string> variable_length_strings(hid_t attribute, hid_t type, hid_t space, std::size_t count) {
     std::vector<char*> words(count);
     if (H5Aread(attribute, type, words.data()) < 0) return {};
     std::vector<std::string> out;
-    for (const char* w : words) out.push_back(w ? cut(w) : "");
+    for (const char* w : words) out.push_back(w ? trimmed(w) : "");
     H5Dvlen_reclaim(type, space, H5P_DEFAULT, words.data());
     return out;
 }
 
-std::vector<std::string> words_of_one_length(hid_t attribute, hid_t type, std::size_t count) {
+std::vector<std::string> fixed_length_strings(hid_t attribute, hid_t type, std::size_t count) {
     const std::size_t length = H5Tget_size(type);
-    if (length == 0 || length > most_words / count) return {};
+    if (length == 0 || length > max_text / count) return {};
     std::string all(count * length, '\0');
     if (H5Aread(attribute, type, all.data()) < 0) return {};
     std::vector<std::string> out;
-    for (std::size_t k = 0; k < count; ++k) out.push_back(cut(all.substr(k * length, length)));
+    for (std::size_t k = 0; k < count; ++k) out.push_back(trimmed(all.substr(k * length, length)));
     return out;
 }
 
-/// At the beginning, or at 512, 1024, 2048 ... bytes, behind a block of the user's.
+/// True if the signature is at byte 0, or, after a user block, at 512, 1024, 2048 ...
 bool has_signature(int descriptor) {
     constexpr std::array<char, 8> signature{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
     std::array<char, 8> found{};
@@ -54,10 +54,10 @@ bool has_signature(int descriptor) {
     return false;
 }
 
-herr_t remember_dataset(hid_t, const char* name, const H5O_info_t* info, void* to) {
+herr_t add_dataset_name(hid_t, const char* name, const H5O_info_t* info, void* to) {
     auto& names = *static_cast<std::vector<std::string>*>(to);
     if (info->type == H5O_TYPE_DATASET) names.push_back("/" + std::string(name));
-    return names.size() >= most_datasets ? 1 : 0;
+    return names.size() >= max_datasets ? 1 : 0;
 }
 
 }  // namespace
@@ -66,10 +66,10 @@ Result<Id> open_file(int descriptor, const std::string& path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     H5PLset_loading_state(0);
     const Id access(access_to(descriptor), H5Pclose);
-    if (!access) return bad_input("the HDF5 library cannot be set up", {path});
-    if (!has_signature(descriptor)) return bad_input("this is no HDF5 file (MATLAB writes one with save -v7.3)", {path});
+    if (!access) return bad_input("cannot set up the HDF5 library", {path});
+    if (!has_signature(descriptor)) return bad_input("not an HDF5 file (in MATLAB use save -v7.3)", {path});
     Id file(H5Fopen(the_file, H5F_ACC_RDONLY, access), H5Fclose);
-    if (!file) return bad_input("this HDF5 file cannot be opened: damaged, or cut short?", {path});
+    if (!file) return bad_input("cannot open this HDF5 file; it may be damaged or truncated", {path});
     return file;
 }
 
@@ -111,7 +111,7 @@ ArrayFacts facts_of(hid_t dataset, std::string name) {
 
 std::vector<ArrayFacts> datasets_in(hid_t file) {
     std::vector<std::string> names;
-    (void)H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, remember_dataset, &names, H5O_INFO_BASIC);
+    (void)H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_dataset_name, &names, H5O_INFO_BASIC);
     std::vector<ArrayFacts> out;
     for (const auto& name : names)
         if (const auto dataset = open_dataset(file, name)) out.push_back(facts_of(dataset, name));
@@ -132,9 +132,9 @@ std::vector<std::string> words_at(hid_t object, const std::string& name) {
     if (!attribute) return {};
     const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
     const auto count = H5Sget_simple_extent_npoints(space);
-    if (H5Tget_class(type) != H5T_STRING || count < 1 || static_cast<std::size_t>(count) > most_words) return {};
-    return H5Tis_variable_str(type) > 0 ? words_of_any_length(attribute, type, space, static_cast<std::size_t>(count))
-                                        : words_of_one_length(attribute, type, static_cast<std::size_t>(count));
+    if (H5Tget_class(type) != H5T_STRING || count < 1 || static_cast<std::size_t>(count) > max_text) return {};
+    return H5Tis_variable_str(type) > 0 ? variable_length_strings(attribute, type, space, static_cast<std::size_t>(count))
+                                        : fixed_length_strings(attribute, type, static_cast<std::size_t>(count));
 }
 
 std::optional<std::string> text_at(hid_t object, const std::string& name) {

@@ -1,6 +1,6 @@
 #pragma once
-// The part of the HDF5 library that is used here, with handles that close themselves. For the helper program only: damaged files crash
-// the library, or keep it busy for ever.
+// The functions of the HDF5 library that are used here, with handles that close themselves. For the helper program only: damaged files can
+// crash the library or make it loop forever.
 
 #include <hdf5.h>
 
@@ -12,7 +12,7 @@
 
 namespace corpuscle::hdf5 {
 
-/// A handle of any kind; below zero: none.
+/// A handle of any kind; negative: none.
 class Id {
     hid_t id_ = -1;
     herr_t (*close_)(hid_t) = nullptr;
@@ -29,18 +29,18 @@ public:
     explicit operator bool() const { return id_ >= 0; }
 };
 
-/// The file in a descriptor; `path` is for messages.
+/// Opens the file in a descriptor; `path` is for messages.
 Result<Id> open_file(int descriptor, const std::string& path);
 
-/// A dataset by its path. HDF5 keeps none of its chunks: they are read whole (hdf5_samples.cpp).
+/// Opens a dataset by its path. The chunk cache of HDF5 is disabled, because hdf5_samples.cpp reads complete chunks.
 Id open_dataset(hid_t file, const std::string& name);
 
 ArrayFacts facts_of(hid_t dataset, std::string name);
 
-/// Every dataset that hard links lead to, in order of their names.
+/// All datasets that are reachable by hard links, ordered by name.
 std::vector<ArrayFacts> datasets_in(hid_t file);
 
-/// A member of a compound type that is a number.
+/// A numeric member of a compound type.
 struct Member {
     std::string name;
     unsigned index;
@@ -48,13 +48,13 @@ struct Member {
 std::vector<Member> numeric_members(hid_t type);
 bool is_number(hid_t type);
 
-// Attributes of a dataset or group: nothing, if there is none of this name and kind.
+// Attributes of a dataset or group; empty if there is none of this name and kind.
 std::optional<double> number_at(hid_t object, const std::string& attribute);
 std::optional<std::string> text_at(hid_t object, const std::string& attribute);
 std::vector<std::string> words_at(hid_t object, const std::string& attribute);
 std::vector<std::string> attributes_of(hid_t object);
 
-/// The number in a dataset that holds only one.
+/// The value of a dataset with a single number.
 std::optional<double> single_number(hid_t dataset);
 
 }  // namespace corpuscle::hdf5

@@ -14,8 +14,8 @@ namespace {
 
 using hdf5::Id;
 
-constexpr std::size_t usual_band = std::size_t{1} << 20, largest_band = std::size_t{1} << 26;  // numbers
-constexpr std::size_t most_passes = 16;                                                        // over one chunk
+constexpr std::size_t default_band = std::size_t{1} << 20, max_band = std::size_t{1} << 26;  // numbers
+constexpr std::size_t max_passes = 16;                                                       // over one chunk
 
 constexpr const char* names_of_channels[] = {"columns", "channels", "names"};  // attributes
 
@@ -26,23 +26,23 @@ class Hdf5Samples final : public Samples {
     Id dataset_;
     Extent extent_;
     std::size_t rank_ = 1;
-    std::vector<std::string> members_;  // of a compound type: the columns
-    double factor_ = 1, offset_ = 0;    // of NWB
+    std::vector<std::string> members_;  // the columns of a compound type
+    double factor_ = 1, offset_ = 0;    // scaling attributes of NWB
     SamplesFacts facts_;
     hdf5::Storage storage_;
 
-    // The rows in memory: a band as high as a chunk or several, so that each chunk is unpacked once and none is kept.
+    // The rows in memory: a band of one or several complete chunks, so that each chunk is decompressed only once.
     std::vector<double> band_;
-    std::vector<std::size_t> wanted_;
+    std::vector<std::size_t> band_columns_;
     std::uint64_t first_ = 0, band_rows_ = 0, low_ = 0;
-    std::size_t width_ = 0;  // columns from number low_ on; of a compound the members that are wanted
+    std::size_t width_ = 0;  // columns from low_ on; of a compound type the requested members
 
-    Error unreadable() const { return bad_input(fmt::format("{} cannot be read: damaged?", name_), {path_}); }
+    Error unreadable() const { return bad_input(fmt::format("cannot read {}; the file may be damaged", name_), {path_}); }
 
     std::uint64_t chunk_rows() const { return storage_.chunk.empty() ? 0 : storage_.chunk[extent_.lying ? rank_ - 1 : 0]; }
     std::uint64_t chunk_columns() const { return rank_ == 1 ? 1 : storage_.chunk[extent_.lying ? 0 : 1]; }
 
-    /// Rows and columns of the file into the band, as they lie there.
+    /// Reads rows and columns of the file into the band, in the order of the file.
     Result<void> load(hid_t type) {
         std::array<hsize_t, 2> start{first_, low_}, count{band_rows_, members_.empty() ? width_ : 1};
         if (extent_.lying && rank_ == 2) std::swap(start[0], start[1]), std::swap(count[0], count[1]);
@@ -54,12 +54,12 @@ class Hdf5Samples final : public Samples {
         return {};
     }
 
-    /// Where row `row` of column `column` of the band lies in it, both counted from its first. Members of a compound lie side by side.
-    std::size_t place(std::size_t row, std::size_t column) const {
+    /// The index of an element in the band; row and column are relative to the band. Members of a compound type are interleaved.
+    std::size_t index_of(std::size_t row, std::size_t column) const {
         return extent_.lying && rank_ == 2 && members_.empty() ? column * band_rows_ + row : row * width_ + column;
     }
 
-    /// Readings in chunks that were never written are not numbers.
+    /// Sets readings in chunks that were never written to NaN.
     void mark_gaps() {
         const auto high = members_.empty() ? low_ + width_ : 1;
         for (auto row = first_ / chunk_rows() * chunk_rows(); row < first_ + band_rows_; row += chunk_rows())
@@ -71,23 +71,23 @@ class Hdf5Samples final : public Samples {
                 const auto left = members_.empty() ? std::max(column, low_) - low_ : 0,
                            right = members_.empty() ? std::min(column + chunk_columns(), low_ + width_) - low_ : width_;
                 for (auto k = from; k < to; ++k)
-                    for (auto c = left; c < right; ++c) band_[place(k, c)] = std::numeric_limits<double>::quiet_NaN();
+                    for (auto c = left; c < right; ++c) band_[index_of(k, c)] = std::numeric_limits<double>::quiet_NaN();
             }
     }
 
-    /// The rows of the band that holds row `row`: whole chunks, or, if these are too large, an even part of one.
+    /// Chooses the rows of the band that contains `row`: complete chunks, or an equal part of one if chunks are too large.
     Result<void> choose_rows(std::uint64_t row) {
-        const std::uint64_t height = chunk_rows(), usual = std::max<std::size_t>(1, usual_band / width_),
-                            most = std::max<std::size_t>(1, largest_band / width_);
-        first_ = row, band_rows_ = usual;
-        if (height > 0 && height <= most) {
+        const std::uint64_t height = chunk_rows(), default_rows = std::max<std::size_t>(1, default_band / width_),
+                            max_rows = std::max<std::size_t>(1, max_band / width_);
+        first_ = row, band_rows_ = default_rows;
+        if (height > 0 && height <= max_rows) {
             first_ = row / height * height;
-            band_rows_ = std::max<std::uint64_t>(1, usual / height) * height;
+            band_rows_ = std::max<std::uint64_t>(1, default_rows / height) * height;
         } else if (height > 0) {
-            const auto passes = (height - 1) / most + 1, rows = (height - 1) / passes + 1, chunk = row / height * height;
-            if (passes > most_passes)
+            const auto passes = (height - 1) / max_rows + 1, rows = (height - 1) / passes + 1, chunk = row / height * height;
+            if (passes > max_passes)
                 return bad_input(
-                    fmt::format("{}: {} columns in chunks of {} rows are more than memory holds; --channel takes some of them, "
+                    fmt::format("{}: {} columns in chunks of {} rows do not fit into memory; select some columns by --channel, "
                                 "or repack the file: h5repack -l {} {} repacked.h5",
                                 name_, width_, height, shell_word(name_ + ":CHUNK=4096x64"), shell_word(path_)),
                     {path_});
@@ -98,27 +98,28 @@ class Hdf5Samples final : public Samples {
         return {};
     }
 
-    Result<void> load_band(std::uint64_t row, std::span<const std::size_t> wanted) {
-        wanted_.assign(wanted.begin(), wanted.end());
-        const auto [least, greatest] = std::minmax_element(wanted.begin(), wanted.end());
-        low_ = members_.empty() ? *least : 0;
-        width_ = members_.empty() ? *greatest - *least + 1 : wanted.size();
+    Result<void> load_band(std::uint64_t row, std::span<const std::size_t> columns) {
+        band_columns_.assign(columns.begin(), columns.end());
+        const auto [min, max] = std::minmax_element(columns.begin(), columns.end());
+        low_ = members_.empty() ? *min : 0;
+        width_ = members_.empty() ? *max - *min + 1 : columns.size();
         if (auto ok = choose_rows(row); !ok) return band_rows_ = 0, ok;
         band_.resize(band_rows_ * width_);
         Id compound;
         if (!members_.empty()) compound = Id(H5Tcreate(H5T_COMPOUND, width_ * sizeof(double)), H5Tclose);
         for (std::size_t i = 0; compound && i < width_; ++i)
-            H5Tinsert(compound, members_[wanted[i]].c_str(), i * sizeof(double), H5T_NATIVE_DOUBLE);
+            H5Tinsert(compound, members_[columns[i]].c_str(), i * sizeof(double), H5T_NATIVE_DOUBLE);
         if (auto ok = load(members_.empty() ? H5T_NATIVE_DOUBLE : compound); !ok) return band_rows_ = 0, ok;
         if (storage_.has_gaps) mark_gaps();
         return {};
     }
 
-    bool is_in_band(std::uint64_t row, std::span<const std::size_t> wanted) const {
-        return row >= first_ && row < first_ + band_rows_ && std::equal(wanted.begin(), wanted.end(), wanted_.begin(), wanted_.end());
+    bool is_in_band(std::uint64_t row, std::span<const std::size_t> columns) const {
+        return row >= first_ && row < first_ + band_rows_ &&
+               std::equal(columns.begin(), columns.end(), band_columns_.begin(), band_columns_.end());
     }
 
-    /// MATLAB's matrices lie column after column: HDF5's first dimension is their second.
+    /// MATLAB stores matrices by columns, so the first dimension in HDF5 is the second of MATLAB.
     Result<void> take_shape(const ArrayFacts& facts, ExtentHints hints) {
         hints.by_columns = hdf5::text_at(dataset_, "MATLAB_class").has_value();
         for (const auto* attribute : names_of_channels)
@@ -140,7 +141,7 @@ class Hdf5Samples final : public Samples {
         const Id type(H5Dget_type(dataset_), H5Tclose);
         for (const auto& m : hdf5::numeric_members(type)) members_.push_back(m.name), facts_.columns.push_back(parse_heading(m.name));
         if (!members_.empty() && extent_.columns > 1)
-            return bad_input(fmt::format("{}: members of numbers in one dimension only", name_), {path_});
+            return bad_input(fmt::format("{}: compound types must have one dimension", name_), {path_});
         if (!members_.empty()) return {};
         const auto name = last_name(name_);
         facts_.columns =
@@ -179,24 +180,24 @@ public:
     void set_rate(std::optional<double> rate) { facts_.rate = rate; }
     const SamplesFacts& facts() const override { return facts_; }
 
-    Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> wanted,
+    Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> columns,
                        std::vector<std::vector<double>>& out) override {
-        for (std::size_t done = 0, count = 0; done < rows && !wanted.empty(); done += count) {
+        for (std::size_t done = 0, count = 0; done < rows && !columns.empty(); done += count) {
             const auto row = static_cast<std::uint64_t>(start) + done;
-            if (!is_in_band(row, wanted))
-                if (auto ok = load_band(row, wanted); !ok) return ok;
+            if (!is_in_band(row, columns))
+                if (auto ok = load_band(row, columns); !ok) return ok;
             const auto from = static_cast<std::size_t>(row - first_);
             count = std::min<std::size_t>(rows - done, band_rows_ - from);
-            for (std::size_t i = 0; i < wanted.size(); ++i) {
-                const auto column = members_.empty() ? wanted[i] - low_ : i;
-                for (std::size_t k = 0; k < count; ++k) out[i][done + k] = band_[place(from + k, column)] * factor_ + offset_;
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                const auto column = members_.empty() ? columns[i] - low_ : i;
+                for (std::size_t k = 0; k < count; ++k) out[i][done + k] = band_[index_of(from + k, column)] * factor_ + offset_;
             }
         }
         return {};
     }
 };
 
-/// The rate that an object's attributes say.
+/// The sampling rate in the attributes of an object.
 std::optional<double> rate_at(hid_t object) {
     for (const auto& name : hdf5::attributes_of(object))
         if (names_rate(name))
@@ -204,7 +205,7 @@ std::optional<double> rate_at(hid_t object) {
     return {};
 }
 
-/// The rate of a dataset: in its attributes or those of the groups above it, in NWB's starting_time, or a number beside it.
+/// The sampling rate of a dataset: from its attributes, NWB's starting_time or a number in its group, or attributes of enclosing groups.
 std::optional<double> rate_of(hid_t file, const std::string& name, std::span<const ArrayFacts> arrays) {
     if (const auto dataset = hdf5::open_dataset(file, name))
         if (const auto rate = rate_at(dataset)) return rate;
@@ -223,28 +224,28 @@ std::optional<double> rate_of(hid_t file, const std::string& name, std::span<con
 
 Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayFacts& facts, const ExtentHints& hints) {
     auto dataset = hdf5::open_dataset(file, facts.name);
-    if (!dataset) return bad_input(fmt::format("{} cannot be opened: damaged?", facts.name), {path});
+    if (!dataset) return bad_input(fmt::format("cannot open {}; the file may be damaged", facts.name), {path});
     auto samples = std::make_unique<Hdf5Samples>(path, facts.name, std::move(dataset));
     if (auto ok = samples->open(facts, hints); !ok) return ok.error();
     return samples;
 }
 
-/// The lists of times beside a dataset.
-std::vector<const ArrayFacts*> times_beside(const ArrayFacts& chosen, std::span<const ArrayFacts> arrays) {
+/// The arrays of sample times in the group of a dataset.
+std::vector<const ArrayFacts*> time_arrays(const ArrayFacts& chosen, std::span<const ArrayFacts> arrays) {
     std::vector<const ArrayFacts*> out;
     for (const auto& a : arrays)
         if (a.name != chosen.name && parent_of(a.name) == parent_of(chosen.name) && length_of_times(a)) out.push_back(&a);
     return out;
 }
 
-/// The one with as many rows.
+/// The array of times with the same number of rows, or null.
 const ArrayFacts* times_of(const ArrayFacts& chosen, std::int64_t rows, std::span<const ArrayFacts> arrays) {
-    for (const auto* a : times_beside(chosen, arrays))
+    for (const auto* a : time_arrays(chosen, arrays))
         if (length_of_times(*a) == static_cast<std::uint64_t>(rows)) return a;
     return nullptr;
 }
 
-/// Is the name that was asked for a link into another file?
+/// True if the name is a link to another file.
 bool is_external_link(hid_t file, const std::string& name) {
     H5L_info_t link{};
     return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0 && H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) >= 0 &&
@@ -259,12 +260,12 @@ SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const T
     const auto arrays = hdf5::datasets_in(*file);
     const auto chosen = choose_array(arrays, options.dataset, path);
     if (!chosen && options.dataset && is_external_link(*file, *options.dataset))
-        return bad_input(fmt::format("'{}' is a link into another file, which is not read; give that file itself", *options.dataset),
+        return bad_input(fmt::format("'{}' is a link to another file, which is not followed; open that file instead", *options.dataset),
                          {path});
     if (!chosen) return chosen.error();
     const auto& facts = arrays[*chosen];
     ExtentHints hints{options.transpose};
-    for (const auto* times : times_beside(facts, arrays)) hints.samples.push_back(*length_of_times(*times));
+    for (const auto* times : time_arrays(facts, arrays)) hints.samples.push_back(*length_of_times(*times));
     auto samples = samples_of(*file, path, facts, hints);
     if (!samples) return samples.error();
     (*samples)->set_rate(rate_of(*file, facts.name, arrays));

@@ -1,21 +1,21 @@
 #pragma once
-// How a dataset's data are stored, and whether they are there: HDF5 reads data that were never written, or lie in files that are missing,
-// as its fill value, which is 0.
+// Checks how the data of a dataset are stored, and that they exist. HDF5 reads data that were never written, or that are in missing files,
+// as the fill value, which is 0 by default.
 
 #include "hdf5_file.hpp"
 
 namespace corpuscle::hdf5 {
 
 struct Storage {
-    std::vector<hsize_t> chunk = {};  ///< of the dataset's dimensions; none: in one piece
+    std::vector<hsize_t> chunk = {};  ///< in each dimension of the dataset; empty: not chunked
     bool has_gaps = false;            ///< some chunks were never written
     std::vector<std::string> remarks = {};
 };
 
-/// Refuses data in other files, data that were never written, and filters that are not here.
+/// Rejects data in other files, data that were never written, and filters that are not available.
 Result<Storage> storage_of(hid_t dataset, const ArrayFacts&, const std::string& path);
 
-/// Was the chunk with this first element written?
+/// True if the chunk that begins at this element was written.
 bool is_written(hid_t dataset, std::span<const hsize_t> offset);
 
 }  // namespace corpuscle::hdf5

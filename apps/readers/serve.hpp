@@ -1,5 +1,5 @@
 #pragma once
-// A helper program's life: it confines itself, opens the samples, and answers requests for rows until the other end is closed.
+// The main loop of a helper program: it confines itself, opens the samples, and serves requests for rows until the socket is closed.
 
 #include <functional>
 
@@ -10,10 +10,10 @@ namespace corpuscle {
 /// Opens the samples in descriptor `file`; `path` is for messages.
 using OpenSamples = std::function<SamplesResult(int file, const std::string& path, const TableOptions&)>;
 
-/// From the first request on `socket` until the last.
+/// Serves all requests on `socket`.
 void serve(int socket, int file, const OpenSamples&);
 
-/// The program's main; `kind` says what it reads, to a person who starts it by hand.
+/// The main function of a helper program. `kind` names the file format in the message to a user who starts the program by hand.
 int helper_main(int argc, char** argv, const char* kind, const OpenSamples&);
 
 }  // namespace corpuscle

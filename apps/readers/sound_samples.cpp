@@ -7,19 +7,19 @@
 namespace corpuscle {
 namespace {
 
-struct Close {
+struct CloseSoundFile {
     void operator()(SNDFILE* f) const { sf_close(f); }
 };
 
 class SoundSamples final : public Samples {
     std::string path_;
-    std::unique_ptr<SNDFILE, Close> file_;
+    std::unique_ptr<SNDFILE, CloseSoundFile> file_;
     SF_INFO info_{};
     SamplesFacts facts_;
-    sf_count_t at_ = 0;  // the next frame
+    sf_count_t at_ = 0;  // index of the next frame
     std::vector<double> frames_;
 
-    bool floating() const {
+    bool is_floating_point() const {
         const int kind = info_.format & SF_FORMAT_SUBMASK;
         return kind == SF_FORMAT_FLOAT || kind == SF_FORMAT_DOUBLE;
     }
@@ -29,30 +29,30 @@ public:
 
     Result<void> open(int file) {
         file_.reset(sf_open_fd(file, SFM_READ, &info_, SF_FALSE));
-        if (!file_) return bad_input(fmt::format("this is no sound file that can be read: {}", sf_strerror(nullptr)), {path_});
+        if (!file_) return bad_input(fmt::format("not a readable sound file: {}", sf_strerror(nullptr)), {path_});
         if (info_.channels < 1) return bad_input("this sound file has no channel", {path_});
-        if (info_.frames < 1) return bad_input("there are no samples in this sound file", {path_});
+        if (info_.frames < 1) return bad_input("this sound file has no samples", {path_});
         facts_.rows = info_.frames;
         if (info_.samplerate > 0) facts_.rate = info_.samplerate;
         for (int c = 0; c < info_.channels; ++c)
-            facts_.columns.push_back({fmt::format("ch{}", c + 1), floating() ? "" : "parts of full scale"});
+            facts_.columns.push_back({fmt::format("ch{}", c + 1), is_floating_point() ? "" : "parts of full scale"});
         return {};
     }
 
     const SamplesFacts& facts() const override { return facts_; }
 
-    Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
+    Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> columns,
                        std::vector<std::vector<double>>& out) override {
         const auto width = facts_.columns.size();
         if (at_ != first && sf_seek(file_.get(), first, SEEK_SET) != first)
-            return bad_input(fmt::format("sample {} cannot be found: {}", first + 1, sf_strerror(file_.get())), {path_});
+            return bad_input(fmt::format("cannot seek to sample {}: {}", first + 1, sf_strerror(file_.get())), {path_});
         frames_.resize(rows * width);
-        const auto got = sf_readf_double(file_.get(), frames_.data(), static_cast<sf_count_t>(rows));
-        at_ = first + got;
-        if (got < static_cast<sf_count_t>(rows))
-            return bad_input(fmt::format("the file ends after {} of {} samples: cut short?", at_, info_.frames), {path_});
-        for (std::size_t i = 0; i < wanted.size(); ++i)
-            for (std::size_t k = 0; k < rows; ++k) out[i][k] = frames_[k * width + wanted[i]];
+        const auto count = sf_readf_double(file_.get(), frames_.data(), static_cast<sf_count_t>(rows));
+        at_ = first + count;
+        if (count < static_cast<sf_count_t>(rows))
+            return bad_input(fmt::format("the file ends after {} of {} samples; it may be truncated", at_, info_.frames), {path_});
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            for (std::size_t k = 0; k < rows; ++k) out[i][k] = frames_[k * width + columns[i]];
         return {};
     }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Sound files as samples, through libsndfile. For the helper program only: damaged files have crashed the library before.
+// Reads sound files as samples with libsndfile. For the helper program only: damaged files have crashed the library before.
 
 #include "io/samples.hpp"
 

@@ -25,12 +25,12 @@ void Envelope::add(double value) {
 
 void Envelope::double_bucket() {
     std::vector<float> merged;
-    const std::size_t width = bucket_ == 1 ? 1 : 2, step = 2 * width;  // floats a bucket holds now; two buckets become one
+    const std::size_t width = bucket_ == 1 ? 1 : 2, step = 2 * width;  // floats per bucket; two buckets are merged into one
     for (std::size_t k = 0; k < values_.size(); k += step) {
         const auto end = std::min(k + step, values_.size());
-        const auto [least, greatest] =
+        const auto [min, max] =
             std::minmax_element(values_.begin() + static_cast<std::ptrdiff_t>(k), values_.begin() + static_cast<std::ptrdiff_t>(end));
-        merged.insert(merged.end(), {*least, *greatest});
+        merged.insert(merged.end(), {*min, *max});
     }
     const auto buckets = static_cast<std::int64_t>(values_.size() / width);
     in_last_ = (buckets % 2 == 1 ? 0 : bucket_) + (bucket_ == 1 ? 1 : in_last_);

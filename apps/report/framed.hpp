@@ -1,6 +1,6 @@
 #pragma once
-// Numbers of many places over time, in frames of even length: bounded memory whatever the length, since two frames become one when
-// there are more than `most`.
+// Sums of values at many places over time, in frames of equal length. Memory is bounded: adjacent frames are merged in pairs when there
+// are more than `max_frames`.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,14 +17,15 @@ public:
         V value;
         bool operator==(const Entry&) const = default;
     };
-    using Frame = std::vector<Entry>;  ///< places rising; those that are 0 are left out
+    using Frame = std::vector<Entry>;  ///< in ascending order of place; zeros are omitted
 
     Framed() = default;
-    /// `width`: of a frame at first, samples.
-    Framed(std::size_t places, std::size_t most, std::int64_t width) : most_(std::max<std::size_t>(most, 2)), width_(width), now_(places) {}
+    /// `width`: initial length of a frame, samples.
+    Framed(std::size_t places, std::size_t max_frames, std::int64_t width)
+        : most_(std::max<std::size_t>(max_frames, 2)), width_(width), now_(places) {}
 
-    /// What is added from now on is of the frame that holds this sample, which is not before the last one; returns the first sample
-    /// behind that frame.
+    /// Makes the frame that contains `sample` the current one, to which add() adds. Samples must not decrease. Returns the first sample
+    /// after this frame.
     std::int64_t open(std::int64_t sample) {
         while (sample >= end_) {
             const auto frame = static_cast<std::size_t>(sample / width_);
@@ -44,7 +45,7 @@ public:
 
     std::size_t places() const { return now_.size(); }
     std::int64_t width() const { return width_; }
-    /// All frames, the one that fills included.
+    /// All frames, including the current one.
     std::vector<Frame> frames() const {
         auto all = done_;
         all.push_back(current());
@@ -55,8 +56,8 @@ private:
     std::size_t most_ = 2;
     std::int64_t width_ = 1, end_ = 0;  // samples
     std::vector<Frame> done_;
-    std::vector<V> now_;               // of the frame that fills
-    std::vector<std::uint32_t> held_;  // places that are not 0 there; some may be named twice, or be 0 again
+    std::vector<V> now_;               // values of the current frame
+    std::vector<std::uint32_t> held_;  // nonzero places of the current frame; may contain duplicates and places that are 0 again
 
     Frame current() const {
         auto places = held_;
@@ -92,7 +93,7 @@ private:
             for (const auto& e : done_.back()) {
                 const V value = now_[e.place];
                 now_[e.place] = V{};
-                add(e.place, e.value), now_[e.place] += value;  // in the order of time
+                add(e.place, e.value), now_[e.place] += value;  // keeps the order of time
             }
             done_.pop_back();
         }

@@ -1,5 +1,5 @@
 "use strict";
-// The report's data, taken apart only when somebody looks: numbers stay base64 text until their trace is shown.
+// Access to the data of the report. Numbers stay base64 text until their trace is shown.
 
 function bytesOf(base64) {
     if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
@@ -8,7 +8,7 @@ function bytesOf(base64) {
     return bytes;
 }
 
-/// One recorded quantity. Sample k was taken at t0 + k T; with bucket > 1 only least and greatest of each `bucket` samples are known.
+/// One recorded quantity. Sample k is at t0 + k T. If bucket > 1, only the minimum and maximum of each `bucket` samples are known.
 class Trace {
     constructor(record, input) {
         Object.assign(this, {part: record.part, afferent: record.afferent, unit: record.unit, bucket: record.bucket});
@@ -31,19 +31,19 @@ class Trace {
         return [lo, hi];
     }
 
-    /// [least, greatest] of samples k ... l-1, buckets counted whole.
+    /// [min, max] of samples k ... l-1, extended to complete buckets.
     range(k, l) { return this.pyramid.range(Math.floor(k / this.bucket), Math.ceil(l / this.bucket)); }
 
-    whole() { return this.range(0, this.samples); }
+    fullRange() { return this.range(0, this.samples); }
 
-    /// [least, greatest] known of the sample nearest to time t; equal where every sample is kept.
+    /// [min, max] at the sample nearest to time t; both are equal if every sample is known.
     at(t) {
         const k = Math.max(0, Math.min(this.samples - 1, Math.round((t - this.t0) / this.T)));
         return this.range(k, k + 1);
     }
 }
 
-/// Spike times of one afferent on one channel, ascending, and the frequency f_k = 1 / (t[k+1] - t[k]) that belongs to t[k].
+/// Ascending spike times of one afferent on one channel. The frequency at t[k] is f_k = 1 / (t[k+1] - t[k]).
 class Spikes {
     constructor(record) {
         this.record = record;
@@ -66,7 +66,7 @@ class Spikes {
         return f;
     }
 
-    /// How many spikes came before t.
+    /// The number of spikes before t.
     before(t) {
         let low = 0, high = this.times.length;
         while (low < high) {
@@ -84,18 +84,18 @@ class Report {
         this.spikeTrains = new Map(data.spikes.map((record) => [record.afferent + "\n" + record.channel, new Spikes(record)]));
     }
 
-    /// Fresh every time, so that what is built for one channel is let go with it.
+    /// New objects on each call, so that the decoded data of one channel can be freed.
     traces(input, channel) {
         return this.data.traces.filter((record) => record.channel === channel.id).map((record) => new Trace(record, input));
     }
 
-    /// The trains that are drawn for an afferent: its own, or its first copies', each with its name.
+    /// The trains shown for an afferent: the afferent itself, or its first copies, with their names.
     members(afferent) {
         const {copies} = this.data;
         return copies ? Array.from({length: copies.shown}, (_, k) => ({name: `${afferent.name}#${k + 1}`})) : [afferent];
     }
 
-    /// How often all copies of an afferent fire: {bin, values}.
+    /// The mean rate of all copies of an afferent: {bin, values}.
     rate(afferent, channel) { return this.data.copies.rates.find((one) => one.afferent === afferent.name && one.channel === channel.id); }
 
     spikes(afferent, channel) { return this.spikeTrains.get(afferent.name + "\n" + channel.id) || new Spikes(null); }

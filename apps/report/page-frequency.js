@@ -1,5 +1,5 @@
 "use strict";
-// The instantaneous frequency of each afferent on the chosen channel.
+// The instantaneous frequency of each afferent on the selected channel.
 
 const MARKS = ["●", "▲", "■", "◆"];
 
@@ -22,15 +22,15 @@ class FrequencyPanel extends Panel {
     valueTicks(lo, hi, pixels) { return super.valueTicks(lo, hi, 1.35 * pixels); }
 
     range(rows) {
-        const high = rows && rows.length ? this.trains.reduce((m, _, k) => Math.max(m, greatest(rows, k + 1)), 0) : this.highest;
+        const high = rows && rows.length ? this.trains.reduce((m, _, k) => Math.max(m, maximum(rows, k + 1)), 0) : this.highest;
         return [(high || 1) * -0.04, (high || 1) * 1.08];
     }
 
     rows(a, b, width) {
-        const margin = 4 * devicePixels() * (b - a) / width;  // marks cut by the edge are drawn too
+        const margin = 4 * devicePixels() * (b - a) / width;  // includes marks that are cut by the edge
         const seen = this.trains.map((spikes) => [spikes.before(a - margin), Math.min(spikes.before(b + margin), spikes.count - 1)]);
-        const all = seen.reduce((sum, [i, j]) => sum + Math.max(j - i, 0), 0);
-        return all <= 2 * width ? this.everyMark(seen) : this.columnMarks(a, b, width);
+        const total = seen.reduce((sum, [i, j]) => sum + Math.max(j - i, 0), 0);
+        return total <= 2 * width ? this.everyMark(seen) : this.columnMarks(a, b, width);
     }
 
     everyMark(seen) {
@@ -42,7 +42,7 @@ class FrequencyPanel extends Panel {
         return rows.sort((one, other) => one[0] - other[0]);
     }
 
-    /// Least and greatest in each pixel column.
+    /// Minimum and maximum in each pixel column.
     columnMarks(a, b, width) {
         const rows = [], columns = Math.ceil(width), step = (b - a) / columns;
         let from = this.trains.map((spikes) => spikes.before(a));
@@ -55,8 +55,8 @@ class FrequencyPanel extends Panel {
         return rows;
     }
 
-    /// The frequency at t is that of the last spike before it.
-    read(t) {
+    /// Shows the frequency at the last spike before t.
+    showValues(t) {
         this.trains.forEach((spikes, s) => {
             const k = spikes.before(t) - 1;
             this.values[s].textContent = k < 0 || k >= spikes.count - 1 ? "–" : quantity(spikes.frequency.range(k, k + 1)[0], "Hz");
@@ -64,7 +64,7 @@ class FrequencyPanel extends Panel {
     }
 }
 
-/// Disc, triangle, square, diamond: afferents differ in shape as well as colour.
+/// Disc, triangle, square or diamond, so that afferents differ in shape as well as colour.
 function drawMark(kind) {
     const corners = [null, [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]], [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]], [[0, -1.3], [1.3, 0], [0, 1.3], [-1.3, 0]]][kind];
     return (_chart, _series, context, x, y, color, size) => {

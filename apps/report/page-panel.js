@@ -1,38 +1,38 @@
 "use strict";
-// A panel is one dygraph with a heading that doubles as legend and readout. All panels share their left edge and width,
-// so that one instant stands at one x in all of them.
+// A panel is one dygraph with a heading, which is also its legend and readout. All panels have the same left edge and width, so that
+// times align.
 
 const AXIS_FONT = 11;
 
-/// Colours live in the style sheet, once, for light and dark.
+/// Colours are defined in the style sheet, for light and dark themes.
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 const afferentColour = (index) => colour("series-" + index % 8);
 
-/// Pixels of the screen, or of paper, for each pixel of the page's layout.
+/// Pixels of the screen or of paper per CSS pixel.
 const devicePixels = () => (document.documentElement.classList.contains("printing") ? 2 : window.devicePixelRatio || 1);
 
-/// A telephone's screen: less room is left beside the plots.
+/// True on the screen of a phone: plots then have narrower margins.
 const isNarrow = () => document.documentElement.clientWidth < 520;
 
-/// Between two #rrggbb colours: share 0 is the first, 1 the second.
-function mixed(first, second, share) {
-    const part = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
-    return "#" + [0, 1, 2].map((k) => Math.round(part(first, k) * (1 - share) + part(second, k) * share).toString(16).padStart(2, "0")).join("");
+/// Mixes two #rrggbb colours: fraction 0 is the first, 1 the second.
+function mixed(first, second, fraction) {
+    const component = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
+    return "#" + [0, 1, 2].map((k) => Math.round(component(first, k) * (1 - fraction) + component(second, k) * fraction).toString(16).padStart(2, "0")).join("");
 }
 
 function element(parent, tag, className = "", html = "") {
-    const made = document.createElement(tag);
-    if (className) made.className = className;
-    if (html) made.innerHTML = html;
-    if (parent) parent.append(made);
-    return made;
+    const node = document.createElement(tag);
+    if (className) node.className = className;
+    if (html) node.innerHTML = html;
+    if (parent) parent.append(node);
+    return node;
 }
 
 class Panel {
-    /// `series`: [{label, html, color, width, dash}], one for each column of rows(). `scale`: what one unit of the axis is.
-    /// `bottom` shows the time axis, `named` writes the phases' names.
+    /// `series`: [{label, html, color, width, dash}], one for each column of rows(). `scale`: the value of one unit of the axis.
+    /// `bottom`: show the time axis. `named`: show the names of the phases.
     constructor({host, input, name, title, about, height, series, scale = 1, bottom = false, named = false}) {
-        Object.assign(this, {input, name, series, about, height, scale, named, axisHeight: bottom ? 22 : 16, bottom, dots: false, rightRoom: 14});
+        Object.assign(this, {input, name, series, about, height, scale, named, axisHeight: bottom ? 22 : 16, bottom, dots: false, rightMargin: 14});
         this.root = element(host, "figure", "panel");
         this.root.dataset.panel = name;
         this.heading = element(this.root, "figcaption");
@@ -53,7 +53,7 @@ class Panel {
         return element(item, "span", "legend-value");
     }
 
-    /// Called once the panel stands in the page and its width is known.
+    /// Called when the panel is part of the page and its width is known.
     start(view) {
         this.chart = new Dygraph(this.plot, this.empty(view.a, view.b), {
             labels: ["t", ...this.series.map((one) => one.label)],
@@ -65,13 +65,13 @@ class Panel {
                 y: {ticker: (lo, hi, pixels) => this.valueTicks(lo, hi, pixels), axisLabelWidth: view.labelWidth},
             },
             underlayCallback: (context, area, chart) => {
-                this.chart = chart;  // the first drawing comes before the constructor returns
-                if (area.w >= 1) this.under(context, area);  // a hidden page has no width
+                this.chart = chart;  // the first draw happens before the constructor returns
+                if (area.w >= 1) this.drawBackground(context, area);  // a hidden page has no width
             },
-            interactionModel: {},  // the view has its own, for all panels at once
+            interactionModel: {},  // the view handles the mouse for all panels
             pixelRatio: devicePixels(),
             legend: "never", pointSize: 2.2, highlightCircleSize: 0, showLabelsOnHighlight: false,
-            axisLabelFontSize: AXIS_FONT, axisTickSize: 3, rightGap: view.rightRoom, xAxisHeight: this.axisHeight,
+            axisLabelFontSize: AXIS_FONT, axisTickSize: 3, rightGap: view.rightMargin, xAxisHeight: this.axisHeight,
             gridLineColor: colour("grid"), gridLineWidth: 1, axisLineColor: colour("axis"), axisLineWidth: 1,
             ...this.options(),
         });
@@ -86,16 +86,16 @@ class Panel {
 
     options() { return {}; }
     click() {}
-    forget() { this.values.forEach((value) => { value.textContent = ""; }); }
+    clearValues() { this.values.forEach((value) => { value.textContent = ""; }); }
     empty(a, b) { return [a, b].map((t) => [t, ...this.series.map(() => null)]); }
     get area() { return this.chart.getArea(); }
 
-    /// `fit`: the vertical axis follows what is in view.
-    draw(a, b, fit) {
+    /// `autoscale`: scale the vertical axis to the visible data.
+    draw(a, b, autoscale) {
         if (this.area.w < 1) return;
         const rows = this.rows(a, b, this.area.w * devicePixels());
         this.chart.updateOptions({file: rows.length ? rows : this.empty(a, b), dateWindow: [a, b],
-                                  valueRange: this.range(fit ? rows : null), drawPoints: this.dots});
+                                  valueRange: this.range(autoscale ? rows : null), drawPoints: this.dots});
         this.plot.setAttribute("aria-label", `${this.about}, from ${timeText(a, (b - a) / 1000)} to ${timeText(b, (b - a) / 1000)}`);
     }
 
@@ -104,8 +104,8 @@ class Panel {
         return values.map((v) => ({v: v * this.scale, label: v.toFixed(decimals).replace("-", "−")}));
     }
 
-    under(context, area) {
-        context.lineJoin = "bevel";  // mitred peaks would overshoot what they show
+    drawBackground(context, area) {
+        context.lineJoin = "bevel";  // mitred peaks would exceed the values
         const x = (t) => Math.max(area.x, Math.min(area.x + area.w, this.chart.toDomXCoord(t)));
         this.input.phases.forEach(({name, from, to}, k) => {
             const [left, right] = [x(from), x(to)];
@@ -128,7 +128,8 @@ function writeInside(context, text, left, right, y) {
     if (context.measureText(text).width + 6 < right - left) context.fillText(text, (left + right) / 2, y);
 }
 
-/// Grid lines, and below the last panel of a section their times. A tick on the very end would not be drawn.
+/// Ticks of the time axis, with labels below the last panel of a section. dygraphs does not draw a tick exactly at the end, so it is moved
+/// slightly inwards.
 function timeTicks(a, b, pixels, labelled) {
     const {values, decimals} = roundTicks(a, b, pixels / 110);
     return values.map((v) => ({v: Math.min(v, b - 1e-9 * (b - a)), label: labelled ? v.toFixed(decimals).replace("-", "−") + " s" : undefined}));

@@ -1,23 +1,23 @@
 "use strict";
-// How often all copies of each afferent, or units of a class, fire: spikes of one and second, in even bins.
+// The mean rate of all copies of an afferent, or of all afferents of a class, in equal bins.
 
 const DASHES = [null, [6, 3], [2, 2], [8, 2, 2, 2]];
 
-/// A staircase for each afferent; a bin is as wide as the report has it.
+/// A step curve for each afferent.
 class PopulationPanel extends Panel {
     /// `rates`: [{name, color, index, bin, values}].
-    constructor({rates, each = "copy", ...rest}) {
+    constructor({rates, one = "copy", ...rest}) {
         const highest = rates.reduce((high, {values}) => values.reduce((m, v) => Math.max(m, v), high), 0);
-        const power = Math.max(0, prefixPower(highest, "Hz"));  // a nerve's rate is in Hz, however low
+        const power = Math.max(0, prefixPower(highest, "Hz"));  // rates below 1 Hz are not shown in mHz
         super({...rest, scale: 10 ** power, title: "", bottom: true,
                series: rates.map(({name, color, index}) => ({label: name, html: escaped(name), color, width: 1.6, dash: DASHES[index % DASHES.length]}))});
-        Object.assign(this, {rates, highest, each, unit: PREFIXES[power] + "Hz"});
+        Object.assign(this, {rates, highest, one, unit: PREFIXES[power] + "Hz"});
         this.heading.querySelector(".panel-title").innerHTML = this.titleOf();
     }
 
-    titleOf() { return titleHtml(`rate a ${this.each}, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
+    titleOf() { return titleHtml(`mean rate per ${this.one}, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
 
-    /// The last bin ends with the input.
+    /// The last bin ends with the recording.
     edge(k) { return Math.min(this.input.t0 + k * this.rates[0].bin, endOf(this.input)); }
     binAt(t) { return Math.floor((t - this.input.t0) / this.rates[0].bin); }
 
@@ -29,11 +29,11 @@ class PopulationPanel extends Panel {
     }
 
     range(rows) {
-        const high = rows && rows.length ? this.rates.reduce((m, _, k) => Math.max(m, greatest(rows, k + 1)), 0) : this.highest;
+        const high = rows && rows.length ? this.rates.reduce((m, _, k) => Math.max(m, maximum(rows, k + 1)), 0) : this.highest;
         return [(high || 1) * -0.04, (high || 1) * 1.08];
     }
 
-    read(t) {
+    showValues(t) {
         const k = this.binAt(t);
         this.rates.forEach(({values}, s) => { this.values[s].textContent = !(k in values) ? "–" : values[k] < 1 ? `${Number(values[k].toPrecision(3))} Hz` : quantity(values[k], "Hz"); });
     }

@@ -1,31 +1,31 @@
 "use strict";
-// Spikes of every afferent on every channel. What is drawn is bounded by the pixels there are, not by the spikes.
+// Raster of the spikes of all afferents and channels. The drawing cost is bounded by the number of pixels, not of spikes.
 
-const MOST_LABELS = 46;  // more lanes than this are too thin for a label each
+const MAX_LABELS = 46;  // with more lanes there is no space for a label per lane
 
-/// Each lane is an afferent on a channel: ticks while they stand apart, spikes per pixel as shade when they do not.
+/// Each lane is an afferent on a channel. Spikes are ticks if they can be told apart, else the spikes per pixel are shown as shades.
 class RasterPanel extends Panel {
-    /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top. `parted` draws a line between groups.
-    constructor({lanes, pick, parted, afferents, named, ...rest}) {
+    /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top. `grouped`: draw a line between groups.
+    constructor({lanes, pick, grouped, afferents, named, ...rest}) {
         const tall = Math.min(24, 560 / lanes.length), strip = named ? 16 : 0;
         super({...rest, named, title: "spikes", height: strip + Math.max(40, tall * lanes.length), bottom: true,
                series: afferents.map(({name, color}) => ({label: name, html: escaped(name), color, width: 3}))});
-        Object.assign(this, {lanes, pick, parted, strip, each: lanes.length <= MOST_LABELS});
+        Object.assign(this, {lanes, pick, grouped, strip, labelEach: lanes.length <= MAX_LABELS});
     }
 
     rows() { return []; }
     options() { return {drawGrid: false}; }
-    read() {}
-    forget() {}
+    showValues() {}
+    clearValues() {}
 
-    /// A lane is one high; what is above them holds the phases' names.
+    /// A lane has height 1; the strip above the lanes is for the names of the phases.
     range() { return [0, this.lanes.length * this.height / (this.height - this.strip)]; }
     inner(area) { return {...area, y: area.y + this.strip, h: area.h - this.strip, tall: (area.h - this.strip) / this.lanes.length}; }
 
-    /// Labels lane by lane while there is room; else one for each afferent, amid its lanes.
+    /// A label for each lane if there is space, else one for each afferent in the middle of its lanes.
     valueTicks() {
         const n = this.lanes.length;
-        if (this.each) return this.lanes.map(({label}, k) => ({v: n - k - 0.5, label: escaped(label)}));
+        if (this.labelEach) return this.lanes.map(({label}, k) => ({v: n - k - 0.5, label: escaped(label)}));
         return this.series.map(({label}) => {
             const first = this.lanes.findIndex((lane) => lane.afferent === label);
             const last = this.lanes.findLastIndex((lane) => lane.afferent === label);
@@ -33,22 +33,22 @@ class RasterPanel extends Panel {
         });
     }
 
-    under(context, whole) {
-        super.under(context, whole);
-        const area = this.inner(whole);
+    drawBackground(context, outer) {
+        super.drawBackground(context, outer);
+        const area = this.inner(outer);
         const [a, b] = this.chart.xAxisRange();
         const seen = this.lanes.map(({spikes}) => [spikes.before(a), spikes.before(b)]);
-        const busiest = seen.reduce((most, [i, j]) => Math.max(most, j - i), 0);
-        const all = seen.reduce((sum, [i, j]) => sum + j - i, 0);
+        const maxCount = seen.reduce((max, [i, j]) => Math.max(max, j - i), 0);
+        const total = seen.reduce((sum, [i, j]) => sum + j - i, 0);
         this.markLanes(context, area);
-        if (busiest * 4 < area.w && all < 20000) this.drawTicks(context, area, seen);
+        if (maxCount * 4 < area.w && total < 20000) this.drawTicks(context, area, seen);
         else this.drawDensity(context, area, a, b, seen);
         this.countSpikes(seen);
     }
 
-    /// The chosen channel's lanes are tinted; a line parts one group's lanes from the next one's.
+    /// Tints the lanes of the selected channel and draws a line between groups.
     markLanes(context, area) {
-        if (!this.parted) return;
+        if (!this.grouped) return;
         const [tint, rule] = [colour("chosen"), colour("rule")];
         this.lanes.forEach((lane, k) => {
             const y = area.y + k * area.tall;
@@ -68,7 +68,7 @@ class RasterPanel extends Panel {
         });
     }
 
-    /// Painted one pixel a lane and column, then stretched over the plot. Lanes thinner than a pixel share one.
+    /// Paints an image with one pixel per lane and column, then scales it to the plot. Lanes thinner than a pixel share a line.
     drawDensity(context, area, a, b, seen) {
         const columns = Math.round(area.w * devicePixelRatio);
         const lines = Math.min(this.lanes.length, Math.floor(area.h * devicePixelRatio));
@@ -85,7 +85,7 @@ class RasterPanel extends Panel {
             context.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
-    /// The legend says how many spikes of the chosen channel are in view, and of how many; of copies, all that have a lane.
+    /// Shows in the legend how many spikes of the selected channel (or of all copies shown) are visible.
     countSpikes(seen) {
         this.series.forEach(({label}, s) => {
             let [shown, total] = [0, 0];
@@ -103,7 +103,7 @@ class RasterPanel extends Panel {
     }
 }
 
-/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few are counted one by one; of many, only the columns' edges are looked up.
+/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few spikes are counted one by one; for many, the edges of the columns are searched.
 function countPerColumn(counts, spikes, i, j, a, b) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {
@@ -117,9 +117,9 @@ function countPerColumn(counts, spikes, i, j, a, b) {
     }
 }
 
-/// An image of the counts: the more spikes, the less transparent, from `faintest` of 255 on.
-function painted(counts, colours, faintest = 55) {
-    const most = counts.reduce((high, line) => line.reduce((m, n) => Math.max(m, n), high), 1);
+/// An image of the counts: more spikes are more opaque; the lowest opacity is `minAlpha` of 255.
+function painted(counts, colours, minAlpha = 55) {
+    const max = counts.reduce((high, line) => line.reduce((m, n) => Math.max(m, n), high), 1);
     const canvas = element(null, "canvas");
     [canvas.width, canvas.height] = [counts[0].length, counts.length];
     const image = new ImageData(canvas.width, canvas.height), pixels = new Uint32Array(image.data.buffer);
@@ -127,7 +127,7 @@ function painted(counts, colours, faintest = 55) {
         const [red, green, blue] = [1, 3, 5].map((k) => parseInt(colours[y].slice(k, k + 2), 16));
         const opaque = (blue << 16) | (green << 8) | red;
         for (let x = 0; x < line.length; ++x)
-            if (line[x]) pixels[y * canvas.width + x] = ((faintest + (255 - faintest) * Math.sqrt(line[x] / most)) << 24) | opaque;
+            if (line[x]) pixels[y * canvas.width + x] = ((minAlpha + (255 - minAlpha) * Math.sqrt(line[x] / max)) << 24) | opaque;
     });
     canvas.getContext("2d").putImageData(image, 0, 0);
     return canvas;

@@ -1,9 +1,9 @@
 "use strict";
-// What the report says in words and numbers: rates, parameters, versions.
+// The tables of the report: rates, recording quality, costs, parameters, versions.
 
-const MOST_ROWS = 2000;  // more would only slow the browser; the numbers are in the program's own files
+const MAX_ROWS = 2000;  // more would slow the browser; all rows are in summary.json
 
-/// Rates of the chosen channel, or of all.
+/// Rates of the selected channel, or of all channels.
 function showRates(table, inputs, channel) {
     const section = document.getElementById("rates");
     section.hidden = !table || !table.rows.length;
@@ -16,38 +16,38 @@ function showRates(table, inputs, channel) {
     fill();
 }
 
-function fillRates(host, {columns, decimals, rows}, only, parted = (row, before) => row[0] !== before[0]) {
+function fillRates(host, {columns, decimals, rows}, only, startsGroup = (row, before) => row[0] !== before[0]) {
     const wanted = rows.filter((row) => !only || row[columns.indexOf("channel")] === only);
     const numeric = columns.map((_, c) => rows.some((row) => typeof row[c] === "number" || Array.isArray(row[c])));
     const cell = (tag, c, text) => `<${tag}${numeric[c] ? ' class="number"' : ""}${tag === "th" ? ' scope="col"' : ""}>${escaped(text)}</${tag}>`;
-    const line = (row, k) => `<tr${k && parted(row, wanted[k - 1]) ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value, decimals[c]))).join("")}</tr>`;
+    const line = (row, k) => `<tr${k && startsGroup(row, wanted[k - 1]) ? ' class="group"' : ""}>${row.map((value, c) => cell("td", c, cellText(value, decimals[c]))).join("")}</tr>`;
     host.innerHTML = `<table><thead><tr>${columns.map((name, c) => cell("th", c, name)).join("")}</tr></thead>
-        <tbody>${wanted.slice(0, MOST_ROWS).map(line).join("")}</tbody></table>`;
-    if (wanted.length > MOST_ROWS) element(host, "p", "note", `the first ${MOST_ROWS} of ${wanted.length} rows`);
+        <tbody>${wanted.slice(0, MAX_ROWS).map(line).join("")}</tbody></table>`;
+    if (wanted.length > MAX_ROWS) element(host, "p", "note", `The first ${MAX_ROWS} of ${wanted.length} rows.`);
 }
 
-/// Versions of one receptor on the chosen channel.
-function showVersionsOf(table, channel) {
+/// Comparison of the implementations of each receptor on the selected channel.
+function showImplementations(table, channel) {
     const section = document.getElementById("comparisons");
     section.hidden = !table || !table.rows.length;
     if (section.hidden) return;
-    section.querySelector(".note").textContent = `The first of each receptor is what the others are held against. Spikes closer than ${quantity(2 / table.cost, "s", true)} ` +
-        `are matched; a positive shift is later than its. Victor-Purpura at ${quantity(table.cost, "Hz", true)}, van Rossum with ${quantity(table.tau, "s", true)}.`;
+    section.querySelector(".note").textContent = `Each implementation is compared with the first of its receptor. Spikes within ${quantity(2 / table.cost, "s", true)} match; ` +
+        `a positive shift means later than the reference. Victor-Purpura cost ${quantity(table.cost, "Hz", true)}, van Rossum time constant ${quantity(table.tau, "s", true)}.`;
     const isFirst = (row) => row[table.columns.indexOf("matched")] === null;
     fillRates(section.querySelector(".scroll"), table, channel.name, isFirst);
 }
 
-/// What was found of the recordings: the sentences, the worst first, and the numbers behind them.
+/// Findings about the recordings, the most serious first, and their numbers.
 function showQuality({sentences, columns, rows}) {
     const section = document.getElementById("quality");
     section.hidden = !rows.length;
     if (section.hidden) return;
     section.querySelector("ul").innerHTML = sentences.map(({text, grave}) => `<li${grave ? ' class="grave"' : ""}>${escaped(text)}</li>`).join("") ||
-        "<li>Nothing that would mislead was found.</li>";
+        "<li>No problems were found.</li>";
     fillRates(section.querySelector(".scroll"), {columns, decimals: [], rows}, null);
 }
 
-/// What afferents cost that are netlists, block by block.
+/// Power and area of afferents that are netlists, by block.
 function showCosts(costs, afferents) {
     const section = document.getElementById("costs");
     section.hidden = !costs || !costs.length;
@@ -60,26 +60,26 @@ const squareMicrons = (area) => (area ? (area * 1e12).toFixed(0) : "–");
 function costTable({afferent, rest_N, power, area, blocks, receptors}, index) {
     const text = (value, unit) => escaped(quantity(value, unit, true));
     const row = (head, cells) => `<tr><th scope="row">${head}</th>${cells.map((cell) => `<td class="number">${cell}</td>`).join("")}</tr>`;
-    const head = ["block", `power at rest (${text(rest_N, "N")})`, "area (µm²)", "leaks, off"].map((cell) => `<th scope="col">${cell}</th>`).join("");
-    const told = blocks.filter((one) => one.area.total_m2 || Math.abs(power.op.blocks_W[one.block]) > 1e-6 * power.op.delivered_W);
-    const rows = told.map((one) => row(escaped(one.block), [text(power.op.blocks_W[one.block], "W"), squareMicrons(one.area.total_m2),
+    const head = ["block", `power at rest (${text(rest_N, "N")})`, "area (µm²)", "off leakage"].map((cell) => `<th scope="col">${cell}</th>`).join("");
+    const listed = blocks.filter((one) => one.area.total_m2 || Math.abs(power.op.blocks_W[one.block]) > 1e-6 * power.op.delivered_W);
+    const rows = listed.map((one) => row(escaped(one.block), [text(power.op.blocks_W[one.block], "W"), squareMicrons(one.area.total_m2),
         one.worst_leak ? text(one.worst_leak.current_A, "A") : "–"]));
-    const mean = power.mean ? `; on the mean ${text(power.mean.delivered_W, "W")}, of it ${text(power.mean.sensor_W, "W")}` : "";
-    const many = receptors ? ` A mm² holds ${text(receptors.per_mm2, "")} of them.` : "";
+    const mean = power.mean ? `; mean ${text(power.mean.delivered_W, "W")}, of which sensor ${text(power.mean.sensor_W, "W")}` : "";
+    const density = receptors ? ` Density: ${text(receptors.per_mm2, "")} per mm².` : "";
     return `<table class="costs"><caption><span class="chip" style="background: ${afferentColour(index)}"></span>${escaped(afferent)}
-        <span class="unit">delivered at rest ${text(power.op.delivered_W, "W")}, of it for the sensor's current ${text(power.op.sensor_W, "W")}${mean}.${many}</span></caption>
-        <thead><tr>${head}</tr></thead><tbody>${rows.join("")}${row("all", [text(power.op.delivered_W, "W"), squareMicrons(area.total_m2), ""])}</tbody></table>`;
+        <span class="unit">power at rest ${text(power.op.delivered_W, "W")}, of which sensor ${text(power.op.sensor_W, "W")}${mean}.${density}</span></caption>
+        <thead><tr>${head}</tr></thead><tbody>${rows.join("")}${row("total", [text(power.op.delivered_W, "W"), squareMicrons(area.total_m2), ""])}</tbody></table>`;
 }
 
 function showParameters(afferents) {
     const section = document.getElementById("parameters");
-    const told = afferents.map((one, index) => ({...one, index})).filter((one) => one.parameters && one.parameters.length);
-    section.hidden = !told.length;
-    section.querySelector(".columns").innerHTML = told.map(parameterTable).join("");
+    const listed = afferents.map((one, index) => ({...one, index})).filter((one) => one.parameters && one.parameters.length);
+    section.hidden = !listed.length;
+    section.querySelector(".columns").innerHTML = listed.map(parameterTable).join("");
 }
 
 function parameterTable({name, made_of, parameters, index}) {
-    const head = ["model", "parameter", "value", "default", "meaning"].map((text) => `<th scope="col">${text}</th>`).join("");
+    const head = ["model", "parameter", "value", "default", "description"].map((text) => `<th scope="col">${text}</th>`).join("");
     return `<table class="parameters"><caption><span class="chip" style="background: ${afferentColour(index)}"></span>${escaped(name)}
         <span class="unit">${escaped(made_of || "")}</span></caption><thead><tr>${head}</tr></thead><tbody>${parameters.map(parameterRow).join("")}</tbody></table>`;
 }

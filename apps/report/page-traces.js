@@ -1,11 +1,11 @@
 "use strict";
-// Force, currents, membranes: quantities over time, thinned to the pixels there are.
+// Plots of force, currents and membranes over time, reduced to the resolution of the screen.
 
-/// Traces of one unit over time; the axis carries the prefix that suits the largest value.
+/// Traces of one unit over time. The axis has the prefix that suits the largest value.
 class TracePanel extends Panel {
-    /// `symbol` closes the title: "I_A". `line`: {value, html} draws a thin dashed level, the threshold.
+    /// `symbol`: the end of the title, such as "I_A". `line`: {value, html} draws a dashed level, such as the threshold.
     constructor({traces, line = null, title, symbol = "", ...rest}) {
-        const extent = extentOf(traces.map((trace) => trace.whole()), line);
+        const extent = extentOf(traces.map((trace) => trace.fullRange()), line);
         const power = prefixPower(Math.max(Math.abs(extent[0]), Math.abs(extent[1])), traces[0].unit);
         const unit = PREFIXES[power] + unitText(traces[0].unit);
         super({...rest, scale: 10 ** power, title: escaped(title) + symbolHtml(symbol) + titleHtml("", unit)});
@@ -13,8 +13,8 @@ class TracePanel extends Panel {
         if (line) this.legend({html: line.html, color: colour("level"), width: 1, dash: [5, 3]}).textContent = quantity(line.value, traces[0].unit, true);
     }
 
-    /// Every sample where they are few; else least and greatest of each column of about a pixel. Columns stand at
-    /// multiples of their own width, so that they do not shimmer while the window moves.
+    /// Every sample if there are few, else the minimum and maximum of columns of about one pixel. Columns are aligned to multiples of their
+    /// width, so that the plot does not flicker while it is panned.
     rows(a, b, width) {
         const {t0, T, samples} = this.traces[0];
         const finest = Math.min(...this.traces.map((trace) => trace.bucket));
@@ -35,12 +35,12 @@ class TracePanel extends Panel {
     }
 
     range(rows) {
-        const extent = rows && rows.length ? extentOf(this.traces.map((_, k) => [least(rows, k + 1), greatest(rows, k + 1)]), null) : this.extent;
+        const extent = rows && rows.length ? extentOf(this.traces.map((_, k) => [minimum(rows, k + 1), maximum(rows, k + 1)]), null) : this.extent;
         return padded(extent, this.named ? 0.24 : 0.07);
     }
 
-    under(context, area) {
-        super.under(context, area);
+    drawBackground(context, area) {
+        super.drawBackground(context, area);
         if (this.line) this.drawLine(context, area);
     }
 
@@ -56,24 +56,24 @@ class TracePanel extends Panel {
         context.restore();
     }
 
-    read(t) {
+    showValues(t) {
         this.traces.forEach((trace, k) => { this.values[k].textContent = rangeText(trace.at(t), trace.unit); });
     }
 }
 
-/// One quantity of several versions. Those of another scale are read on an axis at the right, which is the first of them's.
+/// One quantity of several implementations. Those with another scale are read on the right axis, which belongs to the first of them.
 class OverlayPanel extends TracePanel {
-    /// `versions`: [{trace, scale, color, name}].
-    constructor({versions, title, symbol, ...rest}) {
-        const traces = versions.map(({trace, scale}) => (scale.own ? trace : new ScaledTrace(trace, scale)));
-        super({...rest, traces, title, symbol, series: versions.map(({name, color}, k) => ({label: name, html: escaped(name), color, width: k ? 1.3 : 2.2}))});
-        this.right = versions.find(({scale}) => !scale.own);
+    /// `implementations`: [{trace, scale, color, name}].
+    constructor({implementations, title, symbol, ...rest}) {
+        const traces = implementations.map(({trace, scale}) => (scale.isIdentity ? trace : new ScaledTrace(trace, scale)));
+        super({...rest, traces, title, symbol, series: implementations.map(({name, color}, k) => ({label: name, html: escaped(name), color, width: k ? 1.3 : 2.2}))});
+        this.right = implementations.find(({scale}) => !scale.isIdentity);
         if (!this.right) return;
         const {scale, color, name, trace} = this.right;
         const power = prefixPower(Math.max(...this.extent.map((v) => Math.abs(scale.from(v)))), trace.unit);
-        Object.assign(this, {rightScale: 10 ** power, rightRoom: isNarrow() ? 38 : 58});
-        const turned = scale.factor < 0 ? ", upside down" : "";
-        element(this.heading, "span", "right-title", `${escaped(name)}${turned} <span class="unit">(${PREFIXES[power]}${unitText(trace.unit)})</span>`).style.color = color;
+        Object.assign(this, {rightScale: 10 ** power, rightMargin: isNarrow() ? 38 : 58});
+        const inverted = scale.factor < 0 ? ", inverted" : "";
+        element(this.heading, "span", "right-title", `${escaped(name)}${inverted} <span class="unit">(${PREFIXES[power]}${unitText(trace.unit)})</span>`).style.color = color;
     }
 
     start(view) {
@@ -81,15 +81,15 @@ class OverlayPanel extends TracePanel {
         if (this.right) this.axis = element(this.plot, "div", "right-axis");
     }
 
-    draw(a, b, fit) {
-        super.draw(a, b, fit);
+    draw(a, b, autoscale) {
+        super.draw(a, b, autoscale);
         if (this.right && this.area.w >= 1) this.drawRight(this.area);
     }
 
-    /// These panels are low: their numbers stand closer.
+    /// These panels are low, so their ticks are closer.
     valueTicks(lo, hi, pixels) { return super.valueTicks(lo, hi, 1.4 * pixels); }
 
-    /// Round values of the right axis, each at the height where the left one has what it stands for.
+    /// Draws round values of the right axis at the corresponding heights of the left axis.
     drawRight({x, y, w, h}) {
         const {scale, color} = this.right, unit = this.rightScale;
         const ends = this.chart.yAxisRange().map((v) => scale.from(v) / unit);
@@ -100,28 +100,28 @@ class OverlayPanel extends TracePanel {
     }
 }
 
-/// Two rows for a column: for each trace the end nearer to where its line arrives comes first, so that slopes stay thin.
+/// Two rows per column. For each trace the end nearer to the previous point comes first, so that slopes stay thin.
 function bothEnds(t, ranges, last) {
     const near = ranges.map(([low, high], k) => (Math.abs(last[k] - low) <= Math.abs(last[k] - high) ? 0 : 1));
     ranges.forEach((range, k) => { last[k] = range[1 - near[k]]; });
     return [[t, ...ranges.map((range, k) => range[near[k]])], [t, ...last]];
 }
 
-/// One value, or both where only least and greatest are known and differ.
+/// One value, or minimum and maximum if they differ.
 function rangeText([low, high], unit) {
     const [first, second] = [quantity(low, unit), quantity(high, unit)];
     return first === second ? first : `${first} … ${second}`;
 }
 
-const least = (rows, column) => rows.reduce((low, row) => (row[column] !== null && row[column] < low ? row[column] : low), Infinity);
-const greatest = (rows, column) => rows.reduce((high, row) => (row[column] !== null && row[column] > high ? row[column] : high), -Infinity);
+const minimum = (rows, column) => rows.reduce((low, row) => (row[column] !== null && row[column] < low ? row[column] : low), Infinity);
+const maximum = (rows, column) => rows.reduce((high, row) => (row[column] !== null && row[column] > high ? row[column] : high), -Infinity);
 
 function extentOf(ranges, line) {
     const ends = [...ranges.flat(), line ? line.value : null].filter((v) => v !== null && Number.isFinite(v));
     return ends.length ? [Math.min(...ends), Math.max(...ends)] : [0, 0];
 }
 
-/// Room below and above; `above` is a share of the height, more where names are written.
+/// Adds margins. `above`: fraction of the height, larger if names of phases are shown.
 function padded([low, high], above) {
     const height = high - low || Math.abs(high) * 0.2 || 1;
     return [low - height * 0.07, high + height * above];

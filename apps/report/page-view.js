@@ -1,22 +1,22 @@
 "use strict";
-// The window of time and the cursor that all panels share. Whatever happens between two frames, each panel is drawn once.
+// The time range and the cursor that all panels share. Each panel is drawn at most once per screen frame.
 
 class View {
     constructor({span, now}) {
-        Object.assign(this, {span, now, panels: [], fit: false, cursor: null, waiting: false});
+        Object.assign(this, {span, now, panels: [], autoscale: false, cursor: null, waiting: false});
         new ResizeObserver(() => this.resized()).observe(document.getElementById("figures"));
     }
 
-    /// Shows panels of one input; the window stays where it was if `keep`.
+    /// Shows panels of one input; keeps the time range if `keep`.
     show(panels, input, keep) {
         this.input = input;
         [this.begin, this.end] = [input.t0, endOf(input)];
         if (!keep) [this.a, this.b, this.cursor] = [this.begin, this.end, null];
         this.panels = panels;
-        this.rightRoom = Math.max(...panels.map((panel) => panel.rightRoom));  // one instant stands at one x in all of them
+        this.rightMargin = Math.max(...panels.map((panel) => panel.rightMargin));  // the same for all panels, so that times align
         for (const panel of panels) {
             panel.start(this);
-            followMouse(panel, this);
+            connectMouse(panel, this);
         }
         this.draw();
     }
@@ -26,7 +26,7 @@ class View {
         this.panels = [];
     }
 
-    /// The window becomes [a, b], kept inside the recording and no shorter than a few samples.
+    /// Sets the time range to [a, b], clamped to the recording and to at least four samples.
     set(a, b) {
         const length = Math.min(Math.max(b - a, 4 * this.input.T), this.end - this.begin);
         const middle = (a + b) / 2;
@@ -35,10 +35,10 @@ class View {
         this.request();
     }
 
-    whole() { this.set(this.begin, this.end); }
-    pan(share) { this.set(this.a + share * (this.b - this.a), this.b + share * (this.b - this.a)); }
+    reset() { this.set(this.begin, this.end); }
+    pan(fraction) { this.set(this.a + fraction * (this.b - this.a), this.b + fraction * (this.b - this.a)); }
 
-    /// Keeps `centre` where it is on the screen.
+    /// Zooms about `centre`.
     zoom(factor, centre = this.middle()) { this.set(centre - (centre - this.a) * factor, centre + (this.b - centre) * factor); }
 
     middle() { return this.cursor !== null && this.cursor > this.a && this.cursor < this.b ? this.cursor : (this.a + this.b) / 2; }
@@ -60,7 +60,7 @@ class View {
 
     draw() {
         this.waiting = false;
-        for (const panel of this.panels) panel.draw(this.a, this.b, this.fit);
+        for (const panel of this.panels) panel.draw(this.a, this.b, this.autoscale);
         const step = (this.b - this.a) / 1000;
         this.span.textContent = `${timeText(this.a, step)} to ${timeText(this.b, step)}`;
         this.drawCursor();
@@ -71,8 +71,8 @@ class View {
         const t = this.cursor;
         for (const panel of this.panels) {
             placeHairline(panel, t, this);
-            if (t !== null) panel.read(t);
-            else panel.forget();
+            if (t !== null) panel.showValues(t);
+            else panel.clearValues();
         }
         const phase = t !== null && phaseAt(this.input, t);
         this.now.textContent = t === null ? "" : `t = ${timeText(t, (this.b - this.a) / 2000)}${phase ? ", " + phase.name : ""}`;
@@ -92,10 +92,9 @@ function placeHairline(panel, t, {a, b}) {
     style.height = area.h + "px";
 }
 
-/// Drag zooms, shift-drag (or a finger) pans, a plain click is the panel's own, double click shows the whole,
-/// the wheel with control zooms about the pointer.
-function followMouse(panel, view) {
-    const place = (event) => {
+/// Drag zooms, shift-drag (or a finger) pans, a click goes to the panel, double click resets, Ctrl with the wheel zooms about the pointer.
+function connectMouse(panel, view) {
+    const positionOf = (event) => {
         const box = panel.plot.getBoundingClientRect();
         return {x: Math.max(panel.area.x, Math.min(panel.area.x + panel.area.w, event.clientX - box.left)), y: event.clientY - box.top};
     };
@@ -104,34 +103,34 @@ function followMouse(panel, view) {
 
     panel.plot.addEventListener("pointerdown", (event) => {
         if (event.button !== 0) return;
-        drag = {...place(event), a: view.a, b: view.b, pans: event.shiftKey || event.pointerType === "touch"};
+        drag = {...positionOf(event), a: view.a, b: view.b, isPan: event.shiftKey || event.pointerType === "touch"};
         panel.plot.setPointerCapture(event.pointerId);
     });
     panel.plot.addEventListener("pointermove", (event) => {
-        const {x} = place(event);
-        if (!drag || !drag.pans) view.point(timeAt(x));
-        if (drag && drag.pans) {
+        const {x} = positionOf(event);
+        if (!drag || !drag.isPan) view.point(timeAt(x));
+        if (drag && drag.isPan) {
             const shift = timeAt(drag.x, drag.a, drag.b) - timeAt(x, drag.a, drag.b);
             view.set(drag.a + shift, drag.b + shift);
         } else if (drag) showSelection(view, drag.x, x);
     });
     panel.plot.addEventListener("pointerup", (event) => {
         if (!drag) return;
-        const {x, y} = place(event), {x: from, pans} = drag;
+        const {x, y} = positionOf(event), {x: from, isPan} = drag;
         drag = null;
         showSelection(view, 0, 0);
         if (Math.abs(x - from) < 4) panel.click(x, y);
-        else if (!pans) view.set(timeAt(Math.min(x, from)), timeAt(Math.max(x, from)));
+        else if (!isPan) view.set(timeAt(Math.min(x, from)), timeAt(Math.max(x, from)));
     });
     panel.plot.addEventListener("pointercancel", () => {
         drag = null;
         showSelection(view, 0, 0);
     });
-    panel.plot.addEventListener("dblclick", () => view.whole());
+    panel.plot.addEventListener("dblclick", () => view.reset());
     panel.plot.addEventListener("wheel", (event) => {
-        if (!event.ctrlKey) return;  // the plain wheel scrolls the page
+        if (!event.ctrlKey) return;  // the wheel alone scrolls the page
         event.preventDefault();
-        view.zoom(1.2 ** Math.sign(event.deltaY), timeAt(place(event).x));
+        view.zoom(1.2 ** Math.sign(event.deltaY), timeAt(positionOf(event).x));
     }, {passive: false});
 }
 
@@ -144,8 +143,8 @@ function showSelection(view, x, y) {
     }
 }
 
-function followKeys(view) {
-    const keys = {"+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2), "0": () => view.whole(),
+function connectKeys(view) {
+    const keys = {"+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2), "0": () => view.reset(),
                   ArrowLeft: () => view.pan(-0.25), ArrowRight: () => view.pan(0.25), Escape: () => view.point(null)};
     document.addEventListener("keydown", (event) => {
         const typing = event.target.closest("select, input, [role=region]");

@@ -1,5 +1,5 @@
 "use strict";
-// Puts the report together: heading, then the figures of the chosen input and channel, then the tables.
+// Builds the report: heading, figures of the selected input and channel, tables.
 
 const report = new Report(JSON.parse(document.getElementById("data").textContent));
 const at = (id) => document.getElementById(id);
@@ -15,7 +15,7 @@ function showHeading({title, program, command, remarks}) {
     at("remarks").innerHTML = (remarks || []).map((text) => `<li>${escaped(text)}</li>`).join("");
 }
 
-/// The figures of one channel. The window of time stays when only the channel changes.
+/// Shows the figures of one channel. The time range is kept if only the channel changes.
 function show(input, channel) {
     const keep = shown.input === input;
     Object.assign(shown, {input, channel, traces: report.traces(input, channel)});
@@ -27,13 +27,13 @@ function show(input, channel) {
     scrollTo(0, scroll);
     showChoice(input, channel);
     showRates(report.data.table, report.data.inputs, channel);
-    showVersionsOf(report.data.comparisons, channel);
+    showImplementations(report.data.comparisons, channel);
 }
 
-/// All panels leave the same room at their left, enough for the raster's labels.
+/// Sets one left margin for all panels, wide enough for the labels of the raster.
 function labelWidth(input) {
     const labels = lanes(input, null).map(({label}) => label);
-    const longest = labels.length <= MOST_LABELS ? Math.max(0, ...labels.map((label) => label.length)) : 0;
+    const longest = labels.length <= MAX_LABELS ? Math.max(0, ...labels.map((label) => label.length)) : 0;
     view.labelWidth = isNarrow() ? Math.max(36, Math.min(90, 6 * longest + 10)) : Math.max(60, Math.min(130, 7 * longest));
     at("figures").style.setProperty("--left", view.labelWidth + 6 + "px");
 }
@@ -46,17 +46,17 @@ function showChoice(input, channel) {
     at("channel").innerHTML = input.channels.map((one) => `<option value="${one.id}" ${one === channel ? "selected" : ""}>${escaped(one.name)}</option>`).join("");
 }
 
-/// One section of figures, with a heading.
+/// Adds a section of figures with a heading.
 function section(title, about = "", chip = "") {
-    const made = element(at("figures"), "section");
+    const host = element(at("figures"), "section");
     const mark = chip && `<span class="chip" style="background: ${chip}"></span>`;
-    element(made, "h2", "", `${mark}${escaped(title)} <small>${escaped(about)}</small>`);
-    return made;
+    element(host, "h2", "", `${mark}${escaped(title)} <small>${escaped(about)}</small>`);
+    return host;
 }
 
 function forcePanels() {
     const traces = shown.traces.filter((trace) => trace.afferent === null);
-    if (!shown.traces.length) element(at("figures"), "p", "note", "No traces were kept for this channel; its spikes follow.");
+    if (!shown.traces.length) element(at("figures"), "p", "note", "No traces were recorded for this channel; its spikes are below.");
     if (!traces.length) return [];
     const host = section("Stimulus", [shown.channel.name, shown.input.sentence].filter(Boolean).join(": "));
     return byKind(traces).map(([, group], k, all) => new TracePanel({
@@ -71,88 +71,88 @@ function spikePanels() {
     const {input, channel} = shown, {afferents} = report.data;
     if (!afferents.length) return [];
     const {copies} = report.data, several = input.channels.length > 1 && !copies;
-    const host = section("Spikes", copies ? aboutCopies(copies) : several ? `all channels; click a row to see its channel. Counts and frequencies are of ${channel.name}.` : "");
+    const host = section("Spikes", copies ? aboutCopies(copies) : several ? `All channels; click a row to select its channel. Counts and frequencies are of channel ${channel.name}.` : "");
     const colours = afferents.map(({name}, index) => ({name, color: afferentColour(index), index}));
     const overlaid = receptors.some(({members}) => members.length > 1);
     const trainsOf = (members) => members.map(({afferent, index}) => ({...colours[index], spikes: report.spikes(report.members(afferent)[0], channel)}));
-    const frequency = (trains, of) => new FrequencyPanel({host, input, name: `${of}frequency`, about: `${of}instantaneous frequency`, height: of ? 110 : 150, trains,
-                                                          title: `${of}instantaneous frequency`});
+    const frequency = (trains, prefix) => new FrequencyPanel({host, input, name: `${prefix}frequency`, about: `${prefix}instantaneous frequency`, height: prefix ? 110 : 150, trains,
+                                                              title: `${prefix}instantaneous frequency`});
     return [
         new RasterPanel({host, input, name: "raster", about: "spikes", lanes: lanes(input, channel), afferents: colours, named: !shown.traces.length,
-                         pick: several ? (one) => show(input, one) : null, parted: several || copies || overlaid}),
-        ...(copies ? [new PopulationPanel({host, input, name: "population", about: "rate of the population", height: 150,
+                         pick: several ? (one) => show(input, one) : null, grouped: several || copies || overlaid}),
+        ...(copies ? [new PopulationPanel({host, input, name: "population", about: "mean rate of all copies", height: 150,
                                            rates: colours.map((one, k) => ({...one, ...report.rate(afferents[k], channel)}))})] : []),
         ...(overlaid && receptors.length > 1 ? receptors.map(({name, members}) => frequency(trainsOf(members), (members.length > 1 ? name : members[0].afferent.name) + " "))
                                              : [frequency(trainsOf(receptors.flatMap(({members}) => members)), "")]),
     ];
 }
 
-/// What is shown of many copies, and what is not.
+/// Explains which copies the figures show.
 function aboutCopies({count, shown, traced}) {
-    const rows = shown === count ? `all ${count} copies of each afferent` : `the first ${shown} of ${count} copies of each afferent`;
-    const traces = traced ? "Currents, membranes and instantaneous frequency are of copy 1." : `Instantaneous frequency is of copy 1; of more than ${shown} copies no currents and membranes are kept.`;
-    return `${rows}, a row each. The rate below them is of all ${count}. ${traces}`;
+    const rows = shown === count ? `All ${count} copies of each afferent` : `The first ${shown} of ${count} copies of each afferent`;
+    const traces = traced ? "Currents, membranes and instantaneous frequency are of copy 1." : `Instantaneous frequency is of copy 1; with more than ${shown} copies currents and membranes are not recorded.`;
+    return `${rows}, one row per copy. The rate below is the mean over all ${count}. ${traces}`;
 }
 
-/// The raster's lanes: every afferent on every channel, or the copies of each on the chosen one. A label leaves out the input's name, and if long keeps its end.
+/// The lanes of the raster: every afferent on every channel, or all copies on the selected channel. Labels omit the name of the input; the end of a
+/// long label is kept.
 function lanes(input, chosen) {
-    const cut = (text) => (text.length > 18 ? "…" + text.slice(-17) : text);
-    const own = ({name}) => (name.startsWith(input.name + ":") ? name.slice(input.name.length + 1) : name);
+    const shortened = (text) => (text.length > 18 ? "…" + text.slice(-17) : text);
+    const channelName = ({name}) => (name.startsWith(input.name + ":") ? name.slice(input.name.length + 1) : name);
     const several = input.channels.length > 1 && !report.data.copies;
     const channels = report.data.copies ? [chosen || input.channels[0]] : input.channels;
     const lane = (member, channel, {afferent, index}, group) => ({
         afferent: afferent.name, group, channel, chosen: channel === chosen, color: afferentColour(index), spikes: report.spikes(member, channel),
-        label: cut(several ? `${member.name} ${own(channel)}` : member.name)});
+        label: shortened(several ? `${member.name} ${channelName(channel)}` : member.name)});
     return receptors.flatMap(({name, members}) => {
         const lanesOf = (one, on, group) => on.flatMap((channel) => report.members(one.afferent).map((member) => lane(member, channel, one, group)));
-        const beside = members.length > 1 && several && report.data.afferents.length * channels.length <= MOST_LABELS;
-        return beside ? channels.flatMap((channel) => members.flatMap((one) => lanesOf(one, [channel], name + channel.id)))
+        const byChannel = members.length > 1 && several && report.data.afferents.length * channels.length <= MAX_LABELS;
+        return byChannel ? channels.flatMap((channel) => members.flatMap((one) => lanesOf(one, [channel], name + channel.id)))
                       : members.flatMap((one) => lanesOf(one, channels, several || report.data.copies ? one.afferent.name : name));
     });
 }
 
-/// The channel with most spikes: of many, the first may have felt nothing.
-function liveliest(input) {
+/// The channel with most spikes, which is shown first: channel 1 of many may have no force.
+function mostActiveChannel(input) {
     const count = (channel) => report.data.afferents.flatMap((afferent) => report.members(afferent)).reduce((sum, one) => sum + report.spikes(one, channel).count, 0);
     return input.channels.reduce((best, channel) => (count(channel) > count(best) ? channel : best));
 }
 
 function connect() {
     const {inputs} = report.data;
-    at("input").onchange = () => show(inputs[at("input").value], liveliest(inputs[at("input").value]));
+    at("input").onchange = () => show(inputs[at("input").value], mostActiveChannel(inputs[at("input").value]));
     at("channel").onchange = () => show(shown.input, shown.input.channels.find((one) => String(one.id) === at("channel").value));
     at("earlier").onclick = () => view.pan(-0.25);
     at("later").onclick = () => view.pan(0.25);
     at("in").onclick = () => view.zoom(0.5);
     at("out").onclick = () => view.zoom(2);
-    at("whole").onclick = () => view.whole();
-    at("fit").onchange = () => { view.fit = at("fit").checked; view.request(); };
-    followKeys(view);
+    at("reset").onclick = () => view.reset();
+    at("autoscale").onchange = () => { view.autoscale = at("autoscale").checked; view.request(); };
+    connectKeys(view);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
-    addEventListener("beforeprint", () => forPaper(true));
-    addEventListener("afterprint", () => forPaper(false));
+    addEventListener("beforeprint", () => setPrinting(true));
+    addEventListener("afterprint", () => setPrinting(false));
 }
 
-/// Colours are read from the style sheet when figures are made, so other colours need other figures.
+/// Redraws everything: figures read the colours of the style sheet when they are created.
 function recolour() {
     showParameters(report.data.afferents);
     showCosts(report.data.costs, report.data.afferents);
     show(shown.input, shown.channel);
 }
 
-function forPaper(on) {
+function setPrinting(on) {
     document.documentElement.classList.toggle("printing", on);
     recolour();
 }
 
-/// For tests, and for looking at a report from the browser's console.
-///   charts                       the dygraphs shown, by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency",
-///                              of copies "population", of versions "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency": in these all values
-///                              stand on the left axis
-///   valueAt(part, t, afferent)   of the chosen channel, at the sample nearest to t: a number; [least, greatest] where the
-///                                trace keeps only these; null where there is no such trace. "force" has no afferent
-///   window(), setWindow(a, b)    the seconds shown; setting draws at once
-///   pointsDrawn()                by panel, the rows last handed to its dygraph and the width of its plot in pixels
+/// For tests and the browser's console.
+///   charts                       the dygraphs by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency"; with copies "population";
+///                                with several implementations "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency", scaled to the left axis
+///   valueAt(part, t, afferent)   the value on the selected channel at the sample nearest to t: a number; [min, max] if the trace holds only
+///                                these; null if there is no such trace. "force" has no afferent
+///   window(), setWindow(a, b)    the time range in seconds; setting it redraws at once
+///   pointsDrawn()                by panel: the rows last passed to its dygraph, and the width of its plot in pixels
 window.corpuscle = {
     get charts() { return Object.fromEntries(view.panels.map((panel) => [panel.name, panel.chart])); },
     valueAt(part, t, afferent = null) {
@@ -171,4 +171,4 @@ showCosts(report.data.costs, report.data.afferents);
 showQuality(report.data.quality);
 showVersions(report.data.versions);
 connect();
-show(report.data.inputs[0], liveliest(report.data.inputs[0]));
+show(report.data.inputs[0], mostActiveChannel(report.data.inputs[0]));

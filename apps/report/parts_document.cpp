@@ -6,10 +6,11 @@ namespace corpuscle {
 
 using PartJson = nlohmann::ordered_json;
 
-PartJson trace_document(std::uint32_t channel, const PartJson& afferent, std::string_view part, std::string_view unit, const Envelope& e) {
+PartJson trace_document(std::uint32_t channel, const PartJson& afferent, std::string_view quantity, std::string_view unit,
+                        const Envelope& e) {
     return {{"channel", channel},
             {"afferent", afferent},
-            {"part", part},
+            {"part", quantity},
             {"unit", unit},
             {"bucket", e.bucket()},
             {"count", e.count()},

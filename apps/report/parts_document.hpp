@@ -1,5 +1,5 @@
 #pragma once
-// What pages of all kinds show: a trace, the parameters of an afferent.
+// JSON that several pages use: a trace, the parameters of an afferent.
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace corpuscle {
 
-/// As class Trace of page-data.js reads it. `afferent`: whose it is, or null.
-nlohmann::ordered_json trace_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view part,
+/// A trace in the format of class Trace in page-data.js. `afferent`: its name, or null for the force.
+nlohmann::ordered_json trace_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
                                       std::string_view unit, const Envelope&);
 
-/// With defaults, sentences and sources; spreads of other afferents are passed over.
+/// The parameters with defaults, descriptions and sources. Spreads of other afferents are ignored.
 nlohmann::ordered_json parameters_document(const AfferentPlan&, std::span<const Spread>);
 
 }  // namespace corpuscle

@@ -1,9 +1,9 @@
 "use strict";
-// Least and greatest value of any stretch of a long trace, in a few dozen steps however long the stretch.
-// Level 0 is the samples; each entry of the next level is the least (greatest) of four entries below it.
+// Minimum and maximum of any range of a long trace in O(log n) steps.
+// Level 0 holds the samples; each entry of the next level is the minimum (maximum) of four entries below it.
 
 class Pyramid {
-    /// `lo` and `hi` are typed arrays of one length; the same array twice for plain samples. NaN counts as no sample.
+    /// `lo` and `hi` are typed arrays of one length; the same array twice for plain samples. NaN is skipped.
     constructor(lo, hi = lo) {
         this.levels = [{lo, hi}];
         for (let top = this.levels[0]; top.lo.length > 4; this.levels.push(top)) top = Pyramid.above(top);
@@ -20,22 +20,22 @@ class Pyramid {
         return up;
     }
 
-    /// [least, greatest] of entries i ... j-1, or [null, null] where there are none.
+    /// [min, max] of entries i ... j-1, or [null, null] if there are none.
     range(i, j) {
-        let least = Infinity, greatest = -Infinity;
+        let min = Infinity, max = -Infinity;
         i = Math.max(i, 0);
         j = Math.min(j, this.levels[0].lo.length);
         for (let level = 0; i < j; ++level, i >>= 2, j >>= 2) {
             const {lo, hi} = this.levels[level];
             const top = level === this.levels.length - 1;
-            const see = (k) => {
-                if (lo[k] < least) least = lo[k];
-                if (hi[k] > greatest) greatest = hi[k];
+            const include = (k) => {
+                if (lo[k] < min) min = lo[k];
+                if (hi[k] > max) max = hi[k];
             };
-            // Entries that do not fill a whole parent are looked at here; the rest is left to the level above.
-            while (i < j && (top || i % 4)) see(i++);
-            while (i < j && j % 4) see(--j);
+            // Entries that do not fill a complete parent are included here; the level above covers the rest.
+            while (i < j && (top || i % 4)) include(i++);
+            while (i < j && j % 4) include(--j);
         }
-        return greatest < least ? [null, null] : [least, greatest];
+        return max < min ? [null, null] : [min, max];
     }
 }

@@ -19,16 +19,16 @@ Json level(const AfferentPlan& plan, std::string_view name) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-/// At least `of` parts of a length, each 1, 2 or 5 times a power of ten.
-double round_part(double length, int of) {
-    const double most = length / of * (1 + 1e-9);
+/// The largest 1, 2 or 5 times a power of ten that divides a length into at least `parts` parts.
+double round_part(double length, int parts) {
+    const double max = length / parts * (1 + 1e-9);
     double decade = 1;
-    while (decade > most) decade /= 10;
-    while (10 * decade <= most) decade *= 10;
-    return decade * (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1);
+    while (decade > max) decade /= 10;
+    while (10 * decade <= max) decade *= 10;
+    return decade * (max >= 5 * decade ? 5 : max >= 2 * decade ? 2 : 1);
 }
 
-/// A value, or of copies their mean and standard deviation.
+/// A value; for copies their mean and standard deviation.
 Json cell_document(const RateRow& row, std::size_t m) {
     const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     if (row.over.empty() || row.over[m].copies < 2) return number(row.values[m]);
@@ -37,34 +37,34 @@ Json cell_document(const RateRow& row, std::size_t m) {
 
 Json table_document(const Summary& summary) {
     Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
-    const auto told = summary.columns();
-    const bool means = !summary.rows().empty() && !summary.rows()[0].over.empty();  // of counts, too
-    for (const auto m : told) columns.push_back(heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
+    const auto shown = summary.columns();
+    const bool means = !summary.rows().empty() && !summary.rows()[0].over.empty();  // counts then need a decimal, too
+    for (const auto m : shown) columns.push_back(heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
     for (const auto& r : summary.rows()) {
         Json row = {r.afferent, r.channel, r.phase};
-        for (const auto m : told) row.push_back(cell_document(r, m));
+        for (const auto m : shown) row.push_back(cell_document(r, m));
         rows.push_back(std::move(row));
     }
     return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}};
 }
 
-/// What was found of the recordings, in words, and a row a channel in numbers; no rows for stimuli.
+/// Recording quality: findings as text, and a row of numbers per channel. Stimuli have no rows.
 Json quality_document(const Summary& summary) {
-    Json sentences = Json::array(), columns = {"channel"}, rows = Json::array();
+    Json messages = Json::array(), columns = {"channel"}, rows = Json::array();
     const bool several = summary.inputs().size() > 1;
     for (const auto& i : summary.inputs()) {
-        const auto tell = [&](const std::vector<std::string>& told, bool grave) {
-            for (const auto& s : told) sentences.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", grave}});
+        const auto add = [&](const std::vector<std::string>& texts, bool is_warning) {
+            for (const auto& s : texts) messages.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", is_warning}});
         };
-        tell(i.quality.warnings, true);
-        tell(i.quality.sentences, false);
+        add(i.quality.warnings, true);
+        add(i.quality.sentences, false);
         for (const auto& f : i.quality.findings) {
             if (rows.empty() || rows.back()[0] != i.channels[f.channel]) rows.push_back(Json::array({i.channels[f.channel]}));
             if (rows.size() == 1) columns.push_back(f.unit.empty() ? std::string(f.name) : fmt::format("{} ({})", f.name, f.unit));
             rows.back().push_back(std::isfinite(f.value) ? Json(f.value) : Json(nullptr));
         }
     }
-    return {{"sentences", sentences}, {"columns", columns}, {"rows", rows}};
+    return {{"sentences", messages}, {"columns", columns}, {"rows", rows}};
 }
 
 }  // namespace
@@ -72,14 +72,14 @@ Json quality_document(const Summary& summary) {
 Result<void> Report::begin(const Input& input) {
     groups_ = groups_of(input.afferents);
     const auto channels = input.source.channels().size();
-    std::size_t traces = 1;  // of a channel: the force, and of each afferent
+    std::size_t traces = 1;  // per channel: the force and all probes
     for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
-    // A trace over its share keeps pairs: two points each.
-    const std::size_t most = std::clamp<std::size_t>(most_points_ / (2 * traces * channels * input.of), 16, std::size_t{1} << 20);
-    forces_.assign(channels, Envelope(most));
+    // A trace beyond this limit is kept as pairs of two points.
+    const std::size_t max_points = std::clamp<std::size_t>(most_points_ / (2 * traces * channels * input.of), 16, std::size_t{1} << 20);
+    forces_.assign(channels, Envelope(max_points));
     probes_.clear();
     for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
-        probes_.emplace_back(input.probes[groups_[k % groups()]].size(), Envelope(most));
+        probes_.emplace_back(input.probes[groups_[k % groups()]].size(), Envelope(max_points));
     trains_.assign(input.units(), {});
     if (parts_.empty())
         for (std::size_t g = 0; g < groups(); ++g) {
@@ -91,18 +91,18 @@ Result<void> Report::begin(const Input& input) {
     return {};
 }
 
-Result<void> Report::block(const Input& input, const Answered& answered) {
+Result<void> Report::block(const Input& input, const Answered& response) {
     for (std::size_t c = 0; c < forces_.size(); ++c)
-        for (std::size_t k = 0; k < answered.force.count; ++k) forces_[c].add(answered.force.force[c][k]);
+        for (std::size_t k = 0; k < response.force.count; ++k) forces_[c].add(response.force.force[c][k]);
     for (std::size_t u = 0; u < probes_.size(); ++u)
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
-            for (std::size_t k = 0; k < answered.force.count; ++k)
-                probes_[u][p].add(answered.probes[unit(u / groups(), u % groups())][p][k]);
-    for (const auto& s : answered.spikes) trains_[s.unit - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
+            for (std::size_t k = 0; k < response.force.count; ++k)
+                probes_[u][p].add(response.probes[unit(u / groups(), u % groups())][p][k]);
+    for (const auto& s : response.spikes) trains_[s.unit - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
     return {};
 }
 
-/// The trains of an afferent on a channel, or of its first copies.
+/// Adds the trains of an afferent, or of its first copies, on a channel.
 void Report::tell_spikes(const Input& input, std::size_t channel, std::size_t group) {
     const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], most_copies);
     for (std::size_t k = 0; k < shown; ++k) {
@@ -114,7 +114,7 @@ void Report::tell_spikes(const Input& input, std::size_t channel, std::size_t gr
     }
 }
 
-/// How often its copies fire together: spikes a copy and second, in even bins.
+/// Adds the mean rate over the copies of an afferent in equal bins, spikes per copy and second.
 void Report::tell_rate(const Input& input, std::size_t channel, std::size_t group, std::int64_t samples) {
     auto clock = input.source.clock();
     const double t0 = std::exchange(clock.t0, 0.0), length = clock.time(samples), bin = round_part(length, 100);
@@ -160,7 +160,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                          const std::vector<std::string>& warnings, const Json& costs) const {
     std::string title;
     for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
-    Json afferents = Json::array(), remarks = Json::array();
+    Json afferents = Json::array(), notes = Json::array();
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
         afferents.push_back({{"name", plan.name},
@@ -173,9 +173,9 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                              {"parameters", parameters_document(plan, population_.spreads)},
                              {"parts", parts_[a]}});
     }
-    for (const auto& w : warnings) remarks.push_back(w);
+    for (const auto& w : warnings) notes.push_back(w);
     for (const auto& i : summary.inputs())
-        for (const auto& r : i.remarks) remarks.push_back(i.name + ": " + r);
+        for (const auto& r : i.remarks) notes.push_back(i.name + ": " + r);
     Json document = {{"title", title},
                      {"program", fmt::format("corpuscle {}", version)},
                      {"command", command},
@@ -186,7 +186,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                      {"table", table_document(summary)},
                      {"comparisons", versions_document(summary.comparisons())},
                      {"quality", quality_document(summary)},
-                     {"remarks", remarks},
+                     {"remarks", notes},
                      {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
     document["costs"] = costs;
     if (population_.copies > 0)

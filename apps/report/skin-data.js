@@ -1,8 +1,8 @@
 "use strict";
-// The data of a skin's page, taken apart: places, units, marks, frames, trains.
+// Decodes the data of a skin page: positions, afferents, marks, frames, spike trains.
 
-/// Whole numbers of seven bits a byte, the lowest first.
-class Numbers {
+/// Reads variable-length integers: seven bits per byte, lowest first (LEB128).
+class PackedNumbers {
     constructor(base64) { Object.assign(this, {bytes: bytesOf(base64), at: 0}); }
 
     next() {
@@ -14,11 +14,11 @@ class Numbers {
     }
 }
 
-/// Values of many places in each frame; frame f has entries begin[f] ... begin[f + 1] - 1 of `place` and `value`.
+/// Sparse values at many places in each frame. Frame f has entries begin[f] ... begin[f + 1] - 1 of `place` and `value`.
 class Frames {
     constructor({count, width, places, data}) {
         Object.assign(this, {count, width, places, begin: new Uint32Array(count + 1)});
-        const source = new Numbers(data), place = [], value = [];
+        const source = new PackedNumbers(data), place = [], value = [];
         for (let f = 0; f < count; ++f) {
             for (let p = 0; p < places;) {
                 const byte = source.bytes[source.at++];
@@ -30,7 +30,7 @@ class Frames {
         Object.assign(this, {place: Uint32Array.from(place), value: Uint32Array.from(value)});
     }
 
-    /// Calls back with each place of a frame that is not 0, and its value.
+    /// Calls `call(place, value)` for each nonzero value of a frame.
     each(frame, call) {
         for (let k = this.begin[frame]; k < this.begin[frame + 1]; ++k) call(this.place[k], this.value[k]);
     }
@@ -42,10 +42,10 @@ class Frames {
     }
 }
 
-/// Spikes of the units that fired, in the order of units: train k is of `unit[k]`, its times begin[k] ... begin[k + 1] - 1.
+/// Spikes of the afferents that fired, in order. Train k belongs to afferent `unit[k]`; its times have indices begin[k] ... begin[k + 1] - 1.
 class Trains {
     constructor({count, trains, tick, data}, t0) {
-        const source = new Numbers(data);
+        const source = new PackedNumbers(data);
         Object.assign(this, {unit: new Uint32Array(trains), begin: new Uint32Array(trains + 1), times: new Float64Array(count)});
         for (let k = 0, unit = 0, at = 0; k < trains; ++k) {
             unit += source.next();
@@ -56,14 +56,14 @@ class Trains {
         }
     }
 
-    /// A train as page-raster.js counts it.
+    /// A train in the form that page-raster.js counts.
     train(k) {
         const times = this.times.subarray(this.begin[k], this.begin[k + 1]);
         return {unit: this.unit[k], times, before: (t) => firstAt(times, t)};
     }
 }
 
-/// How many of ascending times come before t.
+/// The number of ascending times before t.
 function firstAt(times, t) {
     let low = 0, high = times.length;
     while (low < high) {
@@ -93,7 +93,7 @@ class Skin {
         this.together = over.units_a_mark;
         this.sitesTogether = over.sites_a_mark;
         this.side = sites.side || spacing(this.sitePlaces) * 0.9;
-        this.standsAlone = !sites.side;
+        this.hasSeparateSites = !sites.side;
         this.perClass = new Frames(over.classes);
     }
 
@@ -102,51 +102,51 @@ class Skin {
         return this.decoded || null;
     }
 
-    /// A mark is a unit, or neighbours together; its name, region and place are those of the first of them.
+    /// A mark is an afferent or a group of neighbours; name and region are those of its first afferent.
     markOf(unit) { return firstAt(this.firstUnits, unit + 1) - 1; }
     classOf(mark) { return this.classes.find(({first, units}) => this.firstUnits[mark] >= first && this.firstUnits[mark] < first + units); }
     markName(mark) { return `${this.classOf(mark).name}#${this.copy[mark]}${this.unitsOf(mark) > 1 ? ` and ${this.unitsOf(mark) - 1} neighbours` : ""}`; }
     regionName(mark) { return this.regions[this.region[mark]]; }
     get duration() { return this.input.samples * this.input.T; }
 
-    /// The marks of a class: from, to.
+    /// The marks of a class: [first, end).
     marksOf({first, units}) { return [firstAt(this.firstUnits, first), firstAt(this.firstUnits, first + units)]; }
     unitsOf(mark) { return this.firstUnits[mark + 1] - this.firstUnits[mark]; }
 
-    /// Frames that a rate is taken over, with the one that is shown the last of them: about `seconds`.
+    /// The number of frames in about `seconds`, over which a rate is averaged.
     framesOver(seconds) { return Math.max(1, Math.round(seconds / this.marks.width)); }
-    /// How long the frames up to this one last; the last of all may be shorter.
+    /// Duration of `frames` frames up to this one, s. The last frame of the recording may be shorter.
     lengthOver(frame, frames) { return Math.min((frame + 1) * this.marks.width, this.duration) - Math.max(0, frame + 1 - frames) * this.marks.width; }
 
-    /// Spikes of marks in the frames up to this one: those that have some, and by mark how many.
+    /// Spike counts of marks in `frames` frames up to this one: counts by mark, and the marks with spikes.
     recent(frame, frames) {
-        if (this.known && this.known.frame === frame && this.known.frames === frames) return this.known;
+        if (this.cached && this.cached.frame === frame && this.cached.frames === frames) return this.cached;
         const counts = new Uint32Array(this.marks.places), some = [];
         for (let f = Math.max(0, frame + 1 - frames); f <= frame; ++f)
             this.marks.each(f, (mark, n) => { if (!counts[mark]) some.push(mark); counts[mark] += n; });
-        return (this.known = {frame, frames, counts, some});
+        return (this.cached = {frame, frames, counts, some});
     }
 
-    /// The greatest rate that each class has over so many frames, Hz of one unit.
-    greatest(frames) {
-        const counts = new Int32Array(this.marks.places), most = this.classes.map(() => 0), ends = this.classes.map((one) => this.marksOf(one)[1]);
+    /// The maximum rate per afferent of each class, averaged over so many frames, Hz.
+    maxRates(frames) {
+        const counts = new Int32Array(this.marks.places), rates = this.classes.map(() => 0), ends = this.classes.map((one) => this.marksOf(one)[1]);
         for (let f = 0; f < this.marks.count; ++f) {
             if (f >= frames) this.marks.each(f - frames, (mark, n) => { counts[mark] -= n; });
             let c = 0;
             this.marks.each(f, (mark, n) => {
                 counts[mark] += n;
                 while (mark >= ends[c]) ++c;
-                most[c] = Math.max(most[c], counts[mark] / this.unitsOf(mark) / this.lengthOver(f, frames));
+                rates[c] = Math.max(rates[c], counts[mark] / this.unitsOf(mark) / this.lengthOver(f, frames));
             });
         }
-        return most.map((rate) => rate || 1);
+        return rates.map((rate) => rate || 1);
     }
     frameAt(t) { return Math.max(0, Math.min(this.marks.count - 1, Math.floor((t - this.t0) / this.marks.width + 1e-9))); }
 }
 
 const floats = (base64) => new Float32Array(bytesOf(base64).buffer);
 
-/// How far neighbours are apart: the median over some of them.
+/// The median distance between neighbours, estimated from some of them.
 function spacing(places) {
     const count = places.length / 2, step = Math.max(1, Math.floor(count / 60)), found = [];
     for (let i = 0; i < count; i += step) {
@@ -159,7 +159,7 @@ function spacing(places) {
     return Number.isFinite(middle) ? middle : 5;
 }
 
-/// [x0, y0, x1, y1] around places; a place counts if `wanted` says so.
+/// Bounding box [x0, y0, x1, y1] of the places for which `wanted` is true.
 function extentOfPlaces(places, wanted = () => true) {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
     for (let k = 0; 2 * k < places.length; ++k)

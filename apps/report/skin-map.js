@@ -1,15 +1,15 @@
 "use strict";
-// The skin seen from above, once for each class: sites as ground, units as marks, force and spikes on them.
+// A map of the skin for each class: sites in the background, afferents as marks, force and spikes above them.
 
 const LEVELS = 16, TIME_STEPS = 32;
 
-/// Colours of rising rates: from a tint of the class's own colour through it towards the ink.
+/// Colours of increasing rates: from a tint of the class's colour to the colour itself, then towards the text colour.
 function rateRamp(color) {
     const [paper, ink] = [colour("paper"), colour("ink")];
     return Array.from({length: LEVELS}, (_, k) => (k < LEVELS / 2 ? mixed(paper, color, 0.5 + k / LEVELS) : mixed(color, ink, (k - LEVELS / 2) / LEVELS * 1.3)));
 }
 
-/// Colours of rising times, through those of the style sheet.
+/// Colours of increasing times, interpolated between those of the style sheet.
 function timeRamp() {
     const stops = [0, 1, 2, 3, 4].map((k) => colour("time-" + k));
     return Array.from({length: TIME_STEPS}, (_, k) => {
@@ -18,7 +18,8 @@ function timeRamp() {
     });
 }
 
-/// One class on the skin. `values(map)` gives what is drawn: calls back with mark and a level 0 ... 1; `ramp` its colours.
+/// The map of one class. `values(map, call)` calls back with each drawn mark and its level, 0 to 1. `ramp`: colours of the levels. `force()`: true
+/// if force is shown.
 class SkinMap {
     constructor(host, scene, one, {values, ramp, force}) {
         Object.assign(this, {scene, skin: scene.skin, one, values, ramp, force, idle: null});
@@ -31,7 +32,7 @@ class SkinMap {
         this.at = this.skin.places.subarray(2 * this.from, 2 * this.to);
         this.radius = Math.min(1.2, 0.36 * spacing(this.at));  // mm
         scene.maps.push(this);
-        followPointer(this);
+        connectPointer(this);
     }
 
     renew() { this.idle = this.colours = null; }
@@ -41,11 +42,11 @@ class SkinMap {
 
     idleLayer() {
         if (this.idle) return this.idle;
-        const [made, context] = this.scene.canvas(), r = Math.max(0.55, this.pixels * 0.6);
+        const [layer, context] = this.scene.canvas(), r = Math.max(0.55, this.pixels * 0.6);
         context.drawImage(this.scene.groundLayer(), 0, 0, this.scene.width, this.scene.height);
         context.fillStyle = mixed(colour("flesh"), this.one.color, 0.3);
         for (let m = this.from; m < this.to; ++m) dot(context, ...this.place(m), r);
-        return (this.idle = made);
+        return (this.idle = layer);
     }
 
     draw() {
@@ -65,11 +66,11 @@ class SkinMap {
             context.fillStyle = this.colours[Math.max(0, Math.min(steps - 1, Math.floor(level * steps)))];
             dot(context, ...this.place(mark), Math.max(1.5, r * (1.05 + 0.35 * level)));
         });
-        this.ring(context);
+        this.drawRing(context);
     }
 
-    /// Around the mark that is pointed at.
-    ring(context) {
+    /// A ring around the selected mark.
+    drawRing(context) {
         const {chosen} = this.scene;
         if (chosen === null || chosen < this.from || chosen >= this.to) return;
         context.strokeStyle = colour("ink");
@@ -79,12 +80,12 @@ class SkinMap {
         context.stroke();
     }
 
-    /// The mark nearest to a point, if one is near.
-    near(x, y) {
-        let best = null, least = Math.max(10, 1.5 * this.pixels) ** 2;
+    /// The mark nearest to a point within about 10 pixels, else null.
+    nearestMark(x, y) {
+        let best = null, minDistance = Math.max(10, 1.5 * this.pixels) ** 2;
         for (let m = this.from; m < this.to; ++m) {
-            const [px, py] = this.place(m), far = (px - x) ** 2 + (py - y) ** 2;
-            if (far < least) [best, least] = [m, far];
+            const [px, py] = this.place(m), distance = (px - x) ** 2 + (py - y) ** 2;  // squared
+            if (distance < minDistance) [best, minDistance] = [m, distance];
         }
         return best;
     }
@@ -97,8 +98,8 @@ function dot(context, x, y, r) {
     context.fill();
 }
 
-/// Drag pans, the wheel with control zooms, double click shows the whole; who only points learns which unit is there.
-function followPointer(map) {
+/// Drag pans, Ctrl with the wheel zooms, double click resets, hovering selects a mark.
+function connectPointer(map) {
     const {canvas, scene} = map;
     let drag = null;
     canvas.addEventListener("pointerdown", (event) => {
@@ -110,13 +111,13 @@ function followPointer(map) {
         if (drag) {
             scene.pan(event.offsetX - drag.x, event.offsetY - drag.y);
             drag = {x: event.offsetX, y: event.offsetY};
-        } else scene.pointed(map.near(event.offsetX, event.offsetY));
+        } else scene.onPoint(map.nearestMark(event.offsetX, event.offsetY));
     });
     for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { drag = null; });
-    canvas.addEventListener("pointerleave", () => { if (!drag) scene.pointed(null); });
+    canvas.addEventListener("pointerleave", () => { if (!drag) scene.onPoint(null); });
     canvas.addEventListener("dblclick", () => scene.show(scene.all));
     canvas.addEventListener("wheel", (event) => {
-        if (!event.ctrlKey) return;  // the plain wheel scrolls the page
+        if (!event.ctrlKey) return;  // the wheel alone scrolls the page
         event.preventDefault();
         scene.zoom(1.2 ** Math.sign(event.deltaY), event.offsetX, event.offsetY);
     }, {passive: false});

@@ -1,18 +1,18 @@
 "use strict";
-// Plots over time beneath the maps: how often each class fires, and the spikes of its units.
+// Plots over time below the maps: the mean rate of each class, and rasters of its afferents.
 
-/// Rates of classes, in bins that are as wide as about 100 of them fill the window: of the units that fire at some time, for the others
-/// were not touched.
+/// Mean rates of classes in about 100 bins over the visible time range. The mean is over the afferents that fire at some time, because the
+/// others were not stimulated.
 class SkinRatePanel extends PopulationPanel {
-    /// `fine`: {frames, classes}: spikes of each class in narrow bins.
+    /// `fine`: {frames, classes}, the spikes of each class in narrow bins.
     constructor({fine, ...rest}) {
-        super({...rest, each: "unit", rates: SkinRatePanel.binned(fine, rest.input, fine.frames.count * fine.frames.width)});
+        super({...rest, one: "afferent", rates: SkinRatePanel.binned(fine, rest.input, fine.frames.count * fine.frames.width)});
         this.fine = fine;
     }
 
-    titleOf() { return titleHtml(`mean rate of the units that fire, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
+    titleOf() { return titleHtml(`mean rate of afferents that fire, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
 
-    /// For a window of so many seconds.
+    /// Joins narrow bins for a time range of `span` seconds.
     static binned({frames, classes}, input, span) {
         const join = 2 ** Math.max(0, Math.round(Math.log2(span / 100 / frames.width))), bins = Math.ceil(frames.count / join), bin = join * frames.width;
         const counts = classes.map(() => new Float64Array(bins));
@@ -21,43 +21,45 @@ class SkinRatePanel extends PopulationPanel {
         return classes.map(({name, color, index, active}) => ({name, color, index, bin, values: Array.from(counts[index], (n, k) => n / Math.max(1, active) / length(k))}));
     }
 
-    draw(a, b, fit) {
+    draw(a, b, autoscale) {
         this.rates = SkinRatePanel.binned(this.fine, this.input, b - a);
         this.highest = this.rates.reduce((high, {values}) => values.reduce((m, v) => Math.max(m, v), high), 0);
         this.heading.querySelector(".panel-title").innerHTML = this.titleOf();
-        super.draw(a, b, fit);
+        super.draw(a, b, autoscale);
     }
 }
 
-/// Units of one class that fired, in their order on the skin: a mark for each spike while they stand apart, else how many share a pixel.
+/// Raster of the afferents of one class that fired, neighbours next to each other. Each spike is a tick if there is space, else spikes per pixel
+/// are shown as shades.
 class SkinRasterPanel extends Panel {
-    /// `trains`: as Trains.train() gives them; `told`: how many units these are; `pointed(unit)` hears who is pointed at.
-    constructor({one, trains, told, pointed, ...rest}) {
-        super({...rest, title: `<span class="chip" style="background: ${one.color}"></span>${escaped(one.name)} spikes <span class="unit">${escaped(told)}; neighbours stand together</span>`,
+    /// `trains`: from Trains.train(). `countText`: the number of afferents, for the title. `onPoint(unit)` is called with the afferent under the
+    /// pointer.
+    constructor({one, trains, countText, onPoint, ...rest}) {
+        super({...rest, title: `<span class="chip" style="background: ${one.color}"></span>${escaped(one.name)} spikes <span class="unit">${escaped(countText)}; neighbours are adjacent</span>`,
                series: [{label: one.name, html: "", color: one.color, width: 3}]});
-        Object.assign(this, {one, trains, pointed});
+        Object.assign(this, {one, trains, onPoint});
     }
 
     rows() { return []; }
     options() { return {drawGrid: false}; }
-    read() {}
-    forget() {}
+    showValues() {}
+    clearValues() {}
     range() { return [0, Math.max(1, this.trains.length)]; }
     valueTicks() { return [{v: Math.max(1, this.trains.length) / 2, label: escaped(this.one.name)}]; }
 
     start(view) {
         super.start(view);
         this.plot.addEventListener("pointermove", (event) => this.pointAt(event.clientY - this.plot.getBoundingClientRect().top));
-        this.plot.addEventListener("pointerleave", () => this.pointed(null));
+        this.plot.addEventListener("pointerleave", () => this.onPoint(null));
     }
 
     pointAt(y) {
         const row = Math.floor((y - this.area.y) / this.area.h * this.trains.length);
-        this.pointed(this.trains[row] ? this.trains[row].unit : null);
+        this.onPoint(this.trains[row] ? this.trains[row].unit : null);
     }
 
-    under(context, area) {
-        super.under(context, area);
+    drawBackground(context, area) {
+        super.drawBackground(context, area);
         const [a, b] = this.chart.xAxisRange();
         const seen = this.trains.map((train) => [train.before(a), train.before(b)]);
         const all = seen.reduce((sum, [i, j]) => sum + j - i, 0), total = this.trains.reduce((sum, {times}) => sum + times.length, 0);
@@ -76,25 +78,25 @@ class SkinRasterPanel extends Panel {
     }
 
     drawShades(context, area, a, b, seen) {
-        const all = seen.reduce((sum, [i, j]) => sum + j - i, 0), wide = all < area.w * area.h / 40 ? 1.6 : 1;  // few are drawn wider, to be seen
+        const all = seen.reduce((sum, [i, j]) => sum + j - i, 0), wide = all < area.w * area.h / 40 ? 1.6 : 1;  // few spikes are drawn wider, so that they are visible
         const [columns, lines] = [Math.round(area.w * ratioOf() / wide), Math.min(this.trains.length, Math.floor(area.h * ratioOf()))];
         const counts = Array.from({length: lines}, () => new Uint32Array(columns));
         this.trains.forEach((train, k) => countPerColumn(counts[Math.floor(k * lines / this.trains.length)], train, ...seen[k], a, b));
-        stretched(context, area, counts, this.one.color);
+        drawScaled(context, area, counts, this.one.color);
     }
 }
 
 const ratioOf = () => devicePixelRatio || 1;
 
-/// One pixel a line and column, over the whole plot.
-function stretched(context, area, counts, color) {
+/// Draws counts as an image, one pixel per line and column, scaled to the plot.
+function drawScaled(context, area, counts, color) {
     context.imageSmoothingEnabled = false;
     context.drawImage(painted(counts, counts.map(() => color), 110), area.x, area.y, area.w, area.h);
 }
 
-/// The same of more spikes than the page carries: how many in each frame of the maps.
+/// Raster for more spikes than the page holds: counts per frame of the maps.
 class SkinShadePanel extends SkinRasterPanel {
-    /// `rows`: marks that fired; `frames` their spikes.
+    /// `rowOf`: the row of each mark, or -1. `frames`: spike counts of the marks.
     constructor({frames, t0, rowOf, rowCount, ...rest}) {
         super({...rest, trains: []});
         Object.assign(this, {frames, t0, rowOf, rowCount});
@@ -104,8 +106,8 @@ class SkinShadePanel extends SkinRasterPanel {
     valueTicks() { return [{v: Math.max(1, this.rowCount) / 2, label: escaped(this.one.name)}]; }
     pointAt() {}
 
-    under(context, area) {
-        Panel.prototype.under.call(this, context, area);
+    drawBackground(context, area) {
+        Panel.prototype.drawBackground.call(this, context, area);
         if (!this.rowCount) return;
         const [a, b] = this.chart.xAxisRange(), columns = Math.round(area.w * ratioOf()), lines = Math.min(this.rowCount, Math.floor(area.h * ratioOf()));
         const counts = Array.from({length: lines}, () => new Float64Array(columns)), {width, count} = this.frames;
@@ -119,6 +121,6 @@ class SkinShadePanel extends SkinRasterPanel {
                 for (let c = from; c < to; ++c) line[c] += n / (to - from);
             });
         }
-        stretched(context, area, counts, this.one.color);
+        drawScaled(context, area, counts, this.one.color);
     }
 }

@@ -1,5 +1,5 @@
 "use strict";
-// The plots of the page under each other: force, rates of classes, a raster of each class.
+// Creates the plots of the page: force, mean rates of classes, a raster of each class.
 
 function panel(kind, options) { return new kind({host: at("figures"), input: skin.input, ...options}); }
 
@@ -10,34 +10,34 @@ function makePanels() {
     view.labelWidth = 60;
     at("figures").style.setProperty("--left", "66px");
     const force = new Trace(over.force, {t0: over.t0, T: over.T, samples: over.samples});
-    const panels = [panel(TracePanel, {traces: [force], name: "force", title: "force of all sites", about: "force", height: 100, named: true,
+    const panels = [panel(TracePanel, {traces: [force], name: "force", title: "total force", about: "force", height: 100, named: true,
                                        series: [{label: "force", html: "", color: colour("ink"), width: 1.6}]}),
-                    panel(SkinRatePanel, {fine: {frames: skin.perClass, classes: skin.classes}, name: "population", about: "rate of the classes", height: 140})];
+                    panel(SkinRatePanel, {fine: {frames: skin.perClass, classes: skin.classes}, name: "population", about: "mean rate of the classes", height: 140})];
     rasterBar();
     view.show([...panels, ...skin.classes.flatMap(rasterPanel)], skin.input, keep);
 }
 
-/// Which region's units the rasters show; where there are too many spikes, what they show instead.
+/// The selector of the rasters' region, and a note if there are too many spikes to show each.
 function rasterBar() {
     const bar = element(at("figures"), "div", "bar");
     const names = [...skin.regions.map((_, r) => r)];
     if (names.length > 1) {
-        const label = element(bar, "label", "", "rasters of ");
+        const label = element(bar, "label", "", "Rasters of ");
         const select = element(label, "select", "", ["all", ...names].map((r) => `<option value="${r}" ${String(r) === shown.region ? "selected" : ""}>${r === "all" ? "all regions" : escaped(skin.regions[r])}</option>`).join(""));
         select.id = "raster-region";
         select.onchange = () => { shown.region = select.value; makePanels(); at("raster-region").focus(); };
     }
-    if (!skin.trains) element(bar, "span", "note", `More than ${skin.data.over.most_spikes} spikes: the rasters show how many there are in each frame of the maps, ${escaped(quantity(skin.marks.width, "s", true))}.`);
+    if (!skin.trains) element(bar, "span", "note", `More than ${skin.data.over.most_spikes} spikes: the rasters show counts per frame of the maps (${escaped(quantity(skin.marks.width, "s", true))}).`);
 }
 
 function rasterPanel(one, k) {
     const wanted = (mark) => shown.region === "all" || skin.region[mark] === Number(shown.region);
-    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, pointed: (unit) => pointAt(unit === null ? null : skin.markOf(unit))};
+    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, onPoint: (unit) => selectMark(unit === null ? null : skin.markOf(unit))};
     if (!skin.trains) return [shadePanel(one, common, wanted)];
-    const own = [];
-    for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.units); t < end; ++t) own.push(t);
-    const trains = own.filter((t) => wanted(skin.markOf(skin.trains.unit[t]))).map((t) => skin.trains.train(t));
-    return [panel(SkinRasterPanel, {...common, trains, told: toldOf(trains.length, own.length, `${one.units} units`), height: rasterHeight(trains.length)})];
+    const all = [];
+    for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.units); t < end; ++t) all.push(t);
+    const trains = all.filter((t) => wanted(skin.markOf(skin.trains.unit[t]))).map((t) => skin.trains.train(t));
+    return [panel(SkinRasterPanel, {...common, trains, countText: countText(trains.length, all.length, `${one.units} afferents`), height: rasterHeight(trains.length)})];
 }
 
 function shadePanel(one, common, wanted) {
@@ -47,9 +47,9 @@ function shadePanel(one, common, wanted) {
         if (totals[m]) ++fired;
         if (totals[m] && wanted(m)) rowOf[m] = rowCount++;
     }
-    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, told: toldOf(rowCount, fired, skin.together > 1 ? `${to - from} groups of ${skin.together} units` : `${one.units} units`), height: rasterHeight(rowCount)});
+    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, countText: countText(rowCount, fired, skin.together > 1 ? `${to - from} groups of ${skin.together} afferents` : `${one.units} afferents`), height: rasterHeight(rowCount)});
 }
 
-/// How many rows a raster has, and of how many.
-const toldOf = (rows, fired, all) => (shown.region === "all" ? `${fired} of ${all} fired` : `${rows} of ${fired} that fired, in ${skin.regions[shown.region]}`);
+/// The number of rows of a raster, for its title.
+const countText = (rows, fired, all) => (shown.region === "all" ? `${fired} of ${all} fired` : `${rows} of ${fired} that fired, in ${skin.regions[shown.region]}`);
 const rasterHeight = (rows) => Math.max(30, Math.min(120, 6 * rows), Math.min(180, 40 + 0.6 * rows));

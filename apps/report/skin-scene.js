@@ -1,7 +1,7 @@
 "use strict";
-// What all maps share: which part of the skin they show and how large, the ground, the force on it.
+// The shared state of all maps.
 
-/// Which part of the skin all maps show, how large they are, and what they share: the ground and the force on it.
+/// The visible box, the size, and the layers that all maps share: the background of sites and the force on it.
 class Scene {
     constructor(skin) {
         Object.assign(this, {skin, maps: [], frame: 0, chosen: null, waiting: false});
@@ -10,21 +10,21 @@ class Scene {
         this.frameForce = null;
     }
 
-    /// Maps stand side by side; as large as the window has room for.
+    /// Arranges the maps side by side, as large as the window allows.
     layOut(width) {
         const count = this.skin.classes.length, [x0, y0, x1, y1] = this.all, aspect = Math.max(0.3, Math.min(3.5, (x1 - x0) / (y1 - y0)));
-        const most = Math.max(260, Math.min(600, 0.58 * innerHeight));
-        const wide = (columns) => Math.min((width - 12 * (columns - 1)) / columns, Math.max(most * aspect, 170));
+        const maxHeight = Math.max(260, Math.min(600, 0.58 * innerHeight));
+        const mapWidth = (columns) => Math.min((width - 12 * (columns - 1)) / columns, Math.max(maxHeight * aspect, 170));
         let columns = count;
-        while (columns > 1 && wide(columns) < Math.min(165, 0.9 * most * aspect)) columns = Math.ceil(columns / 2);
-        [this.width, this.height] = [Math.floor(wide(columns)), Math.floor(Math.max(60, Math.min(most, wide(columns) / aspect)))];
+        while (columns > 1 && mapWidth(columns) < Math.min(165, 0.9 * maxHeight * aspect)) columns = Math.ceil(columns / 2);
+        [this.width, this.height] = [Math.floor(mapWidth(columns)), Math.floor(Math.max(60, Math.min(maxHeight, mapWidth(columns) / aspect)))];
         this.renew();
     }
 
-    /// What is drawn beneath depends on size, part and colours.
+    /// Discards cached layers, which depend on size, visible box and colours.
     renew() {
         const [x0, y0, x1, y1] = this.box;
-        this.scale = Math.min(this.width / (x1 - x0), this.height / (y1 - y0));  // pixels a mm
+        this.scale = Math.min(this.width / (x1 - x0), this.height / (y1 - y0));  // pixels per mm
         [this.cx, this.cy] = [(x0 + x1) / 2, (y0 + y1) / 2];
         this.ground = this.frameForce = null;
         this.maps.forEach((map) => map.renew());
@@ -39,7 +39,7 @@ class Scene {
         this.renew();
     }
 
-    /// Keeps the point (x, y) of a map where it is.
+    /// Zooms about the point (x, y) of a map, in pixels.
     zoom(factor, x = this.width / 2, y = this.height / 2) {
         const [mx, my] = [this.cx + (x - this.width / 2) / this.scale, this.cy - (y - this.height / 2) / this.scale];
         const [w, h] = [this.width / this.scale * factor, this.height / this.scale * factor];
@@ -64,22 +64,22 @@ class Scene {
     }
 
     canvas() {
-        const made = document.createElement("canvas"), ratio = devicePixelRatio || 1;
-        [made.width, made.height] = [this.width * ratio, this.height * ratio];
-        const context = made.getContext("2d");
+        const layer = document.createElement("canvas"), ratio = devicePixelRatio || 1;
+        [layer.width, layer.height] = [this.width * ratio, this.height * ratio];
+        const context = layer.getContext("2d");
         context.scale(ratio, ratio);
-        return [made, context];
+        return [layer, context];
     }
 
-    /// Sites as squares that touch: first all of them larger, for their common edge.
+    /// Sites as adjacent squares. All are first drawn larger in the edge colour, which leaves a common outline.
     groundLayer() {
         if (this.ground) return this.ground;
-        const [made, context] = this.canvas(), side = this.skin.side * this.scale;
+        const [layer, context] = this.canvas(), side = this.skin.side * this.scale;
         for (const [color, more] of [["flesh-edge", 2.4], ["flesh", 0.6]]) {
             context.fillStyle = colour(color);
             this.eachSite((x, y) => square(context, x, y, side + more));
         }
-        return (this.ground = made);
+        return (this.ground = layer);
     }
 
     eachSite(call) {
@@ -89,8 +89,8 @@ class Scene {
 
     /// Mean force of each site in the frame, as opacity.
     forceLayer() {
-        if (this.frameForce && this.frameForce.frame === this.frame) return this.frameForce.made;
-        const [made, context] = this.canvas(), {siteForce, sitePlaces, sitesTogether} = this.skin, side = this.skin.side * this.scale + 0.6;
+        if (this.frameForce && this.frameForce.frame === this.frame) return this.frameForce.layer;
+        const [layer, context] = this.canvas(), {siteForce, sitePlaces, sitesTogether} = this.skin, side = this.skin.side * this.scale + 0.6;
         context.fillStyle = colour("force");
         if (this.frame < siteForce.count)
             siteForce.each(this.frame, (place, level) => {
@@ -98,8 +98,8 @@ class Scene {
                 for (let s = place * sitesTogether; s < (place + 1) * sitesTogether && 2 * s < sitePlaces.length; ++s)
                     square(context, this.x(sitePlaces[2 * s]), this.y(sitePlaces[2 * s + 1]), side);
             });
-        this.frameForce = {frame: this.frame, made};
-        return made;
+        this.frameForce = {frame: this.frame, layer};
+        return layer;
     }
 }
 

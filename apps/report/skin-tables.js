@@ -1,5 +1,5 @@
 "use strict";
-// What the page of a skin says in words and numbers: first spikes, classes and phases, densities.
+// The tables of a skin page: first spikes, classes and phases, densities.
 
 const chipOf = (color) => `<span class="chip" style="background: ${color}"></span>`;
 
@@ -9,17 +9,17 @@ function tableHtml(head, rows, numeric = () => false) {
         <tbody>${rows.map((row) => `<tr>${row.map((html, c) => cell("td", c, html)).join("")}</tr>`).join("")}</tbody></table>`;
 }
 
-/// The first of the population, and how long after the first force each was.
+/// The first spikes of the population, with their delay after the first force.
 function showFirstSpikes(skin, host) {
     const {first_spikes, input} = skin.data.summary, touched = input.touched_from_s;
-    if (!first_spikes.length) return void (host.innerHTML = "<p class=\"note\">No unit fired.</p>");
+    if (!first_spikes.length) return void (host.innerHTML = "<p class=\"note\">No afferent fired.</p>");
     const rows = first_spikes.map(({unit, afferent, region, time_s}, k) => [String(k + 1), chipOf(skin.classOf(skin.markOf(unit)).color) + escaped(afferent), escaped(region), time_s.toFixed(6),
         touched === null ? "–" : ((time_s - skin.t0 - touched) * 1e3).toFixed(3).replace("-", "−")]);
-    host.innerHTML = tableHtml(["", "unit", "region", "first spike (s)", "after the first force (ms)"], rows, (c) => c === 0 || c >= 3);
+    host.innerHTML = tableHtml(["", "afferent", "region", "first spike (s)", "after first force (ms)"], rows, (c) => c === 0 || c >= 3);
 }
 
-const RATE_COLUMNS = [["phase", "phase"], ["units", "units", 0], ["touched", "touched", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while touched (Hz)", 1],
-                      ["rate_of_active_Hz", "rate of active (Hz)", 1], ["busiest_Hz", "busiest (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
+const RATE_COLUMNS = [["phase", "phase"], ["units", "afferents", 0], ["touched", "stimulated", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while stimulated (Hz)", 1],
+                      ["rate_of_active_Hz", "mean rate of active (Hz)", 1], ["busiest_Hz", "max (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
 
 function showSkinRates(skin, host, region) {
     const phases = skin.data.summary.input.phases.length > 0, columns = RATE_COLUMNS.filter(([key]) => phases || key !== "phase");
@@ -32,24 +32,24 @@ const millimetres = (metres) => (metres ? `${Number((metres * 1e3).toPrecision(3
 function showClasses(skin, host) {
     const rows = skin.data.summary.classes.map((one, k) => {
         const {sigma_m, hot_spots, hot_spot_spread_m} = one.receptive_field, {velocity_m_s, standard_deviation_m_s} = one.conduction, about = skin.classes[k];
-        const field = sigma_m ? `Gaussian, σ ${millimetres(sigma_m)}${hot_spots > 1 ? `; ${hot_spots} hot spots, ${millimetres(hot_spot_spread_m)} about the middle` : ""}` : "the nearest site";
-        const speed = velocity_m_s ? `${quantity(velocity_m_s, "m/s", true)}${standard_deviation_m_s ? ` ± ${quantity(standard_deviation_m_s, "m/s", true)}` : ""}` : "told where they begin";
+        const field = sigma_m ? `Gaussian, σ ${millimetres(sigma_m)}${hot_spots > 1 ? `; ${hot_spots} hot spots, spread ${millimetres(hot_spot_spread_m)}` : ""}` : "nearest site";
+        const speed = velocity_m_s ? `${quantity(velocity_m_s, "m/s", true)}${standard_deviation_m_s ? ` ± ${quantity(standard_deviation_m_s, "m/s", true)}` : ""}` : "no delay";
         return [chipOf(about.color) + escaped(one.name), String(one.units), escaped(about.made_of), escaped(field), escaped(speed), escaped([about.sentence, one.source || about.source].filter(Boolean).join("; "))];
     });
-    host.innerHTML = tableHtml(["class", "units", "model", "receptive field", "conduction", "what it is, and after whom"], rows, (c) => c === 1);
+    host.innerHTML = tableHtml(["class", "afferents", "model", "receptive field", "conduction velocity", "description and source"], rows, (c) => c === 1);
 }
 
-/// Where the population's numbers are from: what several classes share is told once.
+/// Sources of the population's numbers; a source of several classes is listed once.
 function showSources(skin, host) {
-    const {classes, skin: about} = skin.data.summary, told = new Map();
-    const tell = ({of, source}, name) => told.set(source, [...(told.get(source) || []), name ? `${of} of ${name}` : of]);
-    about.sources.forEach((one) => tell(one, ""));
-    classes.forEach(({name, sources}) => sources.forEach((one) => tell(one, name)));
-    host.innerHTML = Array.from(told, ([source, of]) => `<li>${escaped(of.join(", "))}: ${escaped(source)}</li>`).join("");
-    host.hidden = !told.size;
+    const {classes, skin: about} = skin.data.summary, entries = new Map();
+    const add = ({of, source}, name) => entries.set(source, [...(entries.get(source) || []), name ? `${of} of ${name}` : of]);
+    about.sources.forEach((one) => add(one, ""));
+    classes.forEach(({name, sources}) => sources.forEach((one) => add(one, name)));
+    host.innerHTML = Array.from(entries, ([source, of]) => `<li>${escaped(of.join(", "))}: ${escaped(source)}</li>`).join("");
+    host.hidden = !entries.size;
 }
 
-/// Units of each class in each region, and how many that is a square centimetre.
+/// The number of afferents of each class in each region, and their density per cm².
 function showDensities(skin, host) {
     const {classes, skin: about} = skin.data.summary, names = skin.regions;
     if (names.length < 2 && !classes.some((one) => Object.values(one.regions).some(({units_per_cm2}) => units_per_cm2 !== undefined))) return void (host.hidden = true);

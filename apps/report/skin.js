@@ -1,12 +1,12 @@
 "use strict";
-// Puts the page of a skin together: maps, plots over time that share its cursor, first spikes, tables.
+// Builds the page of a skin: maps, plots over time with a common cursor, first spikes, tables.
 
 const skin = new Skin(JSON.parse(document.getElementById("data").textContent));
 const at = (id) => document.getElementById(id);
 const view = new SkinView({span: at("span"), now: at("now")});
 const scene = new Scene(skin);
 const player = new Player(view, skin.marks.width, at);
-const shown = {mode: "", frames: 1, most: [], region: "all"};
+const shown = {mode: "", frames: 1, maxRates: [], region: "all"};
 const totals = skin.marks.totals();
 
 function showHeading({title, program, command, remarks, summary}) {
@@ -18,15 +18,16 @@ function showHeading({title, program, command, remarks, summary}) {
     at("remarks").innerHTML = remarks.map((text) => `<li>${escaped(text)}</li>`).join("");
 }
 
-/// A mark that somebody points at, on a map or in a raster.
-function pointAt(mark) {
+/// Selects the mark under the pointer, on a map or in a raster.
+function selectMark(mark) {
     if (mark === scene.chosen) return;
     scene.chosen = mark;
-    tellMark();
+    showMark();
     scene.request();
 }
 
-function tellMark() {
+/// Shows name, rate and first spike of the selected mark.
+function showMark() {
     const mark = scene.chosen;
     if (mark === null) return void (at("unit").textContent = "");
     const rate = rateOf(mark, skin.recent(scene.frame, shown.frames).counts[mark], skin.lengthOver(scene.frame, shown.frames)), first = skin.first[mark];
@@ -35,40 +36,40 @@ function tellMark() {
 }
 
 function connect() {
-    scene.pointed = pointAt;
-    view.moved = (t) => {
+    scene.onPoint = selectMark;
+    view.onMove = (t) => {
         player.follow(t);
         if (scene.frame === skin.frameAt(t)) return;
         scene.frame = skin.frameAt(t);
-        tellMark();
+        showMark();
         scene.request();
     };
     at("earlier").onclick = () => view.pan(-0.25);
     at("later").onclick = () => view.pan(0.25);
     at("in").onclick = () => view.zoom(0.5);
     at("out").onclick = () => view.zoom(2);
-    at("whole").onclick = () => view.whole();
-    at("fit").onchange = () => { view.fit = at("fit").checked; view.request(); };
+    at("reset").onclick = () => view.reset();
+    at("autoscale").onchange = () => { view.autoscale = at("autoscale").checked; view.request(); };
     at("mode").onchange = () => { chooseMode(at("mode").value); rateCaptions(); scene.request(); };
     at("map-in").onclick = () => scene.zoom(1 / 1.5);
     at("map-out").onclick = () => scene.zoom(1.5);
-    const parts = partsOf();
-    at("view").innerHTML = parts.map(([name], k) => `<option value="${k}">${escaped(name)}</option>`).join("");
-    at("view").onchange = () => scene.show(parts[at("view").value][1]);
-    const {rates} = skin.data.summary, regions = [...new Set(rates.map(({region}) => region))];
-    at("of-region").innerHTML = regions.map((name) => `<option>${escaped(name)}</option>`).join("");
-    at("of-region").parentElement.hidden = regions.length < 2;
+    const regions = mapRegions();
+    at("view").innerHTML = regions.map(([name], k) => `<option value="${k}">${escaped(name)}</option>`).join("");
+    at("view").onchange = () => scene.show(regions[at("view").value][1]);
+    const {rates} = skin.data.summary, rateRegions = [...new Set(rates.map(({region}) => region))];
+    at("of-region").innerHTML = rateRegions.map((name) => `<option>${escaped(name)}</option>`).join("");
+    at("of-region").parentElement.hidden = rateRegions.length < 2;
     at("of-region").onchange = () => showSkinRates(skin, document.querySelector("#rates .scroll"), at("of-region").value);
-    followKeys(view);
-    followPlayKeys();
+    connectKeys(view);
+    connectPlayKeys();
     new ResizeObserver(() => scene.layOut(at("maps").clientWidth)).observe(at("maps"));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
-    addEventListener("beforeprint", () => forPaper(true));
-    addEventListener("afterprint", () => forPaper(false));
+    addEventListener("beforeprint", () => setPrinting(true));
+    addEventListener("afterprint", () => setPrinting(false));
 }
 
-/// Space plays, comma and full stop go a frame back or on.
-function followPlayKeys() {
+/// Space plays or pauses; comma and full stop step one frame back or forward.
+function connectPlayKeys() {
     const keys = {" ": () => player.toggle(), ",": () => player.nudge(-1), ".": () => player.nudge(1)};
     document.addEventListener("keydown", (event) => {
         if (event.target.closest("select, button, [role=region]") || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
@@ -77,12 +78,12 @@ function followPlayKeys() {
     });
 }
 
-function forPaper(on) {
+function setPrinting(on) {
     document.documentElement.classList.toggle("printing", on);
     draw();
 }
 
-/// All that has colours; again when they change.
+/// Draws everything that uses colours; called again when the theme changes.
 function draw() {
     makeMaps();
     makePanels();
@@ -92,7 +93,7 @@ function draw() {
     showParameters(skin.classes);
 }
 
-/// For tests, and for looking at the page from the browser's console: the plots, the maps, and which frame they show.
+/// For tests and the browser's console: the plots, the maps, and the frame that they show.
 window.corpuscle = {
     get charts() { return Object.fromEntries(view.panels.map((one) => [one.name, one.chart])); },
     get frame() { return scene.frame; },
@@ -102,9 +103,9 @@ window.corpuscle = {
 };
 
 showHeading(skin.data);
-at("about-maps").textContent = skin.together > 1 ? `a mark stands for ${skin.together} units that are neighbours; frames of ${quantity(skin.marks.width, "s", true)}`
-                                                 : `a mark is a unit; frames of ${quantity(skin.marks.width, "s", true)}`;
-at("about-skin").textContent = [skin.data.summary.skin.sentence, `${skin.data.summary.skin.units} units`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
+at("about-maps").textContent = skin.together > 1 ? `Each mark is a group of ${skin.together} neighbouring afferents; frames of ${quantity(skin.marks.width, "s", true)}.`
+                                                 : `Each mark is an afferent; frames of ${quantity(skin.marks.width, "s", true)}.`;
+at("about-skin").textContent = [skin.data.summary.skin.sentence, `${skin.data.summary.skin.units} afferents`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
 showSkinRates(skin, document.querySelector("#rates .scroll"), "all");
 showSources(skin, document.querySelector("#classes .sources"));
 showVersions(skin.data.versions);

@@ -19,19 +19,19 @@ nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std
     const auto length = [&](std::size_t k) {
         return static_cast<double>(std::clamp<std::int64_t>(samples - static_cast<std::int64_t>(k) * sites.width(), 1, sites.width()));
     };
-    double greatest = 0;
+    double max = 0;
     for (std::size_t k = 0; k < frames.size(); ++k)
-        for (const auto& e : frames[k]) greatest = std::max(greatest, e.value / length(k));
+        for (const auto& e : frames[k]) max = std::max(max, e.value / length(k));
     PackedNumbers bytes;
     for (std::size_t k = 0; k < frames.size(); ++k)
         bytes.frame(frames[k], sites.places(), [&](double sum) {
-            const double share = greatest > 0 ? sum / length(k) / greatest : 0;
-            return share > 0 ? static_cast<std::uint64_t>(std::clamp(std::lround(254 * share), 1L, 254L)) : std::uint64_t{0};
+            const double fraction = max > 0 ? sum / length(k) / max : 0;
+            return fraction > 0 ? static_cast<std::uint64_t>(std::clamp(std::lround(254 * fraction), 1L, 254L)) : std::uint64_t{0};
         });
     return {{"count", frames.size()},
             {"width", static_cast<double>(sites.width()) * T},
             {"places", sites.places()},
-            {"greatest", greatest},
+            {"greatest", max},
             {"data", array64(bytes.all)}};
 }
 

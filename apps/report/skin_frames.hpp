@@ -1,5 +1,5 @@
 #pragma once
-// Frames of a skin's maps as the page reads them (skin-data.js): few bytes, as base64 text.
+// Encodes the frames of skin maps for skin-data.js: compact, as base64 text.
 
 #include <nlohmann/json.hpp>
 
@@ -13,7 +13,7 @@ std::string array64(const std::vector<T>& values) {
     return base64(values.data(), values.size() * sizeof(T));
 }
 
-/// Whole numbers in as few bytes as they need: seven bits each, the lowest first, the highest bit says that more follow.
+/// Variable-length integers (LEB128): seven bits per byte, lowest first; the highest bit marks that more bytes follow.
 class PackedNumbers {
 public:
     std::vector<unsigned char> all;
@@ -21,7 +21,7 @@ public:
         for (; n >= 128; n >>= 7) all.push_back(static_cast<unsigned char>(n | 128));
         all.push_back(static_cast<unsigned char>(n));
     }
-    /// Of all places: 1 to 254 itself, 255 and a number for more, 0 and a number for so many zeros.
+    /// Encodes a frame: levels 1 to 254 as one byte, larger ones as 255 and a number, runs of zeros as 0 and their length.
     template <class Frame, class Level>
     void frame(const Frame& f, std::size_t places, Level level) {
         std::size_t at = 0;
@@ -39,10 +39,10 @@ public:
     }
 };
 
-/// Counts in frames; T: of a sample, s.
+/// Spike counts in frames. T: sampling period, s.
 nlohmann::ordered_json frames_document(const Framed<std::uint32_t>&, double T);
 
-/// Mean force of each mark in each frame, in 254 parts of the greatest.
+/// Mean force of each mark in each frame, in steps of 1/254 of the maximum.
 nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std::int64_t samples);
 
 }  // namespace corpuscle

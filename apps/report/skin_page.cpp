@@ -13,9 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_named = 500;  // sites whose names the page carries
+constexpr std::size_t max_named = 500;  // with more sites the page has no names of sites
 
-/// Places in millimetres, whole micrometres of them: x, y, x, y ...
+/// Positions in millimetres, rounded to micrometres: x, y, x, y ...
 template <class Each>
 std::string places64(std::size_t count, Each at) {
     std::vector<float> xy;
@@ -31,10 +31,10 @@ Json sites_document(const Sites& sites) {
     return {{"places", places64(sites.size(), [&](std::size_t s) { return sites.at[s]; })},
             {"side", 1e3 * std::sqrt(sites.area)},
             {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
-            {"names", sites.size() <= most_named ? Json(sites.names) : Json(nullptr)}};
+            {"names", sites.size() <= max_named ? Json(sites.names) : Json(nullptr)}};
 }
 
-/// What stands still of each mark: a unit, or neighbours together, then the middle of them and the earliest of their first spikes.
+/// The constant properties of each mark. A mark of several neighbours has their mean position and the earliest of their first spikes.
 Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> begin) {
     const auto& units = summary.skin().units;
     std::vector<std::uint16_t> region;
@@ -42,13 +42,13 @@ Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> b
     std::vector<float> first;
     std::vector<Position> at;
     for (std::size_t m = 0; m + 1 < begin.size(); ++m) {
-        Position middle;
+        Position mean;
         double earliest = no_value;
         for (auto u = begin[m]; u < begin[m + 1]; ++u) {
-            middle.x += units[u].at.x / (begin[m + 1] - begin[m]), middle.y += units[u].at.y / (begin[m + 1] - begin[m]);
-            earliest = std::fmin(earliest, summary.first_times()[u]);  // NaN gives way
+            mean.x += units[u].at.x / (begin[m + 1] - begin[m]), mean.y += units[u].at.y / (begin[m + 1] - begin[m]);
+            earliest = std::fmin(earliest, summary.first_times()[u]);  // fmin ignores NaN
         }
-        at.push_back(middle), first.push_back(static_cast<float>(earliest));
+        at.push_back(mean), first.push_back(static_cast<float>(earliest));
         region.push_back(static_cast<std::uint16_t>(units[begin[m]].region)), copy.push_back(units[begin[m]].copy);
     }
     return {{"begin", base64(begin.data(), begin.size_bytes())},
@@ -75,15 +75,15 @@ Json classes_document(const Innervation& skin) {
 
 }  // namespace
 
-std::string skin_page(const SkinSummary& summary, const SkinReport& report, const SkinTold& told, const std::string& command) {
+std::string skin_page(const SkinSummary& summary, const SkinReport& report, const SkinTold& run_info, const std::string& command) {
     const auto title = fmt::format("{} on {}", summary.name(), summary.skin().plan.name);
-    Json remarks = told.warnings;
-    for (const auto& r : told.remarks) remarks.push_back(r);
+    Json notes = run_info.warnings;
+    for (const auto& r : run_info.remarks) notes.push_back(r);
     const Json page = {{"title", title},
                        {"program", fmt::format("corpuscle {}", version)},
                        {"command", command},
-                       {"remarks", remarks},
-                       {"summary", summary.document(told)},
+                       {"remarks", notes},
+                       {"summary", summary.document(run_info)},
                        {"regions", summary.skin().plan.sites.regions},
                        {"sites", sites_document(summary.skin().plan.sites)},
                        {"marks", marks_document(summary, report.marks())},

@@ -1,5 +1,5 @@
 #pragma once
-// A skin's answer as a page to look at: maps that move, rasters, rates, first spikes. One HTML file, no network.
+// The report page of a skin: animated maps, rasters, rates, first spikes. One self-contained HTML file.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// Of what both listened to. The innervation must still be there.
+/// Both must have recorded the same run. The innervation must still exist.
 std::string skin_page(const SkinSummary&, const SkinReport&, const SkinTold&, const std::string& command);
 
 }  // namespace corpuscle

@@ -13,11 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int ticks_a_sample = 10;
+constexpr int ticks_per_sample = 10;
 
-/// Neighbours that share a mark.
-std::uint32_t a_mark(std::size_t count, std::size_t most) {
-    return static_cast<std::uint32_t>((count + most - 1) / std::max<std::size_t>(most, 1));
+/// The number of neighbours per mark.
+std::uint32_t per_mark(std::size_t count, std::size_t max_marks) {
+    return static_cast<std::uint32_t>((count + max_marks - 1) / std::max<std::size_t>(max_marks, 1));
 }
 
 }  // namespace
@@ -26,8 +26,8 @@ Result<void> SkinReport::begin(const SkinInput& input) {
     const auto& skin = input.skin;
     clock_ = input.clock;
     const auto samples_of = [&](double seconds) { return std::max<std::int64_t>(std::llround(clock_.rate() * seconds), 1); };
-    const auto bin = samples_of(1e-3), frame = samples_of(10e-3);  // a rate of one unit in less than this says little
-    units_a_mark_ = a_mark(skin.units.size(), most_.marks), sites_a_mark_ = a_mark(skin.plan.sites.size(), most_.marks);
+    const auto bin = samples_of(1e-3), frame = samples_of(10e-3);  // shorter frames give no useful rate of one afferent
+    units_a_mark_ = per_mark(skin.units.size(), most_.marks), sites_a_mark_ = per_mark(skin.plan.sites.size(), most_.marks);
     class_of_.clear(), mark_of_.clear(), mark_first_.clear();
     for (std::uint32_t c = 0; c + 1 < skin.first.size(); ++c)
         for (auto u = skin.first[c]; u < skin.first[c + 1]; ++u) {
@@ -39,32 +39,32 @@ Result<void> SkinReport::begin(const SkinInput& input) {
     forces_ = Envelope(std::size_t{1} << 16);
     classes_ = Framed<std::uint32_t>(skin.plan.classes.size(), most_.bins, bin);
     marks_ = Framed<std::uint32_t>(mark_first_.size() - 1, most_.frames, frame);
-    sites_ = Framed<double>(a_mark(skin.plan.sites.size(), sites_a_mark_), most_.frames, frame);
+    sites_ = Framed<double>(per_mark(skin.plan.sites.size(), sites_a_mark_), most_.frames, frame);
     spike_units_.clear(), spike_ticks_.clear(), spikes_ = 0;
     return {};
 }
 
 void SkinReport::add(const Spike& s) {
-    // A frame owns its start, not its end: what stands on a sample belongs to it.
+    // Frames are half-open, [start, end): a spike exactly at a sample belongs to the frame that starts there.
     const std::int64_t sample = std::max<std::int64_t>(s.offset < 1 ? s.step - 1 : s.step, 0);
     classes_.open(sample), classes_.add(class_of_[s.unit], 1);
     marks_.open(sample), marks_.add(mark_of_[s.unit], 1);
     if (static_cast<std::size_t>(++spikes_) <= most_.spikes) {
-        const double ticks = (static_cast<double>(s.step - 1) + s.offset) * ticks_a_sample;
+        const double ticks = (static_cast<double>(s.step - 1) + s.offset) * ticks_per_sample;
         spike_units_.push_back(s.unit), spike_ticks_.push_back(std::max<std::int64_t>(std::llround(ticks), 0));
     } else if (!spike_units_.empty()) {
-        spike_units_ = {}, spike_ticks_ = {};  // the rest of them would show a part as if it were all
+        spike_units_ = {}, spike_ticks_ = {};  // an incomplete raster would be misleading
     }
 }
 
-void SkinReport::add_force(const SkinAnswered& answered) {
-    const auto& force = answered.force;
-    for (std::size_t from = 0, to = 0; from < answered.steps; from = to) {
-        to = std::min(static_cast<std::size_t>(sites_.open(answered.first + static_cast<std::int64_t>(from)) - answered.first),
-                      answered.steps);
+void SkinReport::add_force(const SkinAnswered& response) {
+    const auto& force = response.force;
+    for (std::size_t from = 0, to = 0; from < response.steps; from = to) {
+        to = std::min(static_cast<std::size_t>(sites_.open(response.first + static_cast<std::int64_t>(from)) - response.first),
+                      response.steps);
         const auto add = [&](std::size_t s) {
-            const double* of = force.of + s * force.stride;
-            for (auto t = from; t < to; ++t) sites_.add(static_cast<std::uint32_t>(s / sites_a_mark_), of[t]);
+            const double* site_force = force.of + s * force.stride;
+            for (auto t = from; t < to; ++t) sites_.add(static_cast<std::uint32_t>(s / sites_a_mark_), site_force[t]);
         };
         for (std::size_t s = 0; force.all && s < sites_count_; ++s) add(s);
         for (const auto s : force.touched)
@@ -72,10 +72,10 @@ void SkinReport::add_force(const SkinAnswered& answered) {
     }
 }
 
-Result<void> SkinReport::block(const SkinInput&, const SkinAnswered& answered) {
-    for (const double f : answered.total) forces_.add(f);
-    add_force(answered);
-    for (const auto& s : answered.spikes) add(s);
+Result<void> SkinReport::block(const SkinInput&, const SkinAnswered& response) {
+    for (const double f : response.total) forces_.add(f);
+    add_force(response);
+    for (const auto& s : response.spikes) add(s);
     return {};
 }
 
@@ -87,7 +87,7 @@ Result<void> SkinReport::end(const SkinInput&, std::int64_t samples, std::span<c
     return {};
 }
 
-/// Spikes unit by unit: how many units to pass over, how many spikes, then the ticks between them.
+/// Spikes by afferent: the number of silent afferents to skip, the number of spikes, then the ticks between them.
 Json SkinReport::spikes_document() const {
     if (static_cast<std::size_t>(spikes_) > most_.spikes) return nullptr;
     std::vector<std::uint32_t> begin(class_of_.size() + 1);
@@ -105,7 +105,7 @@ Json SkinReport::spikes_document() const {
         for (auto k = begin[u]; k < begin[u + 1]; ++k) bytes.number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
         next = u + 1, ++trains;
     }
-    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_a_sample}, {"data", array64(bytes.all)}};
+    return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_per_sample}, {"data", array64(bytes.all)}};
 }
 
 Json SkinReport::document() const {

@@ -1,20 +1,20 @@
 "use strict";
-// A page of studies: what was claimed and what was made, then the figures. Drag to zoom, double click for the whole.
+// A page of studies: published and computed numbers, then the figures. Drag to zoom, double click to reset.
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const colour = (k) => getComputedStyle(document.documentElement).getPropertyValue(`--series-${k % 8}`).trim();
 const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 function element(host, tag, kind = "", html = "") {
-    const made = document.createElement(tag);
-    if (kind) made.className = kind;
-    made.innerHTML = html;
-    return host.appendChild(made);
+    const node = document.createElement(tag);
+    if (kind) node.className = kind;
+    node.innerHTML = html;
+    return host.appendChild(node);
 }
 
-const NUMBERS = ["made", "printed", "deviation", "allowed"];
+const NUMBERS = ["computed", "published", "deviation", "allowed"];
 
-/// made, printed, deviation, allowed, as text; then the verdict, the source and the reason. On a narrow screen each number carries its column's name.
+/// The cells of a claim: its name, four numbers, the verdict, the source and reason. On a narrow screen CSS shows data-column beside each number.
 function claimCells({what, texts, verdict, source, note}) {
     const numbers = texts.map((text, k) => `<td class="number" data-column="${NUMBERS[k]}">${escaped(text === "-" ? "\u2013" : text)}</td>`).join("");
     const kind = {holds: "holds", agrees: "holds", differs: "fails", "does not hold": "fails"}[verdict] || "";
@@ -22,7 +22,7 @@ function claimCells({what, texts, verdict, source, note}) {
 }
 
 function showTable(host, first, rows) {
-    const head = [...first, "", ...NUMBERS, "", "source, reason"].map((text) => `<th scope="col">${text}</th>`).join("");
+    const head = [...first, "", ...NUMBERS, "", "source and reason"].map((text) => `<th scope="col">${text}</th>`).join("");
     element(host, "div", "scroll", `<table class="claims"><thead><tr>${head}</tr></thead><tbody>${rows.map((row) => `<tr>${row}</tr>`).join("")}</tbody></table>`);
 }
 
@@ -30,18 +30,18 @@ function showClaims(host, claims) {
     if (claims.length) showTable(host, [], claims.map(claimCells));
 }
 
-/// Of several studies, before them all: every number that was printed, and whatever is off; or that alone.
+/// Above several studies: a table of all published numbers and all deviations, which can be reduced to the deviations.
 function showDeviations(host, studies) {
     const rows = studies.flatMap(({name, claims}) => claims.filter((claim) => claim.on_top).map((claim) => `<td class="study"><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
     if (studies.length < 2 || !rows.length) return;
     const section = element(host, "section", "deviations");
-    element(section, "h2", "", `Printed and made <small>${escaped(data.tally)}</small>`);
-    const label = element(section, "label", "", `<input type="checkbox"> only what is off`);
+    element(section, "h2", "", `Published and computed numbers <small>${escaped(data.tally)}</small>`);
+    const label = element(section, "label", "", `<input type="checkbox"> Deviations only`);
     showTable(section, ["study"], rows);
     label.firstChild.addEventListener("change", (event) => section.classList.toggle("off-only", event.target.checked));
 }
 
-/// One row a distinct x, one column a series; what a series does not have there is left open.
+/// One row per distinct x, one column per series; null where a series has no value.
 function rowsOf(series, height) {
     const at = new Map();
     series.forEach(({x, y, style}, s) => x.forEach((t, k) => {
@@ -52,17 +52,17 @@ function rowsOf(series, height) {
     return [...at.values()].sort((a, b) => a[0] - b[0]);
 }
 
-/// A number on an axis: its digits, as many as tell neighbours apart; far from 1 with an exponent.
+/// A number on an axis: up to six digits, with an exponent if it is very large or small.
 function shortest(v) {
     const number = Number(v.toPrecision(6)), size = Math.abs(number);
     return size !== 0 && (size < 1e-3 || size >= 1e6) ? number.toExponential().replace("e+", "e") : String(number);
 }
 
-/// Logarithms are drawn as such and labelled with what they are of: the chart library's own log axes are for times.
+/// Ticks of a logarithmic axis. The plotted values are logarithms and the labels their powers; dygraphs' own log axis does not suit x axes.
 const logTicks = (lo, hi) => {
-    const ticks = [], within = hi - lo > 5 ? [1] : [1, 2, 5];
+    const ticks = [], mantissas = hi - lo > 5 ? [1] : [1, 2, 5];
     for (let decade = Math.floor(lo); decade <= Math.ceil(hi); ++decade)
-        for (const m of within) {
+        for (const m of mantissas) {
             const v = decade + Math.log10(m);
             if (v >= lo - 1e-9 && v <= hi + 1e-9) ticks.push({v, label: shortest(10 ** v)});
         }
@@ -72,7 +72,7 @@ const logTicks = (lo, hi) => {
 function showPlot(host, plot) {
     const figure = element(host, "figure");
     element(figure, "figcaption", "", escaped(plot.title));
-    if (plot.printed) element(figure, "p", "printed", `Printed: ${escaped(plot.printed)}`);
+    if (plot.printed) element(figure, "p", "printed", `Published: ${escaped(plot.printed)}`);
     element(figure, "div", "key", plot.series.map(({name}, k) => `<span><span class="chip" style="background: ${colour(k)}"></span>${escaped(name)}</span>`).join(""));
     const raster = plot.series.every(({style}) => style === "raster");
     const series = plot.series.map((one) => ({...one, x: plot.log_x ? one.x.map(Math.log10) : one.x, y: plot.log_y ? one.y.map(Math.log10) : one.y}));
@@ -80,16 +80,16 @@ function showPlot(host, plot) {
     const rows = rowsOf(series, series.length);
     if (!rows.length) return;
     const axis = (label, log, width) => ({axisLabelFontSize: 11, axisLabelWidth: width, ...(log ? {ticker: logTicks} : {axisLabelFormatter: shortest})});
-    const labels = plot.series.map(({name}, k) => `${name || "made"}${plot.series.findIndex((one) => one.name === name) === k ? "" : ` (${k + 1})`}`);
+    const labels = plot.series.map(({name}, k) => `${name || "computed"}${plot.series.findIndex((one) => one.name === name) === k ? "" : ` (${k + 1})`}`);
     const chart = new Dygraph(element(figure, "div", "plot"), rows, {
         labels: [plot.x, ...labels],
         series: Object.fromEntries(plot.series.map(({style}, k) => [labels[k], {
             color: colour(k), strokeWidth: style === "line" ? 1.6 : 0, drawPoints: style !== "line", pointSize: style === "raster" ? 4 : 3, connectSeparatedPoints: true,
-            ...(style === "raster" ? {drawPointCallback: tick} : {}),
+            ...(style === "raster" ? {drawPointCallback: drawTick} : {}),
         }])),
         axes: {x: axis(plot.x, plot.log_x, 60), y: {...axis(plot.y, plot.log_y, 56), drawAxis: !raster}},
         ...(raster ? {valueRange: [0.3, series.length + 0.7]} : {}),
-        ...(paths.length ? {valueRange: span(paths.flatMap(({y}) => y)), underlayCallback: (context, area, chart) => paths.forEach((one) => follow(chart, context, one))} : {}),
+        ...(paths.length ? {valueRange: span(paths.flatMap(({y}) => y)), underlayCallback: (context, area, chart) => paths.forEach((one) => drawPath(chart, context, one))} : {}),
         xlabel: plot.x, ylabel: plot.y || undefined, xLabelHeight: 16, yLabelWidth: 16,
         xRangePad: raster ? 14 : 6, yRangePad: 6, legend: "never", highlightCircleSize: 0,
         gridLineColor: ink("grid"), axisLineColor: ink("axis"),
@@ -97,28 +97,28 @@ function showPlot(host, plot) {
     (window.charts ||= []).push(chart);
 }
 
-/// From the least to the most, with a margin.
+/// Minimum and maximum with a margin.
 function span(values) {
-    const known = values.filter((v) => v !== null), least = Math.min(...known), most = Math.max(...known), margin = 0.06 * (most - least);
-    return [least - margin, most + margin];
+    const known = values.filter((v) => v !== null), min = Math.min(...known), max = Math.max(...known), margin = 0.06 * (max - min);
+    return [min - margin, max + margin];
 }
 
-/// A path, through its points as they come; null lifts the pen.
-function follow(chart, context, {x, y, colour}) {
+/// Draws a path through its points in order; null starts a new piece.
+function drawPath(chart, context, {x, y, colour}) {
     context.beginPath();
     context.strokeStyle = colour, context.lineWidth = 1.4;
-    let down = false;
+    let penDown = false;
     x.forEach((t, k) => {
-        if (t === null || y[k] === null) return void (down = false);
+        if (t === null || y[k] === null) return void (penDown = false);
         const [left, top] = chart.toDomCoords(t, y[k]);
-        if (down) context.lineTo(left, top); else context.moveTo(left, top);
-        down = true;
+        if (penDown) context.lineTo(left, top); else context.moveTo(left, top);
+        penDown = true;
     });
     context.stroke();
 }
 
-/// A spike in a raster: an upright stroke.
-function tick(chart, name, context, x, y, color) {
+/// Draws a spike of a raster as a vertical stroke.
+function drawTick(chart, name, context, x, y, color) {
     context.beginPath();
     context.strokeStyle = color, context.lineWidth = 1.2;
     context.moveTo(x, y - 9), context.lineTo(x, y + 9);

@@ -14,14 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of a long line its highest and lowest point in each stretch, so that no spike is lost and the page stays small.
+/// Reduces a long line to its minimum and maximum in each of 600 segments, so that peaks are kept and the page stays small.
 Plot::Series thinned(const Plot::Series& all) {
-    constexpr std::size_t stretches = 600;
-    if (all.style != Plot::Style::line || all.x.size() <= 2 * stretches) return all;
+    constexpr std::size_t segments = 600;
+    if (all.style != Plot::Style::line || all.x.size() <= 2 * segments) return all;
     Plot::Series out{all.name, {}, {}, all.style};
-    for (std::size_t s = 0; s < stretches; ++s) {
-        const auto from = static_cast<std::ptrdiff_t>(s * all.y.size() / stretches),
-                   to = static_cast<std::ptrdiff_t>((s + 1) * all.y.size() / stretches);
+    for (std::size_t s = 0; s < segments; ++s) {
+        const auto from = static_cast<std::ptrdiff_t>(s * all.y.size() / segments),
+                   to = static_cast<std::ptrdiff_t>((s + 1) * all.y.size() / segments);
         const auto ends = std::minmax_element(all.y.begin() + from, all.y.begin() + to);
         for (const auto at : {std::min(ends.first, ends.second), std::max(ends.first, ends.second)})
             out.x.push_back(all.x[static_cast<std::size_t>(at - all.y.begin())]), out.y.push_back(*at);
@@ -29,19 +29,19 @@ Plot::Series thinned(const Plot::Series& all) {
     return out;
 }
 
-/// As many digits as a picture shows.
-Json shortened(Json values) {
+/// Rounds values to six digits, enough for a plot.
+Json rounded(Json values) {
     for (auto& v : values)
         if (v.is_number()) v = std::strtod(fmt::format("{:.6g}", v.get<double>()).c_str(), nullptr);
     return values;
 }
 
-Json for_the_page(const Study& study, Outcome outcome) {
+Json page_document(const Study& study, Outcome outcome) {
     for (auto& p : outcome.plots)
         for (auto& s : p.series) s = thinned(s);
     auto document = document_of(study, outcome);
     for (auto& p : document["plots"])
-        for (auto& s : p["series"]) s["x"] = shortened(s["x"]), s["y"] = shortened(s["y"]);
+        for (auto& s : p["series"]) s["x"] = rounded(s["x"]), s["y"] = rounded(s["y"]);
     for (std::size_t k = 0; k < outcome.claims.size(); ++k) {
         const auto& c = outcome.claims[k];
         document["claims"][k]["on_top"] = belongs_on_top(c);
@@ -54,8 +54,8 @@ Json for_the_page(const Study& study, Outcome outcome) {
 
 std::string study_page(std::span<const Study* const> studies, std::span<const Outcome> outcomes, const std::string& command) {
     Json all = Json::array();
-    for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(for_the_page(*studies[k], outcomes[k]));
-    const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Every figure and table, made again";
+    for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(page_document(*studies[k], outcomes[k]));
+    const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Reproduction of all figures and tables";
     const Json document = {{"title", title},
                            {"program", "corpuscle " + std::string(version)},
                            {"command", command},

@@ -1,5 +1,5 @@
 #pragma once
-// Studies as a page to look at: a table of all claims on top, then each study's figures. One HTML file, no network.
+// The report page of studies: a table of all claims, then the figures of each study. One self-contained HTML file.
 
 #include <span>
 #include <string>

@@ -1,22 +1,22 @@
 "use strict";
-// A plain grid, nothing drawn by chance: what each axis does, as lines and as a heat map.
+// A grid without random parameters: the effect of each axis, as line plots and heat maps.
 
-const MOST_LINES = 10;
+const MAX_LINES = 10;
 const HEAT = {left: 76, right: 10, top: 4, bottom: 40};
 
 const axisName = (axis) => table.axes[axis].name;
 const levelText = (axis, value) => (table.axes[axis].words ? table.axes[axis].words[value] ?? "–" : quantity(value, table.axes[axis].unit, true));
 const measureText = (measure, value) => quantity(value, measures[measure].unit, true);
 
-/// The axes' values of a row: "press.F_max 2 N, sa1.f_B 20 Hz".
-const placeText = (row) => table.axes.map((axis, a) => `${axis.name} ${levelText(a, data.rows.axes[a][rowNumber.get(row)])}`).join(", ");
+/// The axis values of a row: "press.F_max 2 N, sa1.f_B 20 Hz".
+const pointText = (row) => table.axes.map((axis, a) => `${axis.name} ${levelText(a, data.rows.axes[a][rowNumber.get(row)])}`).join(", ");
 
 function startGrid(host) {
-    const note = `${openingText()}; a grid of ${table.axes.map(({name}) => name).join(" by ")}: nothing is drawn by chance`;
-    const made = section(host, "measures", "Measures", note);
+    const note = `${openingText()}; a grid of ${table.axes.map(({name}) => name).join(" by ")}, without random parameters`;
+    const node = section(host, "measures", "Measures", note);
     if (!table.finished) return;
-    if (table.all.passed < table.all.units) showGridYields(made);
-    showGridMeasures(made);
+    if (table.all.passed < table.all.units) showGridYields(node);
+    showGridMeasures(node);
     showEffects(host);
     showGridPoints(host);
 }
@@ -24,93 +24,93 @@ function startGrid(host) {
 function showGridYields(host) {
     const {all} = table, limited = measures.some((m) => "at_least" in m);
     const line = (name, limits, {value}) => word(name) + word(limits) + cell(`${Math.round(value * all.units)} of ${all.units}`) + cell(`${percent(value)} %`);
-    const rows = [line(limited ? "all limits" : "ended", "", all.yield)];
+    const rows = [line(limited ? "all limits" : "completed", "", all.yield)];
     all.measures.forEach((one, k) => one.yield && rows.push(line(one.name, limitsText(measures[k]), one.yield)));
     showTable(host, ["", "limits", "passed", ""], rows);
 }
 
 function showGridMeasures(host) {
     const rows = table.all.measures.map((one, k) => {
-        const few = data.extremes[k], at = (row) => (one.least === one.greatest ? "everywhere" : row === undefined ? "–" : placeText(row));
-        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.units) + cell(measureText(k, one.least)) + word(at(few[0])) + cell(measureText(k, one.greatest)) +
-            word(at(few[Math.ceil(few.length / 2)] ?? few[0])) + cell(measureText(k, one.mean.value));
+        const rows = data.extremes[k], at = (row) => (one.least === one.greatest ? "all points" : row === undefined ? "–" : pointText(row));
+        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.units) + cell(measureText(k, one.least)) + word(at(rows[0])) + cell(measureText(k, one.greatest)) +
+            word(at(rows[Math.ceil(rows.length / 2)] ?? rows[0])) + cell(measureText(k, one.mean.value));
     });
-    showTable(host, ["", "units", "least", "at", "most", "at", "mean"], rows);
+    showTable(host, ["", "items", "min", "at", "max", "at", "mean"], rows);
 }
 
-/// Every axis of every measure.
+/// The effect of every axis on every measure.
 function showEffects(host) {
     const rows = [];
     data.grids.forEach(({effects}, m) => {
         const first = `<th scope="row">${escaped(measures[m].name)}</th>`;
-        if (!effects.length) rows.push(`${first}<td colspan="5">the same everywhere</td>`);
-        effects.forEach(({axis, share, values, means}, k) => {
+        if (!effects.length) rows.push(`${first}<td colspan="5">constant</td>`);
+        effects.forEach(({axis, share: fraction, values, means}, k) => {
             const end = (n) => cell(`${escaped(levelText(axis, values.at(n)))} <span class="range">${measureText(m, means.at(n))}</span>`);
-            rows.push((k ? word("") : first) + word(axisName(axis)) + cell(`${percent(share)} %`) + cell(shareBar(share), "") + end(0) + end(-1));
+            rows.push((k ? word("") : first) + word(axisName(axis)) + cell(`${percent(fraction)} %`) + cell(fractionBar(fraction), "") + end(0) + end(-1));
         });
         const rest = 1 - effects.reduce((sum, {share}) => sum + share, 0);
-        if (effects.length > 1 && rest >= 0.0005) rows.push(word("") + word("jointly") + cell(`${percent(rest)} %`) + cell(shareBar(rest), "") + cell("") + cell(""));
+        if (effects.length > 1 && rest >= 0.0005) rows.push(word("") + word("interactions") + cell(`${percent(rest)} %`) + cell(fractionBar(rest), "") + cell("") + cell(""));
     });
-    if (rows.length) showTable(section(host, "matters", "What each axis does", "the share of a measure's variance over the grid that lies between its means at the axis's values; its mean at the first value and at the last"),
-                               ["", "axis", "share", "", "from", "to"], rows);
+    if (rows.length) showTable(section(host, "matters", "Effect of each axis", "percent of the variance over the grid that is explained by the means at the axis values; means at the first and last value"),
+                               ["", "axis", "variance", "", "from", "to"], rows);
 }
 
-const shareBar = (share) => `<span class="bar"><span class="full" style="width: ${100 * Math.min(1, Math.max(0, share))}%"></span></span>`;
+const fractionBar = (fraction) => `<span class="bar"><span class="full" style="width: ${100 * Math.min(1, Math.max(0, fraction))}%"></span></span>`;
 
 function showGridPoints(host) {
     if (table.points.length < 2 || table.points.length > 400) return;
     const rows = table.points.map(({point, measures: found}) => word(point) + found.map(({mean}, k) => cell(mean.value === null ? "–" : measureText(k, mean.value))).join(""));
-    showTable(section(host, "points", "Point by point", table.points.some(({units}) => units > 1) ? "means" : ""), ["", ...measures.map(({name}) => escaped(name))], rows);
+    showTable(section(host, "points", "By grid point", table.points.some(({units}) => units > 1) ? "means" : ""), ["", ...measures.map(({name}) => escaped(name))], rows);
 }
 
-/// Some of many, the first and the last among them.
-const someOf = (count, most) => (count <= most ? [...Array(count).keys()] : [...Array(most).keys()].map((k) => Math.round(k * (count - 1) / (most - 1))));
+/// At most `max` evenly spaced indices below `count`, including the first and the last.
+const someOf = (count, max) => (count <= max ? [...Array(count).keys()] : [...Array(max).keys()].map((k) => Math.round(k * (count - 1) / (max - 1))));
 
-/// Means over one axis, a line for each value of another; of a grid of one axis a single line.
+/// Plots means over one axis, with a line for each value of another axis, if there is one.
 function showLines(host, measure, xAxis, xs, lines) {
-    const of = table.axes[xAxis], order = xs.map((x, k) => k).filter((k) => xs[k] !== null);
+    const axis = table.axes[xAxis], order = xs.map((x, k) => k).filter((k) => xs[k] !== null);
     const rows = order.map((k) => [xs[k], ...lines.map(({ys}) => ys[k])]);
     const labels = lines.map(({label}) => label);
     const shown = lines.length > 1 ? lines.map(({label}, k) => `<span class="line"><span class="chip" style="background: ${colour(k)}"></span>${escaped(label)}</span>`).join(" ") : "";
-    const box = figure(host, `${escaped(measures[measure].name)} over ${escaped(of.name)} <span class="unit">${shown}</span>`);
-    const chart = plot(box, rows, [of.name, ...labels], {x: escaped(of.name), y: escaped(measures[measure].name), xUnit: of.unit, yUnit: measures[measure].unit,
+    const box = figure(host, `${escaped(measures[measure].name)} over ${escaped(axis.name)} <span class="unit">${shown}</span>`);
+    const chart = plot(box, rows, [axis.name, ...labels], {x: escaped(axis.name), y: escaped(measures[measure].name), xUnit: axis.unit, yUnit: measures[measure].unit,
         series: Object.fromEntries(labels.map((label, k) => [label, {color: colour(k), strokeWidth: 1.6, drawPoints: true, pointSize: 2.5}])),
-        under: (context, area, made) => limitLines(context, area, made, measure, false)});
-    if (of.words) chart.updateOptions({axes: {x: {ticker: () => xs.map((v) => ({v, label: escaped(levelText(xAxis, v))}))}}});
+        drawBackground: (context, area, chart) => limitLines(context, area, chart, measure, false)});
+    if (axis.words) chart.updateOptions({axes: {x: {ticker: () => xs.map((v) => ({v, label: escaped(levelText(xAxis, v))}))}}});
 }
 
 function showGrid(host, measure) {
     const {effects, pairs} = data.grids[measure] || {effects: [], pairs: []};
-    if (!effects.length) return void element(host, "p", "note", `${escaped(measures[measure]?.name ?? "Nothing")} is the same everywhere.`);
+    if (!effects.length) return void element(host, "p", "note", `${escaped(measures[measure]?.name ?? "Nothing")} is constant over the grid.`);
     if (effects.length === 1 || !pairs.length)
         for (const {axis, values, means} of effects) showLines(host, measure, axis, values, [{label: measures[measure].name, ys: means}]);
     for (const {x, y, xs, ys, means} of pairs) {
-        const across = someOf(ys.length, MOST_LINES), along = someOf(xs.length, MOST_LINES);
+        const across = someOf(ys.length, MAX_LINES), along = someOf(xs.length, MAX_LINES);
         showLines(host, measure, x, xs, across.map((j) => ({label: `${axisName(y)} ${levelText(y, ys[j])}`, ys: means.map((row) => row[j])})));
         showLines(host, measure, y, ys, along.map((i) => ({label: `${axisName(x)} ${levelText(x, xs[i])}`, ys: means[i]})));
         showHeatMap(host, measure, {x, y, xs, ys, means});
     }
 }
 
-/// From dark to light, in both themes as bright as the number is large; of viridis's kind.
-function heatColour(share) {
+/// A colour map like viridis: larger values are brighter, in both themes.
+function heatColour(fraction) {
     const stops = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
-    const at = Math.min(Math.max(share, 0), 1) * (stops.length - 1), k = Math.min(Math.floor(at), stops.length - 2);
+    const at = Math.min(Math.max(fraction, 0), 1) * (stops.length - 1), k = Math.min(Math.floor(at), stops.length - 2);
     return `rgb(${stops[k].map((c, n) => Math.round(c + (at - k) * (stops[k + 1][n] - c))).join(" ")})`;
 }
 
 function showHeatMap(host, measure, map) {
     const {x, y, xs, ys, means} = map, known = means.flat().filter((v) => v !== null), low = Math.min(...known), high = Math.max(...known);
-    const made = element(host, "figure", "heat");
+    const node = element(host, "figure", "heat");
     const scale = `<span class="heat-scale" style="background: linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map(heatColour).join(", ")})"></span>`;
     const others = table.axes.length > 2 ? ", mean over the other axes" : "";
-    const caption = element(made, "figcaption", "", `<span class="title">${escaped(measures[measure].name)} <span class="unit">${measureText(measure, low)} ${scale} ${measureText(measure, high)}${others}</span></span>`);
-    const readout = element(caption, "span", "readout"), canvas = element(made, "canvas");
+    const caption = element(node, "figcaption", "", `<span class="title">${escaped(measures[measure].name)} <span class="unit">${measureText(measure, low)} ${scale} ${measureText(measure, high)}${others}</span></span>`);
+    const readout = element(caption, "span", "readout"), canvas = element(node, "canvas");
     canvas.setAttribute("aria-label", `${measures[measure].name} over ${axisName(x)} and ${axisName(y)}`);
     const tall = 260 - HEAT.top - HEAT.bottom;
     const cellAt = (event) => [Math.floor((event.offsetX - HEAT.left) / (canvas.clientWidth - HEAT.left - HEAT.right) * xs.length), ys.length - 1 - Math.floor((event.offsetY - HEAT.top) / tall * ys.length)];
     const paint = () => paintHeatMap(canvas, map, tall, (v) => (high > low ? (v - low) / (high - low) : 0.5));
-    new ResizeObserver(paint).observe(made);
+    new ResizeObserver(paint).observe(node);
     canvas.addEventListener("mousemove", (event) => {
         const [i, j] = cellAt(event);
         readout.textContent = means[i]?.[j] === undefined ? "" : `${axisName(x)} ${levelText(x, xs[i])}, ${axisName(y)} ${levelText(y, ys[j])}: ${measureText(measure, means[i][j])}`;
@@ -118,7 +118,7 @@ function showHeatMap(host, measure, map) {
     canvas.addEventListener("mouseleave", () => { readout.textContent = ""; });
 }
 
-function paintHeatMap(canvas, {x, y, xs, ys, means}, tall, share) {
+function paintHeatMap(canvas, {x, y, xs, ys, means}, tall, fractionOf) {
     const wide = canvas.parentElement.clientWidth, scale = devicePixelRatio || 1, context = canvas.getContext("2d");
     [canvas.width, canvas.height] = [wide * scale, 260 * scale];
     canvas.style.height = "260px";
@@ -126,7 +126,7 @@ function paintHeatMap(canvas, {x, y, xs, ys, means}, tall, share) {
     const width = wide - HEAT.left - HEAT.right, w = width / xs.length, h = tall / ys.length;
     means.forEach((row, i) => row.forEach((value, j) => {
         if (value === null) return;
-        context.fillStyle = heatColour(share(value));
+        context.fillStyle = heatColour(fractionOf(value));
         context.fillRect(HEAT.left + i * w, HEAT.top + (ys.length - 1 - j) * h, Math.ceil(w), Math.ceil(h));
     }));
     context.font = "11px system-ui, sans-serif", context.fillStyle = ink("faint"), context.textAlign = "center";

@@ -1,19 +1,19 @@
 "use strict";
-// Histograms, normal plots, scatter and envelopes of a sweep. Drag to zoom, double click for the whole.
+// Histograms, normal plots, scatter plots and envelopes of a sweep. Drag to zoom, double click to reset.
 
 function figure(host, title) {
-    const made = element(host, "figure");
-    element(made, "figcaption", "", `<span class="title">${title}</span>`);
-    return element(made, "div", "plot");
+    const node = element(host, "figure");
+    element(node, "figcaption", "", `<span class="title">${title}</span>`);
+    return element(node, "div", "plot");
 }
 
 const axisText = (unit) => (v) => quantity(Number(v.toPrecision(10)), unit, true);
 
-/// Options that all plots share; `under` draws below the curves.
-function plot(host, rows, labels, {x, y, xUnit = "", yUnit = "", yTicker, series = {}, under, range}) {
+/// Creates a plot with the common options. `drawBackground` draws below the curves.
+function plot(host, rows, labels, {x, y, xUnit = "", yUnit = "", yTicker, series = {}, drawBackground, range}) {
     const chart = new Dygraph(host, rows, {
         labels, series, xlabel: x, ylabel: y, xLabelHeight: 16, yLabelWidth: 16, legend: "never", highlightCircleSize: 0, xRangePad: 6, yRangePad: 4,
-        gridLineColor: ink("grid"), axisLineColor: ink("axis"), underlayCallback: under, ...(range ? {valueRange: range} : {}),
+        gridLineColor: ink("grid"), axisLineColor: ink("axis"), underlayCallback: drawBackground, ...(range ? {valueRange: range} : {}),
         axes: {x: {axisLabelFontSize: 11, axisLabelFormatter: axisText(xUnit), axisLabelWidth: 64, pixelsPerLabel: 80},
                y: {axisLabelFontSize: 11, axisLabelWidth: 60, ...(yTicker ? {ticker: yTicker} : {axisLabelFormatter: axisText(yUnit)})}},
     });
@@ -21,26 +21,26 @@ function plot(host, rows, labels, {x, y, xUnit = "", yUnit = "", yTicker, series
     return chart;
 }
 
-/// Limits as lines, upright or level, where they are in view.
-function limitLines(context, area, chart, measure, upright) {
+/// Draws the limits of a measure as vertical or horizontal lines.
+function limitLines(context, area, chart, measure, vertical) {
     for (const limit of [measures[measure].at_least, measures[measure].at_most]) {
         if (limit === null || limit === undefined) continue;
-        const at = upright ? chart.toDomXCoord(limit) : chart.toDomYCoord(limit);
+        const at = vertical ? chart.toDomXCoord(limit) : chart.toDomYCoord(limit);
         context.save();
         context.strokeStyle = ink("ink"), context.lineWidth = 1, context.setLineDash([5, 3]);
         context.beginPath();
-        if (upright) context.moveTo(at, area.y), context.lineTo(at, area.y + area.h);
+        if (vertical) context.moveTo(at, area.y), context.lineTo(at, area.y + area.h);
         else context.moveTo(area.x, at), context.lineTo(area.x + area.w, at);
         context.stroke(), context.restore();
     }
 }
 
-function line(context, chart, [x0, y0], [x1, y1], ink_) {
-    context.beginPath(), context.strokeStyle = ink_, context.lineWidth = 1;
+function line(context, chart, [x0, y0], [x1, y1], color) {
+    context.beginPath(), context.strokeStyle = color, context.lineWidth = 1;
     context.moveTo(...chart.toDomCoords(x0, y0)), context.lineTo(...chart.toDomCoords(x1, y1)), context.stroke();
 }
 
-/// One column a group, one row a point: what a group has not there is left open.
+/// Rows for dygraphs: one row per point, one column per group, null in the other columns.
 function columnsOf(xs, ys, groups, count) {
     const rows = xs.map((x, k) => { const row = Array(count + 1).fill(null); row[0] = x, row[groups[k] + 1] = ys[k]; return row; });
     return rows.filter((row, k) => row[0] !== null && ys[k] !== null).sort((a, b) => a[0] - b[0]);
@@ -50,18 +50,18 @@ const groupLabels = () => grouping().groups.map((name, k) => (grouping().groups.
 const pointSeries = (size) => Object.fromEntries(groupLabels().map((label, k) => [label, {color: groupColour(k), strokeWidth: 0, drawPoints: true, pointSize: size}]));
 
 function showHistogram(host, measure) {
-    const of = data.histograms[measure][state.grouping];
-    if (!of) return;
-    const {name, unit} = measures[measure], {from, width, counts, below, above} = of, several = counts.length > 1;
+    const histogram = data.histograms[measure][state.grouping];
+    if (!histogram) return;
+    const {name, unit} = measures[measure], {from, width, counts, below, above} = histogram, several = counts.length > 1;
     const sums = counts.map((all) => all.reduce((a, b) => a + b, 0) || 1);
     const height = (k, bin) => (several ? 100 * counts[k][bin] / sums[k] : counts[k][bin]);
     const rows = counts[0].map((_, bin) => [from + bin * width, ...counts.map((_, k) => height(k, bin))]);
     rows.unshift([from - 1e-9 * width, ...counts.map(() => 0)]);
     rows.push([from + counts[0].length * width, ...counts.map(() => 0)]);
-    const far = below + above ? `; ${below + above} that lie further out are counted at the ends` : "";
+    const far = below + above ? `; ${below + above} outliers are counted in the outer bins` : "";
     const series = Object.fromEntries(groupLabels().map((label, k) => [label, {color: groupColour(k), stepPlot: true, fillGraph: true, strokeWidth: 1.2}]));
-    plot(figure(host, `${escaped(name)}: how often <span class="unit">${far}</span>`), rows, [name, ...groupLabels()],
-         {x: escaped(name), y: several ? "% of each" : "units", xUnit: unit, series, under: (context, area, chart) => limitLines(context, area, chart, measure, true)});
+    plot(figure(host, `${escaped(name)}: histogram <span class="unit">${far}</span>`), rows, [name, ...groupLabels()],
+         {x: escaped(name), y: several ? "% of group" : "items", xUnit: unit, series, drawBackground: (context, area, chart) => limitLines(context, area, chart, measure, true)});
 }
 
 const PROBABILITIES = [[-4.2649, "0.001 %"], [-3.0902, "0.1 %"], [-2.3263, "1 %"], [-1.6449, "5 %"], [-0.6745, "25 %"], [0, "50 %"], [0.6745, "75 %"], [1.6449, "95 %"], [2.3263, "99 %"],
@@ -73,8 +73,8 @@ function showNormalPlot(host, measure) {
     if (xs.length < 3) return;
     const {mean, sigma} = table.all.measures[measure], single = all.length === 1 && sigma.value > 0;
     const ticker = (lo, hi) => PROBABILITIES.filter(([v]) => v >= lo && v <= hi).map(([v, label]) => ({v, label}));
-    plot(figure(host, `${escaped(name)}: normal plot <span class="unit">a normal distribution is a straight line</span>`), columnsOf(xs, ys, groups, all.length), [name, ...groupLabels()],
-         {x: escaped(name), y: "units below", xUnit: unit, yTicker: ticker, series: pointSeries(1.6), under: (context, area, chart) => {
+    plot(figure(host, `${escaped(name)}: normal plot <span class="unit">a straight line indicates a normal distribution</span>`), columnsOf(xs, ys, groups, all.length), [name, ...groupLabels()],
+         {x: escaped(name), y: "cumulative fraction", xUnit: unit, yTicker: ticker, series: pointSeries(1.6), drawBackground: (context, area, chart) => {
              if (single) line(context, chart, [mean.value - 6 * sigma.value, -6], [mean.value + 6 * sigma.value, 6], ink("axis"));
              limitLines(context, area, chart, measure, true);
          }});
@@ -85,14 +85,14 @@ function showScatter(host, measure, factor) {
     const rows = columnsOf(xs, ys, groupsOf(data.points), grouping().groups.length);
     if (!rows.length) return;
     const part = factor.part ? `, ${factor.part.replace(/_(.)/, "<sub>$1</sub>")}` : "";
-    const thinned = data.points.length < table.finished ? `; ${data.points.length} of ${table.finished} units` : "";
+    const thinned = data.points.length < table.finished ? `; ${data.points.length} of ${table.finished} items` : "";
     plot(figure(host, `${escaped(name)} over ${escaped(factor.name)}${part} <span class="unit">${percent(factor.share)} % of its variance${thinned}</span>`), rows, [factor.name, ...groupLabels()],
-         {x: escaped(factor.name) + part, y: escaped(name), xUnit: factor.unit, yUnit: unit, series: pointSeries(1.5), under: (context, area, chart) => limitLines(context, area, chart, measure, false)});
+         {x: escaped(factor.name) + part, y: escaped(name), xUnit: factor.unit, yUnit: unit, series: pointSeries(1.5), drawBackground: (context, area, chart) => limitLines(context, area, chart, measure, false)});
 }
 
 function showEnvelope(host, trace) {
     const {name, times, units, medians, every} = trace, groups = medians[state.grouping], several = groups.length > 1;
-    const note = `${units < table.finished ? `of ${units} of ${table.finished} units: ` : ""}median, 5 to 95 %, least to most${every ? "; not every sample is drawn" : ""}`;
+    const note = `${units < table.finished ? `${units} of ${table.finished} items: ` : ""}median, 5 to 95 %, min to max${every ? "; not every sample is shown" : ""}`;
     const box = figure(host, `${escaped(name)} <span class="unit">${note}</span>`);
     const labels = several ? groupLabels() : ["median"], columns = several ? groups : [trace.median];
     const rows = times.map((t, k) => [t, ...columns.map((column) => column[k])]);
@@ -105,10 +105,10 @@ function showEnvelope(host, trace) {
     };
     plot(box, rows, ["time", ...labels], {x: "time", y: escaped(name), xUnit: "s", range: [low - margin, high + margin],
          series: Object.fromEntries(labels.map((label, k) => [label, {color: several ? groupColour(k) : colour(0), strokeWidth: 1.6}])),
-         under: (context, area, chart) => { band(context, chart, trace.least, trace.greatest, 0.14); band(context, chart, trace.low, trace.high, 0.28); }});
+         drawBackground: (context, area, chart) => { band(context, chart, trace.least, trace.greatest, 0.14); band(context, chart, trace.low, trace.high, 0.28); }});
 }
 
-/// What the colours mean.
+/// Shows the legend of the groups.
 function showKey() {
     const {groups} = grouping();
     document.getElementById("key").innerHTML = groups.length === 1 ? "" : groups.map((name, k) => `<span><span class="chip" style="background: ${groupColour(k)}"></span>${escaped(name)}</span>`).join("");

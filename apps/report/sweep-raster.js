@@ -1,9 +1,9 @@
 "use strict";
-// The spikes of many units under each other, those with the least of the chosen measure at the bottom.
+// Raster of the spikes of many items, sorted by the selected measure, smallest at the bottom.
 
 const RASTER = {left: 66, right: 8, top: 4, bottom: 34};
 
-/// Units in order of the measure; each with its spikes.
+/// The items sorted by the measure, each with its spikes.
 function rasterLanes({rows, counts, times}) {
     const bytes = Uint8Array.from(atob(times), (c) => c.charCodeAt(0)), all = new Float32Array(bytes.buffer), values = measured(state.measure, rows), groups = groupsOf(rows);
     let from = 0;
@@ -12,19 +12,19 @@ function rasterLanes({rows, counts, times}) {
 }
 
 function showRaster(host, train) {
-    const lanes = rasterLanes(train), end = lanes.reduce((most, {spikes}) => Math.max(most, ...spikes.slice(-1)), 0) * 1.02 || 1;
-    const thinned = train.rows.length < table.finished ? `${train.rows.length} of ${table.finished} units, ` : "";
-    const made = element(host, "figure", "raster");
-    const caption = element(made, "figcaption", "", `${escaped(train.name)} <span class="unit">${thinned}sorted by ${escaped(measures[state.measure]?.name ?? "unit")}, the least at the bottom; those that did not pass are marked on the left</span>`);
+    const lanes = rasterLanes(train), end = lanes.reduce((last, {spikes}) => Math.max(last, ...spikes.slice(-1)), 0) * 1.02 || 1;
+    const thinned = train.rows.length < table.finished ? `${train.rows.length} of ${table.finished} items, ` : "";
+    const node = element(host, "figure", "raster");
+    const caption = element(node, "figcaption", "", `${escaped(train.name)} <span class="unit">${thinned}sorted by ${escaped(measures[state.measure]?.name ?? "item")}, smallest at the bottom; failed items are marked on the left</span>`);
     const readout = element(caption, "span", "readout");
-    const canvas = element(made, "canvas");
-    canvas.setAttribute("aria-label", `spikes of ${train.rows.length} units`);
+    const canvas = element(node, "canvas");
+    canvas.setAttribute("aria-label", `spikes of ${train.rows.length} items`);
     const tall = Math.max(80, Math.min(420, 8 * lanes.length));
     const paint = () => paintRaster(canvas, lanes, end, tall);
-    new ResizeObserver(paint).observe(made);
+    new ResizeObserver(paint).observe(node);
     canvas.addEventListener("mousemove", (event) => {
         const lane = lanes[Math.floor((event.offsetY - RASTER.top) / tall * lanes.length)];
-        readout.textContent = lane ? ` unit ${data.rows.unit[rowNumber.get(lane.row)]}, ${measures[state.measure]?.name ?? ""} ${quantity(lane.value, measures[state.measure]?.unit ?? "", true)}, ${lane.spikes.length} spikes` : "";
+        readout.textContent = lane ? ` item ${data.rows.unit[rowNumber.get(lane.row)]}, ${measures[state.measure]?.name ?? ""} ${quantity(lane.value, measures[state.measure]?.unit ?? "", true)}, ${lane.spikes.length} spikes` : "";
     });
 }
 

@@ -1,5 +1,5 @@
 "use strict";
-// A page of a sweep's results: yields, measures, what they depend on; pictures of the measure that is chosen; units that stand out.
+// The page of a sweep: yields, measures, influences; plots of the selected measure; failed and extreme items.
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const table = data.summary, measures = table.measures;
@@ -16,13 +16,13 @@ const varied = (axis, rows) => rows.map((row) => data.rows.axes[axis][rowNumber.
 const groupsOf = (rows) => rows.map((row) => data.rows.groups[state.grouping][rowNumber.get(row)]);
 
 function section(host, id, title, note = "") {
-    const made = element(host, "section");
-    made.id = id;
-    element(made, "h2", "", `${escaped(title)} <small>${escaped(note)}</small>`);
-    return made;
+    const node = element(host, "section");
+    node.id = id;
+    element(node, "h2", "", `${escaped(title)} <small>${escaped(note)}</small>`);
+    return node;
 }
 
-/// What is drawn anew for another measure or grouping.
+/// Redraws everything that depends on the selected measure or grouping.
 function draw() {
     charts.splice(0).forEach((chart) => chart.destroy());
     for (const id of ["figures", "rasters", "traces", "extremes"]) document.getElementById(id)?.replaceChildren();
@@ -36,18 +36,18 @@ function draw() {
     showExtremes(document.getElementById("extremes"), state.measure);
 }
 
-function chooser(host, id, name, options, chosen) {
+function chooser(host, id, name, options, onSelect) {
     const label = element(host, "label", "", `${escaped(name)} `);
     const select = element(label, "select", "", options.map((text, k) => `<option value="${k}">${escaped(text)}</option>`).join(""));
     select.id = id;
-    select.addEventListener("change", () => { chosen(Number(select.value)); draw(); });
+    select.addEventListener("change", () => { onSelect(Number(select.value)); draw(); });
 }
 
-/// Of a sweep that draws: what can be inferred.
-function startDrawn(host) {
+/// The tables of a sweep with random parameters.
+function startMonteCarlo(host) {
     showYields(section(host, "yields", "Yield", openingText()));
     if (!table.finished) return;
-    showMeasures(section(host, "measures", "Measures", "with the interval in which the truth lies with 95 % confidence"));
+    showMeasures(section(host, "measures", "Measures", "with 95 % confidence intervals"));
     showPoints(host);
     showDependences(host);
 }
@@ -57,12 +57,12 @@ function start(host) {
     document.getElementById("program").textContent = data.program;
     document.getElementById("command").textContent = data.command;
     if (data.grids) startGrid(host);
-    else startDrawn(host);
+    else startMonteCarlo(host);
     if (!table.finished) return;
     const bar = element(host, "div");
     bar.id = "toolbar";
-    if (measures.length) chooser(bar, "measure", "measure", measures.map(({name}) => name), (k) => (state.measure = k));
-    if (data.groupings.length > 1 && (!data.grids || data.rasters.length || data.traces.length)) chooser(bar, "grouping", "colour by", data.groupings.map(({name}) => name), (k) => (state.grouping = k));
+    if (measures.length) chooser(bar, "measure", "Measure", measures.map(({name}) => name), (k) => (state.measure = k));
+    if (data.groupings.length > 1 && (!data.grids || data.rasters.length || data.traces.length)) chooser(bar, "grouping", "Colour by", data.groupings.map(({name}) => name), (k) => (state.grouping = k));
     const key = element(bar, "span", "key");
     key.id = "key";
     element(host, "div").id = "figures";

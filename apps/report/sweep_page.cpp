@@ -16,16 +16,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_points = 1500, most_rasters = 800, most_traced = 1000, most_failed = 200, most_extremes = 8, most_scatters = 4;
+constexpr std::size_t max_points = 1500, max_rasters = 800, max_traces = 1000, max_failed = 200, max_extremes = 8, max_scatters = 4;
 
-/// Of some rows, what all pictures and tables of them need: each row once.
-class ShownRows {
+/// The data of all rows that plots and tables refer to, each row once.
+class PageRows {
     const SweepTable& table_;
     std::map<std::size_t, std::size_t> number_;
 
 public:
-    explicit ShownRows(const SweepTable& table) : table_(table) {}
-    void take(const std::vector<std::size_t>& rows) {
+    explicit PageRows(const SweepTable& table) : table_(table) {}
+    void add(const std::vector<std::size_t>& rows) {
         for (const auto r : rows) number_.emplace(r, 0);
     }
     Json document(const std::vector<Grouping>& groupings) {
@@ -33,9 +33,9 @@ public:
         for (auto& [row, n] : number_) n = count++;
         Json out = {{"row", Json::array()}, {"unit", Json::array()}, {"end", Json::array()}, {"passes", Json::array()}};
         const auto column = [&](const std::vector<double>& all) {
-            std::vector<double> some;
-            for (const auto& [row, n] : number_) some.push_back(all[row]);
-            return shown_numbers(some);
+            std::vector<double> selected;
+            for (const auto& [row, n] : number_) selected.push_back(all[row]);
+            return shown_numbers(selected);
         };
         for (const auto& [row, n] : number_) {
             out["row"].push_back(row), out["unit"].push_back(table_.unit[row]), out["end"].push_back(static_cast<int>(table_.end[row]));
@@ -52,23 +52,23 @@ public:
     }
 };
 
-/// The rows of least and of greatest values of a measure.
+/// The rows with the smallest and the largest values of a measure.
 std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
     std::vector<std::size_t> rows;
     for (std::size_t r = 0; r < values.size(); ++r)
         if (std::isfinite(values[r])) rows.push_back(r);
-    const auto some = std::min(rows.size(), 2 * most_extremes), half = some / 2;
+    const auto count = std::min(rows.size(), 2 * max_extremes), half = count / 2;
     const auto less = [&](std::size_t a, std::size_t b) { return std::pair(values[a], a) < std::pair(values[b], b); };
-    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half), rows.end(), less);
-    std::vector<std::size_t> out(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half));
-    rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(some - half));
+    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count - half), rows.end(), less);
+    std::vector<std::size_t> out(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count - half));
+    rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count - half));
     std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(half), rows.end(),
                       [&](auto a, auto b) { return less(b, a); });
     out.insert(out.end(), rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(half));
     return out;
 }
 
-/// A factor to draw a measure over: of an axis its number, of a device its deviates for the points' rows.
+/// A factor for a scatter plot: the index of an axis, or the mismatch deviates of a device for the plotted rows.
 Json factor_document(const SweepTable& table, const SweepSummary& s, const NamedInfluence& i, const std::vector<std::size_t>& rows) {
     Json out = {{"name", i.name}, {"part", i.part}, {"share", i.found.share.value}};
     if (i.device < 0) {
@@ -78,8 +78,8 @@ Json factor_document(const SweepTable& table, const SweepSummary& s, const Named
     const auto& device = s.drawn->subjects[static_cast<std::size_t>(i.subject)].devices[static_cast<std::size_t>(i.device)];
     std::vector<std::uint64_t> chips;
     for (const auto r : rows) chips.push_back(s.drawn->chip(table.unit[r]));
-    auto own = deviates_of(device, s.drawn->seed, chips);
-    auto& values = i.part == "V_T" ? own.V_T : own.I_S;
+    auto deviates = deviates_of(device, s.drawn->seed, chips);
+    auto& values = i.part == "V_T" ? deviates.V_T : deviates.I_S;
     for (auto& x : values) x *= i.part == "V_T" ? device.sigma_VT : 100 * device.sigma_IS;
     out["unit"] = i.part == "V_T" ? "V" : "%", out["values"] = shown_numbers(values);
     return out;
@@ -94,7 +94,7 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
             out.back().push_back(
                 {{"name", table.axes[axis].name}, {"part", ""}, {"share", between.share}, {"axis", axis}, {"unit", table.axes[axis].unit}});
         for (const auto& i : d.influences)
-            if (out.back().size() < most_scatters && i.found.share.value > 0) out.back().push_back(factor_document(table, s, i, points));
+            if (out.back().size() < max_scatters && i.found.share.value > 0) out.back().push_back(factor_document(table, s, i, points));
     }
     return out;
 }
@@ -105,9 +105,9 @@ Json matrix_of(const std::vector<std::vector<double>>& rows) {
     return out;
 }
 
-/// Of each measure of a grid: what each axis does, and its means over each pair of the first axes.
+/// For each measure of a grid: the effect of each axis, and the means over each pair of the most influential axes.
 Json grids_document(const SweepTable& table) {
-    constexpr std::size_t most_axes = 4, most_cells = 40'000;
+    constexpr std::size_t max_axes = 4, max_cells = 40'000;
     Json out = Json::array();
     for (const auto& values : table.measure_values) {
         const auto effects = effects_of(table, values);
@@ -115,10 +115,10 @@ Json grids_document(const SweepTable& table) {
         for (const auto& e : effects)
             one["effects"].push_back(
                 {{"axis", e.axis}, {"share", e.share}, {"values", shown_numbers(table.points[e.axis])}, {"means", shown_numbers(e.means)}});
-        for (std::size_t a = 0; a < std::min(effects.size(), most_axes); ++a)
-            for (std::size_t b = a + 1; b < std::min(effects.size(), most_axes); ++b) {
+        for (std::size_t a = 0; a < std::min(effects.size(), max_axes); ++a)
+            for (std::size_t b = a + 1; b < std::min(effects.size(), max_axes); ++b) {
                 const auto x = effects[a].axis, y = effects[b].axis;
-                if (table.points[x].size() * table.points[y].size() > most_cells) continue;
+                if (table.points[x].size() * table.points[y].size() > max_cells) continue;
                 one["pairs"].push_back({{"x", x},
                                         {"y", y},
                                         {"xs", shown_numbers(table.points[x])},
@@ -132,12 +132,12 @@ Json grids_document(const SweepTable& table) {
 
 std::vector<std::size_t> failed_rows(const SweepTable& table) {
     std::vector<std::size_t> out;
-    for (std::size_t r = 0; r < table.rows() && out.size() < most_failed; ++r)
+    for (std::size_t r = 0; r < table.rows() && out.size() < max_failed; ++r)
         if (!table.passes(r)) out.push_back(r);
     return out;
 }
 
-/// How a device reads in a table.
+/// The size of each device as text.
 Json sizes_document(const SweepSummary& s) {
     Json out = Json::object();
     if (!s.drawn) return out;
@@ -161,16 +161,17 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     page["groupings"] = Json::array();
     for (const auto& g : groupings) {
         Json labels = Json::array();
-        for (const auto& one : g.by.groups) labels.push_back(one.label.empty() ? "all units" : one.label);
+        for (const auto& one : g.by.groups) labels.push_back(one.label.empty() ? "all items" : one.label);
         page["groupings"].push_back({{"name", g.name}, {"groups", labels}});
     }
-    if (const auto drawn = drawn_of(results.about(drawn_fact)))
+    if (const auto samples = drawn_of(results.about(drawn_fact)))
         page["alone"] = fmt::format(
-            "One chip by itself: corpuscle respond or run with the sweep's settings and --mismatch {}/CHIP; CHIP is the unit's number{}.",
-            drawn->seed, drawn->chips > 0 ? fmt::format(" modulo {}", drawn->chips) : "");
+            "To simulate one chip: corpuscle respond or run with the settings of the sweep and --mismatch {}/CHIP; CHIP is the number of "
+            "the item{}.",
+            samples->seed, samples->chips > 0 ? fmt::format(" modulo {}", samples->chips) : "");
     if (table.is_grid) page["grids"] = grids_document(table);
     page["histograms"] = Json::array(), page["normal_plots"] = Json::array(), page["extremes"] = Json::array();
-    ShownRows shown(table);
+    PageRows shown(table);
     for (const auto& values : table.measure_values) {
         page["histograms"].push_back(Json::array()), page["normal_plots"].push_back(Json::array());
         for (const auto& g : groupings) {
@@ -179,10 +180,10 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
         }
         const auto extremes = extremes_of(values);
         page["extremes"].push_back(extremes);
-        shown.take(extremes);
+        shown.add(extremes);
     }
-    const auto points = thinned_rows(table.rows(), most_points), chips = thinned_rows(table.rows(), most_rasters);
-    const auto traced = thinned_rows(table.rows(), most_traced), failed = failed_rows(table);
+    const auto points = thinned_rows(table.rows(), max_points), chips = thinned_rows(table.rows(), max_rasters);
+    const auto traced = thinned_rows(table.rows(), max_traces), failed = failed_rows(table);
     page["rasters"] = Json::array(), page["traces"] = Json::array();
     for (std::size_t t = 0; t < std::min<std::size_t>(results.trains().size(), 4); ++t) {
         auto raster = rasters(results, t, table, chips);
@@ -194,11 +195,11 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
         if (!one) return one.error();
         page["traces"].push_back(std::move(*one));
     }
-    const auto lost = lost_units(results, most_failed);
-    if (!lost) return lost.error();
+    const auto diverged = lost_units(results, max_failed);
+    if (!diverged) return diverged.error();
     page["why"] = Json::object();
-    for (const auto& l : *lost) page["why"][fmt::format("{}", l.unit)] = l.why;
-    for (const auto* rows : {&points, &chips, &failed}) shown.take(*rows);
+    for (const auto& l : *diverged) page["why"][fmt::format("{}", l.unit)] = l.why;
+    for (const auto* rows : {&points, &chips, &failed}) shown.add(*rows);
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);
     page["sizes"] = sizes_document(summary);

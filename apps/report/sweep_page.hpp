@@ -1,5 +1,5 @@
 #pragma once
-// A sweep's results as a page to look at: one HTML file, no network. As large as there are points on a screen, not as there are units.
+// The report page of a sweep: one self-contained HTML file. Its size is bounded by what a screen can show, not by the number of items.
 
 #include <string>
 

@@ -10,9 +10,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t most_bins = 60, most_in_normal_plot = 200, most_times = 500, most_spikes = 200000;
+constexpr std::size_t max_bins = 60, max_in_normal_plot = 200, max_times = 500, max_spikes = 200000;
 
-double shortened(double x) { return std::isfinite(x) ? std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr) : x; }
+double rounded(double x) { return std::isfinite(x) ? std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr) : x; }
 
 std::vector<double> finite_of(const std::vector<double>& values) {
     std::vector<double> out;
@@ -21,52 +21,53 @@ std::vector<double> finite_of(const std::vector<double>& values) {
     return out;
 }
 
-double nth(std::vector<double>& values, double q) {
+/// The quantile q of the values, which it reorders.
+double quantile_of(std::vector<double>& values, double q) {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
 
-/// Where the bins begin, how wide each is, how many.
+/// Histogram bins: the start of the first, the width of each, their number.
 struct Bins {
     double from = 0, width = 1;
     std::size_t count = 1;
 };
 Bins bins_for(std::vector<double> values) {
-    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    double low = *least, high = *greatest;
-    const bool whole = high - low < 1000 && std::all_of(values.begin(), values.end(), [](double x) { return x == std::round(x); });
-    if (whole) {
-        const double each = std::ceil((high - low + 1) / most_bins);
-        return {low - 0.5, each, static_cast<std::size_t>(std::ceil((high - low + 1) / each))};
+    const auto [min, max] = std::minmax_element(values.begin(), values.end());
+    double low = *min, high = *max;
+    const bool are_integers = high - low < 1000 && std::all_of(values.begin(), values.end(), [](double x) { return x == std::round(x); });
+    if (are_integers) {
+        const double width = std::ceil((high - low + 1) / max_bins);
+        return {low - 0.5, width, static_cast<std::size_t>(std::ceil((high - low + 1) / width))};
     }
     if (low == high) return {low - 0.5, 1, 1};
-    const double a = nth(values, 0.005), b = nth(values, 0.995), margin = 0.5 * (b - a);
-    if (b > a) low = std::max(low, a - margin), high = std::min(high, b + margin);  // one that lies far out would make all others a line
-    return {low, (high - low) / most_bins, most_bins};
+    const double a = quantile_of(values, 0.005), b = quantile_of(values, 0.995), margin = 0.5 * (b - a);
+    if (b > a) low = std::max(low, a - margin), high = std::min(high, b + margin);  // otherwise one outlier would compress all other bins
+    return {low, (high - low) / max_bins, max_bins};
 }
 
-/// As many as are drawn, evenly along the scale of a normal plot: the tails whole, the middle thinned.
+/// The plotted ranks, evenly spaced along the axis of a normal plot: all ranks in the tails, fewer in the middle.
 std::vector<std::size_t> ranks_in_normal_plot(std::size_t count) {
-    if (count <= most_in_normal_plot) return thinned_rows(count, count);
+    if (count <= max_in_normal_plot) return thinned_rows(count, count);
     const double n = static_cast<double>(count), far = normal_quantile((n - 0.375) / (n + 0.25));
     std::vector<std::size_t> out;
-    for (std::size_t k = 0; k < most_in_normal_plot; ++k) {
-        const double score = far * (2 * static_cast<double>(k) / (most_in_normal_plot - 1) - 1),
-                     share = 0.5 * std::erfc(-score / std::sqrt(2.0));
-        const auto rank = static_cast<std::size_t>(std::clamp(std::round(share * (n + 0.25) - 0.625), 0.0, n - 1));
+    for (std::size_t k = 0; k < max_in_normal_plot; ++k) {
+        const double score = far * (2 * static_cast<double>(k) / (max_in_normal_plot - 1) - 1),
+                     probability = 0.5 * std::erfc(-score / std::sqrt(2.0));
+        const auto rank = static_cast<std::size_t>(std::clamp(std::round(probability * (n + 0.25) - 0.625), 0.0, n - 1));
         if (out.empty() || rank > out.back()) out.push_back(rank);
     }
     return out;
 }
 
-/// The numbers of one time over rows, as five of them.
-struct Five {
-    std::vector<double> least, low, median, high, greatest;
+/// Five statistics over rows, at each time.
+struct EnvelopeStats {
+    std::vector<double> min, low, median, high, max;
     void add(std::vector<double>& at) {
         if (at.empty()) at.push_back(std::nan(""));
-        low.push_back(nth(at, 0.05)), median.push_back(nth(at, 0.5)), high.push_back(nth(at, 0.95));
-        least.push_back(*std::min_element(at.begin(), at.end())), greatest.push_back(*std::max_element(at.begin(), at.end()));
+        low.push_back(quantile_of(at, 0.05)), median.push_back(quantile_of(at, 0.5)), high.push_back(quantile_of(at, 0.95));
+        min.push_back(*std::min_element(at.begin(), at.end())), max.push_back(*std::max_element(at.begin(), at.end()));
     }
 };
 
@@ -74,7 +75,7 @@ struct Five {
 
 PlotJson shown_numbers(const std::vector<double>& values) {
     PlotJson out = PlotJson::array();
-    for (const double x : values) out.push_back(std::isfinite(x) ? PlotJson(shortened(x)) : PlotJson(nullptr));
+    for (const double x : values) out.push_back(std::isfinite(x) ? PlotJson(rounded(x)) : PlotJson(nullptr));
     return out;
 }
 
@@ -87,9 +88,9 @@ std::vector<Grouping> groupings_of(const SweepTable& table) {
     return out;
 }
 
-std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t most) {
+std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t max_rows) {
     std::vector<std::size_t> out;
-    const auto count = std::min(rows, most);
+    const auto count = std::min(rows, max_rows);
     for (std::size_t k = 0; k < count; ++k) out.push_back(count == 1 ? 0 : k * (rows - 1) / (count - 1));
     return out;
 }
@@ -101,16 +102,16 @@ PlotJson histograms(const std::vector<double>& values, const SweepGroups& groups
     PlotJson counts = PlotJson::array();
     std::size_t below = 0, above = 0;
     for (const auto& g : groups.groups) {
-        std::vector<std::size_t> in(bins.count);
+        std::vector<std::size_t> bin_counts(bins.count);
         for (const auto r : g.rows) {
             if (!std::isfinite(values[r])) continue;
             const double at = std::floor((values[r] - bins.from) / bins.width);
-            const bool last = values[r] <= bins.from + bins.width * static_cast<double>(bins.count) * (1 + 1e-12);
+            const bool in_last = values[r] <= bins.from + bins.width * static_cast<double>(bins.count) * (1 + 1e-12);
             if (at < 0) ++below;
-            if (at >= static_cast<double>(bins.count) && !last) ++above;
-            ++in[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(bins.count - 1)))];
+            if (at >= static_cast<double>(bins.count) && !in_last) ++above;
+            ++bin_counts[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(bins.count - 1)))];
         }
-        counts.push_back(in);
+        counts.push_back(bin_counts);
     }
     return {{"from", bins.from}, {"width", bins.width}, {"counts", counts}, {"below", below}, {"above", above}};
 }
@@ -118,9 +119,9 @@ PlotJson histograms(const std::vector<double>& values, const SweepGroups& groups
 PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& groups) {
     PlotJson out = PlotJson::array();
     for (const auto& g : groups.groups) {
-        std::vector<double> of, scores, points;
-        for (const auto r : g.rows) of.push_back(values[r]);
-        const Sorted sorted(std::move(of));
+        std::vector<double> group_values, scores, points;
+        for (const auto r : g.rows) group_values.push_back(values[r]);
+        const Sorted sorted(std::move(group_values));
         const auto n = static_cast<double>(sorted.count());
         for (const auto k : ranks_in_normal_plot(sorted.count())) {
             scores.push_back(normal_quantile((static_cast<double>(k) + 1 - 0.375) / (n + 0.25)));
@@ -135,43 +136,43 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
 
 Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const SweepTable& table, const std::vector<std::size_t>& rows,
                            const std::vector<Grouping>& groupings) {
-    const auto shown = thinned_rows(results.trace_times().size(), most_times);
-    std::vector<std::vector<float>> all;  // of each row
+    const auto shown = thinned_rows(results.trace_times().size(), max_times);
+    std::vector<std::vector<float>> all;  // [row][time]
     for (const auto r : rows) {
         const auto samples = results.trace(table.unit[r], trace);
         if (!samples) return samples.error();
         all.emplace_back();
         for (const auto k : shown) all.back().push_back(k < samples->size() ? (*samples)[k] : std::nanf(""));
     }
-    const auto over = [&](auto&& wanted) {
-        Five five;
+    const auto stats_over = [&](auto&& is_included) {
+        EnvelopeStats stats;
         std::vector<double> at;
         for (std::size_t k = 0; k < shown.size(); ++k) {
             at.clear();
             for (std::size_t i = 0; i < rows.size(); ++i)
-                if (wanted(rows[i]) && std::isfinite(all[i][k])) at.push_back(all[i][k]);
-            five.add(at);
+                if (is_included(rows[i]) && std::isfinite(all[i][k])) at.push_back(all[i][k]);
+            stats.add(at);
         }
-        return five;
+        return stats;
     };
     std::vector<double> times;
     for (const auto k : shown) times.push_back(results.trace_times()[k]);
-    const auto whole = over([](std::size_t) { return true; });
+    const auto overall = stats_over([](std::size_t) { return true; });
     PlotJson medians = PlotJson::array();
     for (const auto& g : groupings) {
         medians.push_back(PlotJson::array());
         for (std::size_t k = 0; k < g.by.groups.size() && g.by.groups.size() > 1; ++k)
-            medians.back().push_back(shown_numbers(over([&](std::size_t r) { return g.by.group_of[r] == k; }).median));
+            medians.back().push_back(shown_numbers(stats_over([&](std::size_t r) { return g.by.group_of[r] == k; }).median));
     }
     return PlotJson{{"name", results.traces()[trace]},
                     {"times", shown_numbers(times)},
-                    {"every", results.trace_times().size() > most_times},
+                    {"every", results.trace_times().size() > max_times},
                     {"units", rows.size()},
-                    {"least", shown_numbers(whole.least)},
-                    {"low", shown_numbers(whole.low)},
-                    {"median", shown_numbers(whole.median)},
-                    {"high", shown_numbers(whole.high)},
-                    {"greatest", shown_numbers(whole.greatest)},
+                    {"least", shown_numbers(overall.min)},
+                    {"low", shown_numbers(overall.low)},
+                    {"median", shown_numbers(overall.median)},
+                    {"high", shown_numbers(overall.high)},
+                    {"greatest", shown_numbers(overall.max)},
                     {"medians", medians}};
 }
 
@@ -181,7 +182,7 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
     for (const auto r : rows) {
         const auto spikes = results.spikes(table.unit[r], train);
         if (!spikes) return spikes.error();
-        if (times.size() + spikes->size() > most_spikes) break;
+        if (times.size() + spikes->size() > max_spikes) break;
         shown.push_back(r), counts.push_back(spikes->size());
         for (const double t : *spikes) times.push_back(static_cast<float>(t));
     }

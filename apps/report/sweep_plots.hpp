@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep's page draws, brought to as many numbers as can be seen.
+// The plots of a sweep page, reduced to as many numbers as a screen can show.
 
 #include <nlohmann/json.hpp>
 
@@ -10,7 +10,7 @@ namespace corpuscle {
 
 using PlotJson = nlohmann::ordered_json;
 
-/// How rows are told apart on the page: all together, or by one axis.
+/// A grouping of rows on the page: all together, or by the values of one axis.
 struct Grouping {
     std::string name;
     SweepGroups by;
@@ -18,23 +18,23 @@ struct Grouping {
 inline constexpr std::size_t most_groups_drawn = 16;
 std::vector<Grouping> groupings_of(const SweepTable&);
 
-/// Evenly from all rows, the first and the last among them.
-std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t most);
+/// At most `max_rows` evenly spaced rows, including the first and the last.
+std::vector<std::size_t> thinned_rows(std::size_t rows, std::size_t max_rows);
 
-/// How often the measure is where, for each group in the same bins: whole numbers by themselves, else 60 bins; what lies far out is counted
-/// at the ends.
+/// Histograms of a measure for each group, in common bins. Integers have bins of integer width; otherwise there are 60 bins, and outliers
+/// are counted in the outer bins.
 PlotJson histograms(const std::vector<double>& values, const SweepGroups&);
-/// Of each group at most 200 points: what a normal distribution has there, and the value.
+/// Normal probability plots, at most 200 points per group: the score of a normal distribution, and the value.
 PlotJson normal_plots(const std::vector<double>& values, const SweepGroups&);
 
-/// Least, 5 %, median, 95 % and greatest of a trace at each time over these rows; and of each grouping's groups the median.
+/// Minimum, 5 %, median, 95 % and maximum of a trace over these rows at each time, and the median of each group of each grouping.
 Result<PlotJson> envelopes(const SweepResults&, std::size_t trace, const SweepTable&, const std::vector<std::size_t>& rows,
                            const std::vector<Grouping>&);
 
-/// The spikes of each of these rows on a train, until they are too many.
+/// The spikes of a train in these rows. Stops when there are too many spikes.
 Result<PlotJson> rasters(const SweepResults&, std::size_t train, const SweepTable&, const std::vector<std::size_t>& rows);
 
-/// As many digits as a picture shows.
+/// Numbers with five digits, enough for a plot.
 PlotJson shown_numbers(const std::vector<double>&);
 
 }  // namespace corpuscle

@@ -35,16 +35,16 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-std::string filled(std::string_view text, std::string_view title, std::string_view data) {
+std::string filled(std::string_view page_template, std::string_view title, std::string_view data) {
     std::string out;
     for (;;) {
-        const auto open = text.find("{{"), close = text.find("}}", open);
-        out += text.substr(0, open);
+        const auto open = page_template.find("{{"), close = page_template.find("}}", open);
+        out += page_template.substr(0, open);
         if (open == std::string_view::npos || close == std::string_view::npos) return out;
-        const auto name = text.substr(open + 2, close - open - 2);
+        const auto name = page_template.substr(open + 2, close - open - 2);
         const auto value = name == "title" ? title : name == "data" ? data : asset(name);
-        out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays to be seen
-        text.remove_prefix(close + 2);
+        out += value.empty() ? fmt::format("{{{{{}}}}}", name) : value;  // an unknown name stays visible
+        page_template.remove_prefix(close + 2);
     }
 }
 

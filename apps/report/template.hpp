@@ -1,5 +1,5 @@
 #pragma once
-// Pages are templates with {{name}} in them, each replaced once by a value or by the file of that name that the program carries.
+// Fills page templates: each {{name}} is replaced by a value or by the embedded file of that name.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -7,18 +7,19 @@
 
 namespace corpuscle {
 
-/// What the program was compiled with.
+/// Name and version of the compiler.
 std::string_view compiler();
 
-/// A file of apps/report, or of the chart library.
+/// An embedded file: of apps/report, or of the chart library.
 std::string_view asset(std::string_view name);
 
-/// JSON that can stand inside a script element: no '<' can end it.
+/// JSON for a script element: '<' is escaped, so that the data cannot end the element.
 std::string safe_json(const nlohmann::ordered_json&);
 
+/// Text with < and & escaped for HTML.
 std::string escaped(std::string_view text);
 
-/// The template with its title, its data and its assets.
-std::string filled(std::string_view text, std::string_view title, std::string_view data);
+/// Fills a template with title, data and embedded files.
+std::string filled(std::string_view page_template, std::string_view title, std::string_view data);
 
 }  // namespace corpuscle

@@ -8,7 +8,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Count = Comparison::Count;
 
-/// Of all inputs, whichever has it.
+/// The phases of all inputs.
 std::vector<std::string> phases_of(const Comparisons& comparisons) {
     std::vector<std::string> all;
     for (const auto& c : comparisons.rows())
@@ -17,12 +17,12 @@ std::vector<std::string> phases_of(const Comparisons& comparisons) {
     return all;
 }
 
-/// Who, where, how many spikes in all and in each phase.
-Json counts_row(const Comparison& c, const std::string& afferent, const std::vector<std::string>& phases, std::size_t Count::* which) {
-    Json row = {afferent, c.channel, c.all.*which};
+/// Afferent, channel, and spike counts in total and in each phase.
+Json counts_row(const Comparison& c, const std::string& afferent, const std::vector<std::string>& phases, std::size_t Count::*count) {
+    Json row = {afferent, c.channel, c.all.*count};
     for (const auto& phase : phases) {
         const auto p = std::find_if(c.phases.begin(), c.phases.end(), [&](const Count& one) { return one.phase == phase; });
-        row.push_back(p == c.phases.end() ? Json(nullptr) : Json((*p).*which));
+        row.push_back(p == c.phases.end() ? Json(nullptr) : Json((*p).*count));
     }
     return row;
 }
@@ -42,8 +42,12 @@ Json versions_document(const Comparisons& comparisons) {
     const auto phases = phases_of(comparisons);
     Json columns = {"afferent", "channel", "spikes"}, decimals = {nullptr, nullptr, 0}, rows = Json::array();
     for (const auto& p : phases) columns.push_back(p), decimals.push_back(0);
-    for (const auto& [name, places] :
-         {std::pair{"differ (%)", 1}, {"matched", 0}, {"mean shift (ms)", 2}, {"median (ms)", 2}, {"Victor-Purpura", 2}, {"van Rossum", 2}})
+    for (const auto& [name, places] : {std::pair{"change (%)", 1},
+                                       {"matched", 0},
+                                       {"mean shift (ms)", 2},
+                                       {"median shift (ms)", 2},
+                                       {"Victor-Purpura", 2},
+                                       {"van Rossum", 2}})
         columns.push_back(name), decimals.push_back(places);
     const Comparison* last = nullptr;
     for (const auto& c : comparisons.rows()) {

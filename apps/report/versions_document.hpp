@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// The page's table of versions: of each receptor and channel a row for what the others are held against, then one for each of them.
+/// The table of implementations: for each receptor and channel a row of the reference, then a row for each other implementation.
 nlohmann::ordered_json versions_document(const Comparisons&);
 
 }  // namespace corpuscle

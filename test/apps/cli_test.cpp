@@ -35,11 +35,11 @@ TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
     const std::string chip = "circuits/sa1.cir";  // not by its full path, of which the width of the table would depend
     const auto ran = run(folder, "respond press --afferent sa1 --afferent " + chip + " --afferent fa1 --out answer");
     ASSERT_EQ(ran.status, 0) << ran.err;
-    const auto table = ran.out.substr(std::min(ran.out.find("version "), ran.out.size()));
-    EXPECT_NE(table.find("by phase   differ  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;
+    const auto table = ran.out.substr(std::min(ran.out.find("implementation "), ran.out.size()));
+    EXPECT_NE(table.find("by phase   change  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;
     EXPECT_NE(table.find(" 15  0 5 9 1 0\n"), std::string::npos) << "what it is held against\n" << table;
     EXPECT_NE(table.find(" 14  0 5 8 1 0      -7       14 "), std::string::npos) << table;
-    EXPECT_NE(table.find("Against the first of each; matched within 20 ms"), std::string::npos) << table;
+    EXPECT_NE(table.find("Compared with the first implementation of each receptor. Spikes within 20 ms match"), std::string::npos) << table;
     EXPECT_EQ(table.find("fa1"), std::string::npos) << "has one version\n" << table;
     const auto said = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
     EXPECT_EQ(said["cost_Hz"], 100.0);
@@ -125,7 +125,8 @@ TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
                                                         "summary.json", "traces-2.csv", "traces.csv"}));
     folder.write("answer/notes.txt", "mine");
     const auto ran = run(folder, "respond press --out answer --npz");
-    EXPECT_NE(ran.out.find("Removed, of an earlier run: psth.csv, spikes.wav, spikes-2.wav, traces.csv, traces-2.csv\n"), std::string::npos)
+    EXPECT_NE(ran.out.find("Removed files of an earlier run: psth.csv, spikes.wav, spikes-2.wav, traces.csv, traces-2.csv\n"),
+              std::string::npos)
         << ran.out;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "notes.txt", "spikes.csv", "spikes.npz", "summary.json"}));
 }
@@ -136,7 +137,7 @@ TEST(Program, CopiesAreAnsweredSummarisedAndTabledTheSameTwice) {
         "respond press sine --copies 60 --spread sa1.f_B=10% --spread fa1.V_th=20mV --noise 20nA --seed 3 --out answer --report";
     const auto ran = run(folder, words);
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(ran.out.find("60 copies of each afferent; mean +- standard deviation of those that have a value\n"), std::string::npos)
+    EXPECT_NE(ran.out.find("60 copies of each afferent; mean +- standard deviation over copies that have a value\n"), std::string::npos)
         << ran.out;
     const std::vector<std::string> files = {"copies.csv", "report.html", "spikes.csv", "summary.json"};
     std::map<std::string, std::string> first;
@@ -156,7 +157,7 @@ TEST(Program, CopiesAreAnsweredSummarisedAndTabledTheSameTwice) {
     const auto compared = Json::parse(run(folder, "compare answer/spikes.csv answer/spikes.csv --json").out);
     EXPECT_EQ(compared["pairs"].size(), 3U * 60) << "fa1 is silent under the sine";
     EXPECT_EQ(compared["total"]["missing"], 0);
-    EXPECT_NE(run(folder, "respond press --out answer").out.find("Removed, of an earlier run: copies.csv, report.html\n"),
+    EXPECT_NE(run(folder, "respond press --out answer").out.find("Removed files of an earlier run: copies.csv, report.html\n"),
               std::string::npos);
 }
 
@@ -194,9 +195,10 @@ TEST(Program, CompareTellsWhatMatches) {
     EXPECT_LE(same["total"]["largest_s"], 0.51e-9) << "CSV is rounded to the nanosecond";
     const auto text = run(folder, "compare a/spikes.csv b/spikes.csv");
     EXPECT_EQ(text.status, 0) << text.err;
-    EXPECT_NE(text.out.find("sa1-kim,press  -          16   0        0       16      0        -      -    16.00"), std::string::npos)
+    EXPECT_NE(text.out.find("sa1-kim,press  -          16   0        0       16      0      -      -    16.00"), std::string::npos)
         << text.out;
-    EXPECT_NE(text.out.find("Matched within 5 ms; Victor-Purpura at 100 a second; van Rossum with 10 ms."), std::string::npos);
+    EXPECT_NE(text.out.find("Matching window 5 ms; Victor-Purpura cost 100 per second; van Rossum time constant 10 ms."),
+              std::string::npos);
     const auto two = Json::parse(run(folder, "compare a/spikes.csv --pair sa1=sa1-kim --window 1s --json").out);
     EXPECT_EQ(two["pairs"].size(), 1U);
     EXPECT_EQ(two["pairs"][0]["b"], "sa1-kim,press");
@@ -254,7 +256,7 @@ TEST(Program, ListNamesEveryParameterOfEveryModel) {
             for (const auto& row : card.rows)
                 EXPECT_NE(text.find(std::string(row.sentence)), std::string::npos) << card.name << '.' << row.name;
         }
-    EXPECT_EQ(run(folder, "list neuron").err, "corpuscle: list: nothing is called 'neuron'; did you mean 'neurons'?\n");
+    EXPECT_EQ(run(folder, "list neuron").err, "corpuscle: list: there is no 'neuron'; did you mean 'neurons'?\n");
     EXPECT_NE(run(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
 }
 
@@ -274,41 +276,42 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
          "nm.csv: 'a' is in nm, which is not a force; use --scale S for S newtons per nm, --unit N if the header is wrong, "
          "or --channel to select another column"},
         {"respond none.csv", 1, "none.csv: cannot be opened: No such file or directory"},
-        {"respond pres", 1, "unknown stimulus 'pres'; did you mean 'press'? (and there is no file 'pres')"},
+        {"respond pres", 1, "unknown stimulus 'pres'; did you mean 'press'? (and no file 'pres' exists)"},
         {"respond press -a sa9", 1,
          "unknown afferent 'sa9'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
          "'sa1b+lif-b')"},
         {"respond press --set sa1.f_B=25ms", 1, "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'"},
-        {"respond press --set fa2.k=1", 2, "--set fa2.k=1: no afferent or stimulus 'fa2' takes part; did you mean 'fa1'?"},
+        {"respond press --set fa2.k=1", 2, "--set fa2.k=1: there is no afferent or stimulus 'fa2' in this run; did you mean 'fa1'?"},
         {"respond press --set f_B=1", 2, "'f_B=1' is not a setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
         {"respond press --rate fast", 2, "--rate 'fast' is not a quantity; write a number and a unit, such as '2 Hz'"},
-        {"respond press --traces", 2, "--traces needs --out DIR to write into"},
-        {"respond press --vectors", 2, "--vectors needs --out DIR to write into"},
-        {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no words; try 'adc+sa1'"},
-        {"respond press --noise -1nA", 2, "--noise '-1nA' is below 0; write a standard deviation, such as '50 nA'"},
+        {"respond press --traces", 2, "--traces needs --out DIR"},
+        {"respond press --vectors", 2, "--vectors needs --out DIR"},
+        {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no fixed-point words; try 'adc+sa1'"},
+        {"respond press --noise -1nA", 2, "--noise '-1nA' is negative; write a standard deviation, such as '50 nA'"},
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
-        {"respond press --spread sa1.f_B=10%", 2, "--spread sa1.f_B=10%: it tells copies apart; say how many: --copies 100"},
+        {"respond press --spread sa1.f_B=10%", 2, "--spread sa1.f_B=10% needs --copies N, such as --copies 100"},
         {"respond press --copies 9 --spread f_B=10%", 2, "--spread 'f_B=10%': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'"},
-        {"respond press --copies 9 --spread fa2.k=10%", 2, "--spread fa2.k=10%: no afferent 'fa2' takes part; did you mean 'fa1'?"},
+        {"respond press --copies 9 --spread fa2.k=10%", 2,
+         "--spread fa2.k=10%: there is no afferent 'fa2' in this run; did you mean 'fa1'?"},
         {"respond press --copies 9 --spread fa1.I_leak0=10ms", 1,
          "--spread fa1.I_leak0=10ms: '10ms' is a time; expected a value in A, such as '2 A'"},
         {"respond press --copies 51 --traces --out answer", 2,
-         "--traces is for 50 copies at the most, not 51: ask for fewer, or --set what one of copies.csv has"},
+         "--traces works with at most 50 copies, not 51; use fewer, or --set the values of one copy in copies.csv"},
         {"respond press --copies 51 --vectors --out answer -a sa1-kim", 2,
-         "--vectors is for 50 copies at the most, not 51: ask for fewer, or --set what one of copies.csv has"},
+         "--vectors works with at most 50 copies, not 51; use fewer, or --set the values of one copy in copies.csv"},
         {"respond press --copies 30000 --wav --out answer --set press.t_hold=0s", 1,
          "'press': 60000 afferents at once would make each click too soft for 16 bits; run it without --wav"},
-        {"respond press --scale 2", 2, "--scale is for recordings, and press is a stimulus; --set press.PARAMETER=VALUE changes it"},
-        {"respond press --wav", 2, "--wav needs --out DIR to write into"},
-        {"respond press --bin 0s --out answer", 2, "--bin 0s: a bin is longer than nothing, such as 10ms"},
+        {"respond press --scale 2", 2, "--scale is for recordings, but press is a stimulus; change it by --set press.PARAMETER=VALUE"},
+        {"respond press --wav", 2, "--wav needs --out DIR"},
+        {"respond press --bin 0s --out answer", 2, "--bin 0s: must be greater than 0, such as 10ms"},
         {"respond press --bin 5Hz --out answer", 2, "--bin '5Hz' is a frequency; expected a value in s, such as '2 s'"},
         {"compare", 2, "compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'"},
-        {"compare bad.csv", 2, "compare bad.csv: with what? Name a second file, or two trains of this one: --pair sa1=fa1"},
+        {"compare bad.csv", 2, "compare bad.csv: needs a second file, or two trains of this file: --pair sa1=fa1"},
         {"compare bad.csv none.csv", 1,
          "bad.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --unit; "
          "columns: 'time_s', 'fz_N'"},
-        {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be longer than nothing"},
+        {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be greater than 0"},
         {"compare bad.csv none.csv --cost=-1", 2, "--cost -1: must be 0 or more"},
         {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be created: Not a directory"},
     };
@@ -337,7 +340,7 @@ TEST(Program, StudiesAreToldWrittenAndAskedForByAnyOfTheirNumbers) {
     EXPECT_NE(test::read_file(folder / "numbers.md").find("## table17-18"), std::string::npos);
     const auto unknown = run(folder, "study fig7 --report other.html");
     EXPECT_EQ(unknown.status, 2);
-    EXPECT_NE(unknown.err.find("study: none is called 'fig7'"), std::string::npos) << unknown.err;
+    EXPECT_NE(unknown.err.find("study: unknown study 'fig7'"), std::string::npos) << unknown.err;
     EXPECT_EQ(run(folder, "study table19").status, 2);
     EXPECT_EQ(folder.names().size(), 2u);
     EXPECT_NE(run(folder, "study fig4 --quiet --report numbers.md/page.html").status, 0) << "in a file there is no other";

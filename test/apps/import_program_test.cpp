@@ -78,7 +78,7 @@ TEST(ImportProgram, ASkippedPreambleNeedsAFile) {
     const Folder folder;
     const auto ran = run(folder, "respond press --skip 3");
     EXPECT_EQ(ran.status, 2);
-    EXPECT_TRUE(found_in(ran.err, "--skip is for recordings, and press is a stimulus")) << ran.err;
+    EXPECT_TRUE(found_in(ran.err, "--skip is for recordings, but press is a stimulus")) << ran.err;
 }
 
 }  // namespace

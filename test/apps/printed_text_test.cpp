@@ -52,10 +52,10 @@ TEST(PrintedText, TheProgramAloneHelpsAndAWrongVerbIsToldTheRightOne) {
     EXPECT_EQ(alone.out, test::run(folder, "--help").out);
     const auto wrong = test::run(folder, "resond press");
     EXPECT_EQ(wrong.status, 2);
-    EXPECT_EQ(wrong.err, "corpuscle: there is no verb 'resond'; did you mean 'respond'?\n");
+    EXPECT_EQ(wrong.err, "corpuscle: unknown verb 'resond'; did you mean 'respond'?\n");
     const auto far = test::run(folder, "frobnicate");
     EXPECT_EQ(far.status, 2);
-    EXPECT_NE(far.err.find("there is no verb 'frobnicate'; there are respond, compare"), std::string::npos) << far.err;
+    EXPECT_NE(far.err.find("unknown verb 'frobnicate'; the verbs are respond, compare"), std::string::npos) << far.err;
     for (const std::string verb : {"respond", "stream", "sweep show", "list"})
         EXPECT_EQ(test::run(folder, verb + " --version").out, test::run(folder, "--version").out) << verb;
 }
@@ -72,7 +72,7 @@ TEST(PrintedText, AReportIsAPageByItsName) {
                                     "sweep show r.sqlite --report r.sqlite"}) {
         const auto ran = test::run(folder, words);
         EXPECT_EQ(ran.status, 2) << words;
-        EXPECT_NE(ran.err.find("needs a name that ends in .html, such as "), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("the name must end in .html, such as "), std::string::npos) << ran.err;
     }
     EXPECT_TRUE(folder.names().empty());
     EXPECT_EQ(test::run(folder, "respond --report press -q").status, 0) << "a stimulus behind --report is a force";
@@ -87,7 +87,7 @@ TEST(PrintedText, ARecordingBehindReportIsNoSecondForce) {
                                         {"respond press --report=sine", "respond press sine --report"}}) {
         const auto ran = test::run(folder, words);
         EXPECT_EQ(ran.status, 2) << words;
-        EXPECT_NE(ran.err.find("needs a name that ends in .html, such as "), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("the name must end in .html, such as "), std::string::npos) << ran.err;
         EXPECT_NE(ran.err.find(std::string("corpuscle ") + remedy + "\n"), std::string::npos) << ran.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
         EXPECT_EQ(test::run(folder, remedy).status, 0) << remedy;

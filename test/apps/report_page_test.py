@@ -287,7 +287,7 @@ class Press(Page):
         self.settle(lambda a, b: abs(b - a - length / 4) < 1e-9)
         self.browser.find_element(By.ID, "out").click()
         self.settle(lambda a, b: abs(b - a - length / 2) < 1e-9)
-        self.browser.find_element(By.ID, "whole").click()
+        self.browser.find_element(By.ID, "reset").click()
         self.settle(lambda a, b: abs(b - a - length) < 1e-9)
 
     def test_the_force_read_on_the_plateau_is_the_force_of_the_data(self):
@@ -355,10 +355,10 @@ class Press(Page):
 
     def test_the_vertical_axis_follows_the_view_when_asked(self):
         t, _ = plateau(self.data)
-        self.browser.find_element(By.ID, "fit").click()
+        self.browser.find_element(By.ID, "autoscale").click()
         self.js("corpuscle.setWindow(arguments[0], arguments[1])", t - 20 * self.input["T"], t + 20 * self.input["T"])
         low, high = self.js("return corpuscle.charts['sa1 current'].yAxisRange()")
-        self.browser.find_element(By.ID, "fit").click()
+        self.browser.find_element(By.ID, "autoscale").click()
         self.js("corpuscle.setWindow(corpuscle.window()[0], corpuscle.window()[1])")
         wide = self.js("return corpuscle.charts['sa1 current'].yAxisRange()")
         self.assertLess(high - low, 0.9 * (wide[1] - wide[0]))
@@ -440,7 +440,7 @@ class Versions(Page):
         fires = self.js("return corpuscle.valueAt('v(u)', arguments[0], arguments[1])", spike_times(self.data, self.CHIP)[3] - self.input["T"], self.CHIP)
         (low, at_low), (high, at_high) = self.right_axis("sa1 u")
         self.assertLess((at_high - at_low) / (high - low), 0, "upside down")
-        self.assertIn("upside down", self.browser.find_element(By.CSS_SELECTOR, '[data-panel="sa1 u"] .right-title').text)
+        self.assertIn("inverted", self.browser.find_element(By.CSS_SELECTOR, '[data-panel="sa1 u"] .right-title').text)
         self.assertAlmostEqual(at_low + (fires - low) * (at_high - at_low) / (high - low), self.data["afferents"][0]["V_th"], delta=0.02)
         self.assertLess(fires, 0.27)
 
@@ -450,7 +450,7 @@ class Versions(Page):
         (low, at_low), (high, at_high) = self.right_axis("sa1 I_A")
         self.assertAlmostEqual((high - low) / (at_high - at_low) / (chip / model), 1, delta=0.02)
         note = self.browser.find_element(By.CSS_SELECTOR, "#figures .note").text.replace("\u00a0", " ")
-        self.assertIn(f"{1e12 * chip / model * 1e-6:.4g} pA stand where sa1 has 1 µA", note)
+        self.assertIn(f"{1e12 * chip / model * 1e-6:.4g} pA corresponds to 1 µA in sa1", note)
 
     def test_the_glitches_at_the_chips_spikes_are_seen(self):
         times, T = spike_times(self.data, self.CHIP), self.input["T"]
@@ -486,8 +486,8 @@ class Versions(Page):
             for phase in self.input["phases"]:
                 self.assertEqual(int(row[phase["name"]]), sum(phase["from"] <= t < phase["to"] for t in times))
         share = 100 * (len(spike_times(self.data, self.CHIP)) / len(spike_times(self.data, "sa1")) - 1)
-        self.assertEqual(rows[1]["differ (%)"], f"{share:.1f}".replace("-", "−"))
-        self.assertEqual((rows[0]["matched"], rows[0]["differ (%)"]), ("–", "–"))
+        self.assertEqual(rows[1]["change (%)"], f"{share:.1f}".replace("-", "−"))
+        self.assertEqual((rows[0]["matched"], rows[0]["change (%)"]), ("–", "–"))
 
 
 class NetlistsAlone(Page):
@@ -634,8 +634,8 @@ class ManyCopies(Page):
         self.assertGreater(min(self.inked().values()), 80)
         self.assertEqual(len(self.data["spikes"]), 2 * 50)
         text = self.browser.find_element(By.ID, "figures").text
-        self.assertIn("the first 50 of 300 copies of each afferent, a row each. The rate below them is of all 300.", text)
-        self.assertIn("of more than 50 copies no currents and membranes are kept", text)
+        self.assertIn("The first 50 of 300 copies of each afferent, one row per copy. The rate below is the mean over all 300.", text)
+        self.assertIn("with more than 50 copies currents and membranes are not recorded", text)
         self.screenshot("many-copies.png")
 
 
@@ -786,7 +786,7 @@ class OnASkin(Page):
         active = {row["afferent"]: row["active"] for row in self.data["summary"]["rates"] if row["region"] == "all" and row["phase"] == "all"}
         self.assertEqual(self.js("return corpuscle.skin.classes.map((one) => one.active)"), [active[one["name"]] for one in self.classes])
         title = self.browser.find_element(By.CSS_SELECTOR, "[data-panel=population] .panel-title").text
-        self.assertRegex(title, r"^mean rate of the units that fire, in bins of .*Hz")
+        self.assertRegex(title, r"^mean rate of afferents that fire, in bins of .*Hz")
 
     def test_rasters_hold_every_spike(self):
         spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["units"]) for one in self.classes}

@@ -39,14 +39,14 @@ TEST(SweepProgram, SaysWhatItHasDoneAndGoesOnWhereItStopped) {
     EXPECT_EQ(status["missing"], 75);
     const auto ran = run(folder, "sweep a.toml -j 2");
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(ran.out.find("  100    100   75        0   100       0     0"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("  100    100        75        0        100          0         0"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("corpuscle sweep show a.sqlite"), std::string::npos);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.sqlite", "a.toml"}));
     ASSERT_EQ(run(folder, "sweep a.toml -j 1 --lanes 1 -o b.sqlite").status, 0);
     EXPECT_TRUE(dump(folder, "a.sqlite") == dump(folder, "b.sqlite"));
     for (const std::string k : {"1", "2", "3"}) ASSERT_EQ(run(folder, "sweep a.toml --shard " + k + "/3").status, 0);
     EXPECT_NE(
-        run(folder, "sweep merge c.sqlite a-1of3.sqlite a-3of3.sqlite a-2of3.sqlite").out.find("a-3of3.sqlite: 33 units, 33 of them new"),
+        run(folder, "sweep merge c.sqlite a-1of3.sqlite a-3of3.sqlite a-2of3.sqlite").out.find("a-3of3.sqlite: 33 items, 33 of them new"),
         std::string::npos);
     EXPECT_TRUE(dump(folder, "a.sqlite") == dump(folder, "c.sqlite"));
     const auto other = run(folder, "sweep a.toml --seed 7");
@@ -62,7 +62,7 @@ TEST(SweepProgram, InterruptedKeepsWhatHadEnded) {
     const auto command =
         "cd '" + folder.path() + "' && timeout -s INT 1 '" + test::program() + "' sweep a.toml --quiet 2>err; echo $? >status";
     ASSERT_EQ(std::system(command.c_str()), 0);
-    EXPECT_NE(test::read_file(folder / "err").find("units have ended and are in a.sqlite: the same command goes on from there"),
+    EXPECT_NE(test::read_file(folder / "err").find("items have ended and are saved in a.sqlite; the same command resumes the sweep"),
               std::string::npos)
         << test::read_file(folder / "err");
     const auto status = Json::parse(run(folder, "sweep a.toml --status --json").out);
@@ -88,7 +88,7 @@ TEST(SweepProgram, TwoSignalsAtOnceAreOne) {
     int status = 0;
     ASSERT_EQ(::waitpid(pid, &status, 0), pid);
     EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_NE(test::read_file(folder / "err").find("units have ended and are in a.sqlite"), std::string::npos);
+    EXPECT_NE(test::read_file(folder / "err").find("items have ended and are saved in a.sqlite"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.sqlite-wal"));
 }
 
@@ -129,7 +129,7 @@ TEST(SweepRanks, OneThatDiesCostsItsBlockOnly) {
     const auto alone = dump(folder, "alone");
     const auto ran = run_ranks(folder, 3, "r", "--enable-recovery", 1);
     EXPECT_EQ(ran.status, 0) << ran.said;
-    EXPECT_NE(ran.said.find("1 rank died or fell silent; the "), std::string::npos) << ran.said;
+    EXPECT_NE(ran.said.find("1 rank died or stopped responding; "), std::string::npos) << ran.said;
     EXPECT_TRUE(dump(folder, "r") == alone) << "all of it, in one run";
     // Without rank 0 the others end, and the same command goes on.
     const auto headless = run_ranks(folder, 3, "h", "--enable-recovery", 0);

@@ -238,7 +238,7 @@ TEST(Cost, TheDocumentHasTheSheetAndTheTableHasItsWords) {
     EXPECT_FALSE(budget.contains("receptors"));
     EXPECT_FALSE(nlohmann::json::parse(test::run(folder, "run x.cir --json").out).contains("budget"));
     const auto table = test::run(folder, "run x.cir --budget").out;
-    for (const char* word : {"power, nW", "delivered", "lost in ideal currents", "area, um2", "1 element (resistors"})
+    for (const char* word : {"power, nW", "delivered", "dissipated in ideal currents", "area, um2", "1 device of unknown area (resistors"})
         EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
 }
 
@@ -270,8 +270,8 @@ TEST(Cost, OfManyEachHasItsLine) {
     folder.write("x.cir", "t\n.param r=1k\nvdd vdd 0 1\nr1 vdd 0 {r}\n.op\n.step param r list 1k 2k\n");
     const auto ran = test::run(folder, "run x.cir --budget");
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(ran.out.find("delivers 1 mW"), std::string::npos) << ran.out;
-    EXPECT_NE(ran.out.find("delivers 500 uW"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("power 1 mW"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("power 500 uW"), std::string::npos) << ran.out;
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
     folder.write("a.cir", divider_text), folder.write("b.cir", divider_text);
     const auto ran = run(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
     ASSERT_EQ(ran.status, 1) << "vdd is the node, div.a only a port";
-    EXPECT_TRUE(has(ran.err, "--trace div.a: no netlist that takes part has such a node or device")) << ran.err;
+    EXPECT_TRUE(has(ran.err, "--trace div.a: no netlist of this run has such a node or device")) << ran.err;
     const auto good =
         run(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'VDD,i(div.top)' -o out --report");
     ASSERT_EQ(good.status, 0) << good.err;
@@ -79,18 +79,17 @@ TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
         EXPECT_EQ(ran.status, status) << words << ran.err;
         EXPECT_TRUE(has(ran.err, what)) << ran.err;
     };
-    says("--afferent sa1 --temp 85", 2, "--temp 85: no netlist takes part; try --afferent sa1-circuit");
-    says("--afferent sa1 --trace vf -o out", 2, "--trace vf: no netlist takes part");
+    says("--afferent sa1 --temp 85", 2, "--temp 85: there is no netlist in this run; try --afferent sa1-circuit");
+    says("--afferent sa1 --trace vf -o out", 2, "--trace vf: there is no netlist in this run");
     says("--afferent a.cir --trace mid", 2, "--trace mid needs --out DIR or --report");
     says("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
     says("--afferent a.cir --corner ss", 1, "--corner ss: there is no corner 'ss': the netlist has no line .lib 'file' section");
     says("--afferent sa1-circuit --corner slow", 1,
          "--corner slow: no corner 'slow': library '../../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
     says("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
-    says("--afferent a.cir --trace mod -o out", 1,
-         "--trace mod: no netlist that takes part has such a node or device; did you mean 'mid'?");
+    says("--afferent a.cir --trace mod -o out", 1, "--trace mod: no netlist of this run has such a node or device; did you mean 'mid'?");
     says("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
-    says("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' takes part");
+    says("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' in this run");
     says("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
     says("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
     EXPECT_TRUE(folder.names().size() == 2) << "nothing is left behind";

@@ -105,7 +105,7 @@ TEST(Run, ChipsEndInAMeanAndADeviation) {
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("mc=40:"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("va                   mean "), std::string::npos) << ran.out;
-    EXPECT_NE(ran.out.find("of 40\n"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("n = 40\n"), std::string::npos) << ran.out;
 }
 
 TEST(Run, AStepThatDoesNotConvergeIsToldAndTheRestGoesOn) {

@@ -169,7 +169,7 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
         }
         return refusal(folder / "x.h5", options);
     };
-    EXPECT_EQ(refusal(folder.write("y.mat", "MATLAB")), "y.mat: this is no HDF5 file (MATLAB writes one with save -v7.3)");
+    EXPECT_EQ(refusal(folder.write("y.mat", "MATLAB")), "y.mat: not an HDF5 file (in MATLAB use save -v7.3)");
     EXPECT_EQ(said([](auto&) {}), "x.h5: there is no array in this file");
     EXPECT_EQ(said([](auto& f) { f.numbers("/a", {2, 2, 2}, ramp(8)); }),
               "x.h5: no array can be the recording, which must be numeric with one or two dimensions; arrays: /a (2 x 2 x 2)");
@@ -182,7 +182,7 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
               "x.h5: row 2: column 'ch2': inf where a number is expected");
     const auto whole = test::read_file(folder / "x.h5");
     EXPECT_EQ(refusal(folder.write("cut.h5", whole.substr(0, whole.size() - 100)), {.rate = 10}),
-              "cut.h5: this HDF5 file cannot be opened: damaged, or cut short?");
+              "cut.h5: cannot open this HDF5 file; it may be damaged or truncated");
     const std::complex<double> z[2] = {};
     const hid_t complex = H5Tcreate(H5T_COMPOUND, 16);
     H5Tinsert(complex, "r", 0, H5T_NATIVE_DOUBLE), H5Tinsert(complex, "i", 8, H5T_NATIVE_DOUBLE);
@@ -223,9 +223,9 @@ TEST(Hdf5, NoOtherFileIsReadForItsData) {
         H5Pset_external(how, secret.c_str(), 0, 800);
         make_dataset(file, how, {100});
     });
-    EXPECT_NE(
-        refusal(external, {.rate = 10}).find("x.h5: /force (100): its data lie in '" + secret + "', and no other file is read; copy it"),
-        std::string::npos);
+    EXPECT_NE(refusal(external, {.rate = 10})
+                  .find("x.h5: /force (100): its data are in '" + secret + "', and other files are not read; copy the data"),
+              std::string::npos);
     Hdf5File(folder / "source.h5").numbers("/data", {100}, ramp(100));
     for (const auto* source : {"source.h5", "not-copied-along.h5"}) {
         const auto assembled = made_with(folder, "v.h5", [&](hid_t file, hid_t how) {
@@ -235,7 +235,7 @@ TEST(Hdf5, NoOtherFileIsReadForItsData) {
             make_dataset(file, how, {100});
             H5Sclose(all);
         });
-        EXPECT_NE(refusal(assembled, {.rate = 10}).find(fmt::format("v.h5: /force (100): its data lie in '{}', and no other file", source)),
+        EXPECT_NE(refusal(assembled, {.rate = 10}).find(fmt::format("v.h5: /force (100): its data are in '{}', and other files", source)),
                   std::string::npos);
     }
     const auto linked = made_with(folder, "l.h5", [&](hid_t file, hid_t how) {
@@ -243,30 +243,30 @@ TEST(Hdf5, NoOtherFileIsReadForItsData) {
         H5Lcreate_external("source.h5", "/data", file, "elsewhere", H5P_DEFAULT, H5P_DEFAULT);
     });
     EXPECT_EQ(refusal(linked, {.table = {"elsewhere"}, .rate = 10}),
-              "l.h5: 'elsewhere' is a link into another file, which is not read; give that file itself");
+              "l.h5: 'elsewhere' is a link to another file, which is not followed; open that file instead");
 }
 
 TEST(Hdf5, DataThatWereNeverWrittenAreNoForce) {
     const Folder folder;
     const auto chunked = [](hid_t how, hsize_t rows) { H5Pset_chunk(how, 1, &rows); };
     EXPECT_EQ(refusal(made_with(folder, "x.h5", [&](hid_t f, hid_t how) { make_dataset(f, how, {1000}); }), {.rate = 10}),
-              "x.h5: /force (1000): no data were ever written into it");
+              "x.h5: /force (1000): no data were written into it");
     for (const hsize_t rows : {hsize_t{1000}, hsize_t{1'000'000'000'000'000}})
         EXPECT_EQ(
             refusal(made_with(folder, "x.h5", [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {rows}); }), {.rate = 10}),
-            fmt::format("x.h5: /force ({}): no data were ever written into it", rows));
+            fmt::format("x.h5: /force ({}): no data were written into it", rows));
     const auto begun = ramp(150);
     EXPECT_EQ(refusal(made_with(folder, "x.h5",
                                 [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {1'000'000'000'000'000}, &begun); }),
                       {.rate = 10})
-                  .substr(0, 87),
-              "x.h5: /force (1000000000000000): only 2 of its 10000000000000 chunks were ever written;");
+                  .substr(0, 82),
+              "x.h5: /force (1000000000000000): only 2 of its 10000000000000 chunks were written;");
     const auto most = ramp(600);
     const auto path = made_with(folder, "x.h5", [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {1000}, &most); });
     EXPECT_EQ(refusal(path, {.rate = 10}).substr(0, 18), "x.h5: row 601: col");
     const auto kept = recording(path, {.rate = 10, .bad_fields = BadFields::drop});
     EXPECT_EQ(kept.force[0], ramp(600));
-    EXPECT_EQ(kept.remarks.at(0), "/force: 4 of its 10 chunks were never written; their readings are bad fields");
+    EXPECT_EQ(kept.remarks.at(0), "/force: 4 of its 10 chunks were never written; their readings are treated as bad");
     const auto filled = made_with(folder, "y.h5", [&](hid_t f, hid_t how) {
         const double nothing = 0.5;
         H5Pset_fill_value(how, H5T_NATIVE_DOUBLE, &nothing);
@@ -274,7 +274,7 @@ TEST(Hdf5, DataThatWereNeverWrittenAreNoForce) {
     });
     const auto read = recording(filled, {.rate = 10});
     EXPECT_EQ(read.force[0][999], 0.5) << "as the file says";
-    EXPECT_EQ(read.remarks.at(0), "/force: 4 of its 10 chunks were never written; they read as the file's fill value");
+    EXPECT_EQ(read.remarks.at(0), "/force: 4 of its 10 chunks were never written; their readings are the fill value of the file");
 }
 
 TEST(Hdf5, ChunksOfAnyShapeGiveTheSameRows) {
@@ -354,9 +354,9 @@ TEST(Hdf5, AFilterThatIsNotHereIsNamed) {
     const auto message = bytes.find("deflate");  // the name behind the filter's number, flags and count of values
     ASSERT_NE(message, std::string::npos);
     bytes[message - 8] = '\x0f', bytes[message - 7] = '\x7d', bytes[message - 4] = '\0';  // 32015: zstd; not optional
-    EXPECT_NE(
-        refusal(folder.write("z.h5", bytes), {.rate = 10}).find("packed by the filter 32015 (deflate), which is not here; where it is"),
-        std::string::npos);
+    EXPECT_NE(refusal(folder.write("z.h5", bytes), {.rate = 10})
+                  .find("compressed by filter 32015 (deflate), which is not available here; where it is"),
+              std::string::npos);
 }
 
 std::string seed(const char* name) { return test::read_file(test::root() + "/test/fuzz/seeds/hdf5/" + name).substr(1); }

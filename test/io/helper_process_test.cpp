@@ -161,7 +161,7 @@ std::string answer_to_throw(const Thrown& thrown) {
 }
 
 TEST(HelperProcess, EveryExceptionInItIsAnError) {
-    EXPECT_EQ(answer_to_throw(std::bad_alloc()), "x.h5: this file takes more memory than there is");
+    EXPECT_EQ(answer_to_throw(std::bad_alloc()), "x.h5: not enough memory for this file");
     EXPECT_EQ(answer_to_throw(std::runtime_error("no end")), "x.h5: cannot be read: no end");
     EXPECT_EQ(answer_to_throw(3), "x.h5: cannot be read");
 }

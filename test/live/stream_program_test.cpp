@@ -54,7 +54,7 @@ TEST(StreamProgram, AStateKeptByCtrlCIsGoneOnFromAsIfNothingHadBeen) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and answered
     first.interrupt();
     EXPECT_EQ(first.wait(), 130) << first.told();
-    EXPECT_NE(first.told().find("700 frames of 700 ms"), std::string::npos) << first.told();
+    EXPECT_NE(first.told().find("700 frames (700 ms of force)"), std::string::npos) << first.told();
     Child second(folder, with({"--format", "aer", "-o", folder / "second.aer", "--resume", folder / "now.state", "--quiet"}));
     second.send(some_lines(500, 700)), second.close_in();
     EXPECT_EQ(second.wait(), 0) << second.told();
@@ -73,7 +73,7 @@ TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndTold) {
     text.send("a,b\n1,2\nrubbish\n1\n1,2,3\nnan,1\n1e300,1\n\x01\xff\n1,");
     text.close_in();
     EXPECT_EQ(text.wait(), 0);
-    for (const auto* said : {"3 frames of 7 ms", "4 frames could not be read", "2 forces no number", "1 half frame"})
+    for (const auto* said : {"3 frames (7 ms of force)", "4 frames unreadable", "2 readings invalid", "1 incomplete frame"})
         EXPECT_NE(text.told().find(said), std::string::npos) << said << "\n" << text.told();
     Child binary(folder, with({"--channels", "3", "--frames", "f64", "--stamp", "count", "--out", folder / "s.csv", "--json"}));
     std::string bytes(100 * 28 + 5, '\xff');  // NaN everywhere, always the same number
@@ -131,7 +131,7 @@ TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
     EXPECT_EQ(child.read_out(), wanted);
     sending.join();
     EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_NE(child.told().find("600 frames of 600 ms"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("600 frames (600 ms of force)"), std::string::npos) << child.told();
 }
 
 TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
@@ -149,7 +149,7 @@ TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and its sender accepted
     child.interrupt();
     EXPECT_EQ(child.wait(), 130) << child.told();
-    EXPECT_NE(child.told().find("5 frames of 5 ms"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("5 frames (5 ms of force)"), std::string::npos) << child.told();
     ::close(fd);
 }
 
@@ -182,7 +182,7 @@ TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
     EXPECT_EQ(ways.c_lflag & static_cast<tcflag_t>(ICANON | ECHO), 0U) << "no byte of a frame means anything to the line";
     ::close(near), ::close(far);  // the device is pulled out
     EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_NE(child.told().find("500 frames of 500 ms"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("500 frames (500 ms of force)"), std::string::npos) << child.told();
 }
 
 TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {
@@ -198,8 +198,8 @@ TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {
     const auto bytes = child.read_out();
     EXPECT_EQ(child.wait(), 1) << "spikes that were left out are an error";
     EXPECT_NE(child.told().find("--allow-drops"), std::string::npos) << child.told();
-    EXPECT_NE(child.told().find("20000 frames of 20 s"), std::string::npos) << child.told();
-    EXPECT_NE(child.told().find("left out: the reader was too slow"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("20000 frames (20 s of force)"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("dropped: the receiver was too slow"), std::string::npos) << child.told();
     const auto read = sure(read_spikes(folder.write("s.aer", bytes)));
     EXPECT_EQ(read.size(), 128U) << "every event that came is a whole one";
 }
@@ -263,9 +263,10 @@ TEST(StreamProgram, GapsDuplicatesAndLateFramesKeepTheSamplesTime) {
     const auto [got, told] = run(torn, "1s");
     EXPECT_EQ(got, wanted) << "a force that does not change is held";
     EXPECT_GT(got.size(), 300U);
-    for (const auto* said : {"6 gaps: 246 frames held, 0 without force", "6 duplicates left out", "6 late frames left out"})
+    for (const auto* said :
+         {"6 gaps: 246 frames filled by the last force, 0 by zero force", "6 duplicate frames ignored", "6 late frames ignored"})
         EXPECT_NE(told.find(said), std::string::npos) << told;
-    EXPECT_NE(run(torn, "10ms").second.find("60 frames held, 186 without force"), std::string::npos);
+    EXPECT_NE(run(torn, "10ms").second.find("60 frames filled by the last force, 186 by zero force"), std::string::npos);
 }
 
 // --- nothing is dropped where frames can wait
@@ -313,9 +314,10 @@ TEST(StreamProgram, ARecordingWaitsForAReaderThatIsSlow) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // longer than a reader of live spikes is waited for at the end
     const auto bytes = child.read_out();
     EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_EQ(child.told().find("left out"), std::string::npos) << child.told();
-    EXPECT_EQ(child.told().find("frames came at"), std::string::npos) << child.told();
-    EXPECT_NE(child.told().find("3000 frames of 3 s"), std::string::npos) << child.told();
+    EXPECT_EQ(child.told().find("dropped"), std::string::npos) << child.told();
+    EXPECT_EQ(child.told().find("ignored"), std::string::npos) << child.told();
+    EXPECT_EQ(child.told().find("input rate"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("3000 frames (3 s of force)"), std::string::npos) << child.told();
     Child again(folder, words);
     EXPECT_EQ(again.read_out(), bytes);
     EXPECT_EQ(again.wait(), 0);
@@ -332,8 +334,9 @@ TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
     const auto ran =
         test::run(folder, "stream --rate 1kHz --buffer 1k -o " + (folder / "spikes.csv") + " < " + folder.write("frames", frames));
     EXPECT_EQ(ran.status, 0) << ran.err;
-    EXPECT_EQ(ran.err.find("left out"), std::string::npos) << ran.err;
-    EXPECT_EQ(ran.err.find("frames came at"), std::string::npos) << "a file has no pace: " << ran.err;
+    EXPECT_EQ(ran.err.find("dropped"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("ignored"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("input rate"), std::string::npos) << "a file has no pace: " << ran.err;
 }
 
 TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
@@ -391,19 +394,19 @@ TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
     Child child(folder, {"--population", "fingertip", "--rate", "1kHz"});
     child.send("1,2,3,4\n");
     EXPECT_TRUE(child.said("frame 1 has 4 numbers; 'fingertip' has ")) << "at once: " << child.told();
-    EXPECT_TRUE(child.said("--layout FILE says which sites")) << child.told();
+    EXPECT_TRUE(child.said("use --layout FILE to map")) << child.told();
     child.close_in();
     EXPECT_EQ(child.wait(), 1);
-    EXPECT_TRUE(child.said("no frame could be read from standard input: frame 1 has 4 numbers")) << child.told();
+    EXPECT_TRUE(child.said("no valid frame from standard input: frame 1 has 4 numbers")) << child.told();
     Child binary(folder, with({"--channels", "16", "--frames", "f32"}));
     binary.send("abcdefgh"), binary.close_in();
     EXPECT_EQ(binary.wait(), 1);
-    EXPECT_TRUE(binary.said("no whole frame came from standard input: 8 bytes, and a frame of 'sa1,fa1' (16 sites) has 64"))
+    EXPECT_TRUE(binary.said("no complete frame from standard input: received 8 bytes, but a frame of 'sa1,fa1' (16 sites) has 64"))
         << binary.told();
     Child nothing(folder, plain);
     nothing.close_in();
     EXPECT_EQ(nothing.wait(), 1);
-    EXPECT_TRUE(nothing.said("no frame came from standard input")) << nothing.told();
+    EXPECT_TRUE(nothing.said("no frame from standard input")) << nothing.told();
     Child stamped(folder, with({"--channels", "2", "--stamp", "count"}));
     stamped.send("1,1,1\n2.5,1,1\n"), stamped.close_in();
     EXPECT_EQ(stamped.wait(), 0);
@@ -455,7 +458,7 @@ TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefu
         child.send(pressed(header, 0));  // the sender stays: that is no reason to wait
         EXPECT_EQ(child.wait(), 1) << child.told();
         EXPECT_TRUE(child.said(said)) << child.told();
-        EXPECT_EQ(child.told().find("could not be read"), std::string::npos) << child.told();
+        EXPECT_EQ(child.told().find("unreadable"), std::string::npos) << child.told();
     };
     refused("r1c1,r1c2,r2cl,r2c2", "header: there is no site 'r2cl'; did you mean 'r2c1'");
     refused("r1c1,r1c2,r1c1,r2c2", "header: two channels have the name 'r1c1', which is one site");
@@ -609,7 +612,7 @@ TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
     send_datagram(fd, "");  // its end
     EXPECT_EQ(child.read_out(), wanted);
     EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_NE(child.told().find("600 frames of 600 ms"), std::string::npos) << child.told();
+    EXPECT_NE(child.told().find("600 frames (600 ms of force)"), std::string::npos) << child.told();
     ::close(fd);
 }
 
@@ -676,15 +679,15 @@ TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
         {"--rate 1kHz --format aerr", "unknown event format 'aerr'; did you mean 'aer'?"},
         {"--rate 1kHz --in tcp:99999", "write tcp:PORT"},
         {"--rate 1kHz --in udp:x", "write udp:PORT"},
-        {"--rate 1kHz --in udp:0 --channels 20000 --frames f64", "a frame of 160000 bytes does not go into a datagram"},
-        {"--rate 1kHz --despike auto", "--despike is for recordings (--in FILE), and frames come from standard input"},
+        {"--rate 1kHz --in udp:0 --channels 20000 --frames f64", "a frame of 160000 bytes exceeds the maximum datagram"},
+        {"--rate 1kHz --despike auto", "--despike is for recordings (--in FILE), not for live frames from standard input"},
         {"--rate 1kHz --time-unit ms", "--stamp time"},
-        {"--in press --notch 50Hz", "--notch is for recordings, and press is a stimulus"},
+        {"--in press --notch 50Hz", "--notch is for recordings, but press is a stimulus"},
         {"--in pres --pace fast", "did you mean 'press'?"},
         {"--rate 1kHz --unit mmHg", "say --scale S"},
         {"--rate 1kHz --set sa9.f_B=25Hz", "did you mean 'sa1'?"},
         {"--rate 1kHz --in serial:/dev/null", "this is not a serial device"},
-        {"--rate 1kHz --to 7000 -o x.csv", "spikes go to one of them"},
+        {"--rate 1kHz --to 7000 -o x.csv", "--out and --to cannot be used together"},
         {"--rate 1kHz --json", "--json prints on standard output"},
         {"--rate 1kHz --set sa1.nothing=1", "nothing"},
         {"--rate 1kHz --population 'grid 0x3'", "grid"},

@@ -75,7 +75,7 @@ TEST(PlainGrid, TellsEveryAxisAndNoChance) {
     ASSERT_EQ(run(folder, "sweep grid.toml --out r.sqlite --quiet").status, 0);
     const auto told = run(folder, "sweep show r.sqlite");
     ASSERT_EQ(told.status, 0) << told.err;
-    for (const auto* there : {"A grid of press.F_max (4 values) by sa1.f_B (3 values)", "What each axis does", "press.F_max", "sa1.f_B",
+    for (const auto* there : {"Grid of press.F_max (4 values) by sa1.f_B (3 values)", "Effect of each axis", "press.F_max", "sa1.f_B",
                               "20 Hz", "80 Hz", "press.F_max = 4 N, sa1.f_B = 20 Hz"})
         EXPECT_NE(told.out.find(there), std::string::npos) << there << "\n" << told.out;
     for (const auto* chance : {"95 %", "normal", "+-", "±", "chips", "sigma", "chance for"})

@@ -86,7 +86,7 @@ TEST(Silence, APopulationWithoutFeltAreaNamesItAndTheAreaMakesItFire) {
     const auto silent = run(folder, "respond press --population own.toml --json");
     EXPECT_EQ(spikes_of(silent), 0);
     const auto area = found(silent.err,
-                            "warning: no afferent fired: sa1 felt 0.0[0-9]+ N at most, and fires from about 0.[0-9]+ N .*; set "
+                            "warning: no afferent fired: sa1 received at most 0.0[0-9]+ N, and needs about 0.[0-9]+ N .*; set "
                             "felt_area = \"([0-9.]+ cm2)\" in own.toml");
     ASSERT_FALSE(area.empty()) << silent.err;
     EXPECT_NE(nlohmann::json::parse(silent.out)["warnings"][0].get<std::string>().find("no afferent fired"), std::string::npos);
@@ -116,7 +116,7 @@ TEST(Silence, ATouchThatIsTooWeakNamesTheSettingThatWouldDo) {
 TEST(Silence, AnIndenterBesideTheSkinIsToldToBeMoved) {
     const Folder folder;
     const auto ran = run(folder, "respond press --population fingertip --set contact.x=1m --set contact.y=1m --quiet");
-    EXPECT_NE(ran.err.find("felt no force"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("received no force"), std::string::npos) << ran.err;
     EXPECT_NE(ran.err.find("--set contact.x="), std::string::npos) << ran.err;
 }
 

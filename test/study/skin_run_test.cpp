@@ -269,7 +269,7 @@ TEST(SkinRun, WhatIsMeantForAfferentsOnChannelsIsRefused) {
     for (const char* words : {"--afferent fa2", "--copies 3", "--noise 10nA", "--traces --out x", "--corner ss"}) {
         const auto ran = test::run(folder, std::string("respond press --population fingertip ") + words);
         EXPECT_EQ(ran.status, 2) << words << ran.err;
-        EXPECT_NE(ran.err.find("does not go with --population"), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find("cannot be used with --population"), std::string::npos) << ran.err;
     }
     EXPECT_EQ(test::run(folder, "respond press --population fingertip --set sa1.f_X=2Hz").status, 1);
     EXPECT_EQ(test::run(folder, "respond press --population fingertip --set sa9.f_B=2Hz").status, 2);
